@@ -1,0 +1,59 @@
+#include "app/geometry/collineation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+glm::dmat4 eye_onto_plane(const Plane& plane, const glm::dvec3& eye) {
+    const glm::dvec3& n = plane.normal;
+    const double e = plane.distance(eye);
+    glm::dmat4 m(0.0);
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            m[column][row] = (row == column ? e : 0.0) - eye[row] * n[column];
+        }
+        m[column][3] = -n[column];
+    }
+    m[3] = glm::dvec4(plane.offset * eye, e + plane.offset);
+    return m;
+}
+
+std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
+                                       const glm::dmat4& projector_clip_from_frame, const Box& box,
+                                       double least_eye_height) {
+    const glm::dvec3 centre = (box.low + box.high) * 0.5;
+    const double eye_height = plane.distance(eye);
+    if (!(eye_height > least_eye_height * glm::distance(eye, centre))) {
+        return std::nullopt;
+    }
+    glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);
+
+    // w over the box's corners; w <= 0 lies above the eye or behind the projector, where nothing is drawn.
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 x((corner & 1) != 0 ? box.high.x : box.low.x,
+                           (corner & 2) != 0 ? box.high.y : box.low.y,
+                           (corner & 4) != 0 ? box.high.z : box.low.z);
+        const double w = (clip * glm::dvec4(x, 1.0)).w;
+        least = std::fmin(least, w);
+        greatest = std::fmax(greatest, w);
+    }
+    if (!(greatest > 0.0) || !std::isfinite(greatest)) {
+        return std::nullopt;
+    }
+    // z/w = a + b/w with z/w = -1 at `near` and +1 at `far`; the margins keep the box off the clip planes.
+    const double margin = std::fmax(0.01 * (greatest - std::fmax(least, 0.0)), 1e-3 * greatest);
+    const double far = greatest + margin;
+    const double near = std::fmax(least - margin, far * 1e-3);
+    const double b = 2.0 / (1.0 / far - 1.0 / near);
+    const double a = 1.0 - b / far;
+    for (int column = 0; column < 4; ++column) {
+        clip[column][2] = a * clip[column][3];
+    }
+    clip[3][2] += b;
+    return clip * (1.0 / greatest);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,47 @@
+/// The picture's one transform: eye -> face plane -> projector, a single 4x4 matrix for each face of the
+/// prop.
+///
+/// For the plane n.S = d (unit outward n), the eye E and its height above the plane e = n.E - d, the ray from
+/// E through X meets the plane in
+///     S(X) = (e X - (n.X - d) E) / (e - (n.X - d)),
+/// which is linear in homogeneous X. The projector's matrix times it takes artifact points straight to the
+/// projector's pixels: one pass, no image in between, exact for points and for straight edges.
+///
+/// Its denominator e - (n.X - d) is the depth of X below the eye measured along n: positive for everything
+/// that a visitor sees, and clip w is that depth times the depth of S from the projector. Along one eye ray S
+/// is fixed, so w grows with the distance from the eye: depth = a w + b, divided by w, is monotone along it.
+///
+/// Frames   all arguments in one frame (the prop's). Metres.
+/// Threads  pure; any.
+/// Source   derived here; a plane-induced homology followed by a pinhole (Hartley & Zisserman, ch. 2.4 and
+/// 6).
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+
+namespace frustumscreen {
+
+/// Homogeneous 4x4 of S(X) above.
+[[nodiscard]] glm::dmat4 eye_onto_plane(const Plane& plane, const glm::dvec3& eye);
+
+/// An axis-aligned box.
+struct Box {
+    glm::dvec3 low{0.0};
+    glm::dvec3 high{0.0};
+};
+
+/// Clip coordinates (OpenGL) of points X as they must be drawn on `plane` for the eye; the depth row is
+/// fitted so that the part of `box` in front of the eye's own plane fills the depth range. Scaled so that w
+/// is about 1.
+///
+/// Nothing is returned if the eye is not above the plane by at least `least_eye_height` times its distance
+/// from the box's centre (the face is left dark: seen at less than that sine, it carries no picture).
+[[nodiscard]] std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
+                                                     const glm::dmat4& projector_clip_from_frame,
+                                                     const Box& box, double least_eye_height = 1e-3);
+
+} // namespace frustumscreen

@@ -1,0 +1,33 @@
+#include "app/geometry/pinhole.h"
+
+namespace frustumscreen {
+
+std::optional<glm::dvec2> Pinhole::pixel(const glm::dvec3& point) const {
+    if (!(point.z > 0.0)) {
+        return std::nullopt;
+    }
+    return glm::dvec2(fx * point.x / point.z + cx, fy * point.y / point.z + cy);
+}
+
+glm::dvec3 Pinhole::ray(const glm::dvec2& pixel) const {
+    return {(pixel.x - cx) / fx, (pixel.y - cy) / fy, 1.0};
+}
+
+Pinhole Pinhole::scaled_to(int new_width, int new_height) const {
+    const double sx = static_cast<double>(new_width) / width;
+    const double sy = static_cast<double>(new_height) / height;
+    return {new_width, new_height, fx * sx, fy * sy, cx * sx, cy * sy};
+}
+
+glm::dmat4 Pinhole::clip_from_point() const {
+    // clip.x / clip.w = 2 u / width - 1, with w = Z.
+    glm::dmat4 clip(0.0);
+    clip[0][0] = 2.0 * fx / width;
+    clip[2][0] = 2.0 * cx / width - 1.0;
+    clip[1][1] = 2.0 * fy / height;
+    clip[2][1] = 2.0 * cy / height - 1.0;
+    clip[2][3] = 1.0;
+    return clip;
+}
+
+} // namespace frustumscreen

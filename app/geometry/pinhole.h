@@ -1,0 +1,34 @@
+/// A pinhole projector or camera with lens shift: u = fx X/Z + cx, v = fy Y/Z + cy.
+///
+/// Frame    computer vision: +X right, +Y down in the picture, +Z forward along the optical axis.
+/// Units    pixels; the centre of the top-left pixel is (0.5, 0.5). Lens shift is an off-centre (cx, cy).
+/// Threads  values; any.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <optional>
+
+namespace frustumscreen {
+
+struct Pinhole {
+    int width = 0;
+    int height = 0;
+    double fx = 0.0;
+    double fy = 0.0;
+    double cx = 0.0;
+    double cy = 0.0;
+
+    /// Pixel of a point in the pinhole's frame; nothing if the point is not in front.
+    [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& point) const;
+    /// Direction (not unit, Z = 1) of the ray through a pixel.
+    [[nodiscard]] glm::dvec3 ray(const glm::dvec2& pixel) const;
+    /// The same view in a picture of another size.
+    [[nodiscard]] Pinhole scaled_to(int new_width, int new_height) const;
+    /// Rows 0, 1, 3 of the OpenGL clip matrix for points in the pinhole's frame. The y row is NOT mirrored
+    /// for GL: clip y = -1 is the top of the picture, so that row 0 of a read-back is the picture's top row.
+    /// Row 2 (depth) is left zero: the caller fits it to what is drawn.
+    [[nodiscard]] glm::dmat4 clip_from_point() const;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,45 @@
+/// The pack as a file: one ZIP container with a manifest and hashed binary parts. FORMAT.md has the bytes.
+///
+/// Errors   one line: what is wrong, where inside the pack, what to do. Every length, offset, count and dimension is
+///          checked before use; nothing of a pack is used before its hash was right.
+/// Threads  pure; any.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "app/geometry/prop_shape.h"
+#include "app/pack/pack.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+namespace frustumscreen {
+
+inline constexpr int pack_format_version = 1;
+
+/// A pack that was wholly checked; only `verify_pack` makes one.
+class VerifiedPack {
+public:
+    [[nodiscard]] const Pack& operator*() const { return pack_; }
+    [[nodiscard]] const Pack* operator->() const { return &pack_; }
+
+private:
+    friend Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes);
+    explicit VerifiedPack(Pack pack) : pack_(std::move(pack)) {}
+    Pack pack_;
+};
+
+/// Deterministic: the same pack gives the same bytes.
+[[nodiscard]] Result<Bytes> write_pack(const Pack& pack);
+[[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes);
+/// Reads and verifies; messages begin with the file's name.
+[[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file);
+
+/// `box_from_file` and the placement of the box in a prop as one matrix: file coordinates -> prop coordinates.
+struct Placement {
+    double metres_per_box = 0.0; ///< uniform scale from box units to metres in the prop's frame
+    glm::dmat4 prop_from_artifact{1.0};
+};
+[[nodiscard]] Placement place(const Pack& pack, const PropShape& prop);
+
+} // namespace frustumscreen

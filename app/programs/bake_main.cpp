@@ -1,0 +1,158 @@
+/// frustumscreen-bake: a curator's artifact file to a pack.
+#include "app/pack/pack_file.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sodium.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace frustumscreen;
+
+struct Arguments {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    BakeOptions options;
+    std::string prop = "frustum";
+    std::string title;
+    std::string licence;
+    std::vector<std::string> languages;
+    std::vector<std::string> captions; ///< LANGUAGE=TEXT
+};
+
+/// One line that is written over while a person watches; silent in a pipe.
+class ProgressLine {
+public:
+    void show(std::string_view step, double done) {
+        if (!on_terminal_) {
+            return;
+        }
+        fmt::print(stderr, "\r\033[K{:3.0f} %  {}", done * 100.0, step);
+        std::fflush(stderr);
+    }
+    ~ProgressLine() {
+        if (on_terminal_) {
+            fmt::print(stderr, "\r\033[K");
+        }
+    }
+
+private:
+    bool on_terminal_ = ::isatty(STDERR_FILENO) != 0;
+};
+
+std::string sha256_of(const Bytes& bytes) {
+    std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
+    crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    std::string text;
+    for (const unsigned char byte : digest) {
+        text += fmt::format("{:02x}", byte);
+    }
+    return text;
+}
+
+Result<void> describe(Pack& pack, const Arguments& arguments) {
+    pack.title = arguments.title.empty() ? arguments.input.stem().string() : arguments.title;
+    pack.languages = arguments.languages.empty() ? std::vector<std::string>{"en"} : arguments.languages;
+    for (const std::string& language : pack.languages) {
+        pack.captions.push_back({language, pack.title, ""});
+    }
+    for (const std::string& caption : arguments.captions) {
+        const std::size_t equals = caption.find('=');
+        const std::string language = caption.substr(0, equals);
+        const auto known = std::find_if(pack.captions.begin(), pack.captions.end(),
+                                        [&](const PackCaption& c) { return c.language == language; });
+        if (equals == std::string::npos || known == pack.captions.end()) {
+            return bad_input(fmt::format(
+                "--caption '{}': write LANGUAGE=TEXT, with a language given by --language", caption));
+        }
+        known->text = caption.substr(equals + 1);
+    }
+    const Result<Bytes> source = read_file(arguments.input);
+    if (!source) {
+        return tl::unexpected<Error>(source.error());
+    }
+    pack.provenance.source_name = arguments.input.filename().string();
+    pack.provenance.source_sha256 = sha256_of(*source);
+    pack.provenance.licence = arguments.licence;
+    return {};
+}
+
+Result<Pack> bake_file(const Arguments& arguments) {
+    const Result<SourceMesh> mesh = load_mesh(arguments.input);
+    if (!mesh) {
+        return tl::unexpected<Error>(mesh.error());
+    }
+    Result<Pack> pack = bake(*mesh, arguments.options);
+    if (!pack) {
+        return at(arguments.input.string(), pack.error());
+    }
+    if (const Result<void> described = describe(*pack, arguments); !described) {
+        return tl::unexpected<Error>(described.error());
+    }
+    return pack;
+}
+
+Result<void> work(const Arguments& arguments) {
+    const Result<Pack> pack = bake_file(arguments);
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    const Result<Bytes> bytes = write_pack(*pack);
+    if (!bytes) {
+        return at(arguments.output.string(), bytes.error());
+    }
+    return write_file(arguments.output, *bytes);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    ProgressLine progress;
+    arguments.options.progress = [&](std::string_view step, double done) { progress.show(step, done); };
+
+    CLI::App app("Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen.",
+                 "frustumscreen-bake");
+    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.add_option("INPUT", arguments.input, "artifact file")->required();
+    app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)")->required();
+    app.add_option("--size", arguments.options.size, "texels along the longest edge of a face, 16 to 4096")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    app.add_flag("--unlit", arguments.options.unlit, "base colour alone, no museum light");
+    app.add_option("--prop", arguments.prop, "prop whose directions the relief is made for")
+        ->check(CLI::IsMember({"frustum", "cube"}))
+        ->capture_default_str();
+    app.add_option("--up", arguments.options.up, "the file's up axis (default: glTF, OBJ, PLY y; STL z)")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+    app.add_option("--title", arguments.title, "title (default: the file's name)");
+    app.add_option("--language", arguments.languages, "language of a caption, BCP 47; may be repeated");
+    app.add_option("--caption", arguments.captions, "LANGUAGE=TEXT; may be repeated");
+    app.add_option("--licence", arguments.licence, "licence of the artifact");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    arguments.options.prop = arguments.prop == "cube" ? PropKind::Cube : PropKind::Frustum;
+    try {
+        if (const Result<void> done = work(arguments); !done) {
+            fmt::print(stderr, "frustumscreen-bake: {}\n", done.error().message);
+            return 1;
+        }
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "frustumscreen-bake: {}: not enough memory; try a smaller --size\n",
+                   arguments.input.string());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,96 @@
+/// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units.
+///
+/// Defaults config/kiosk.toml, the set-up as shipped, but for the panel's script and the list of packs.
+///
+/// Frames   table T unless the name says otherwise; metres, degrees at this edge.
+/// Ways     `parse_settings` knows syntax and types, `check` what this exhibit can do with them; the type
+///          CheckedSettings is the proof that both passed.
+/// Errors   one line: file, line, key, what was found, what is allowed.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ProjectorSettings {
+    Pinhole pinhole{1280, 800, 1920.0, 1920.0, 640.0, 400.0}; ///< pixels
+    /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
+    RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.2)};
+    double refresh_hz = 60.0;
+};
+
+struct TableSettings {
+    double width_m = 0.8; ///< along X
+    double depth_m = 0.5; ///< along Y
+};
+
+/// Where visitors' eyes are, for the plan and for what is baked away.
+struct EyeSettings {
+    glm::dvec3 default_m{0.0, -0.55, 0.50};
+    double lowest_elevation_deg = 15.0; ///< above the table, seen from the prop
+    double nearest_m = 0.35;
+    double farthest_m = 2.0;
+};
+
+enum class TrackerKind { Simulated, Replay };
+struct TrackerSettings {
+    TrackerKind kind = TrackerKind::Simulated;
+    std::uint64_t seed = 1;            ///< simulated
+    std::filesystem::path poses;       ///< replay: a pose file; resolved against the settings file's folder
+    RigidTransform table_from_tracker; ///< registration, for devices that report in their own frame
+};
+
+/// A press that the scripted panel makes.
+struct ScriptedPress {
+    double at_s = 0.0;
+    int button = 1;
+};
+struct PanelSettings {
+    std::vector<ScriptedPress> script;
+    double repeat_s = 0.0; ///< the script starts again after this long; 0 = once
+};
+
+struct ExhibitSettings {
+    std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
+    std::string language = "en";
+    double caption_height_m = 0.010; ///< height of a capital letter's em on the table; 24 pt = 0.0085 m
+};
+
+struct Settings {
+    ProjectorSettings projector;
+    PropSize prop;
+    TableSettings table;
+    EyeSettings eye;
+    TrackerSettings tracker;
+    PanelSettings panel;
+    ExhibitSettings exhibit;
+};
+
+class CheckedSettings {
+public:
+    [[nodiscard]] const Settings& operator*() const { return settings_; }
+    [[nodiscard]] const Settings* operator->() const { return &settings_; }
+
+private:
+    friend Result<CheckedSettings> load_settings(const std::filesystem::path& file);
+    friend Result<CheckedSettings> parse_settings(std::string_view text, const std::filesystem::path& file);
+    explicit CheckedSettings(Settings settings) : settings_(std::move(settings)) {}
+    Settings settings_;
+};
+
+[[nodiscard]] Result<CheckedSettings> load_settings(const std::filesystem::path& file);
+/// `file` names the text in messages and is what relative paths are relative to.
+[[nodiscard]] Result<CheckedSettings> parse_settings(std::string_view text,
+                                                     const std::filesystem::path& file);
+
+} // namespace frustumscreen

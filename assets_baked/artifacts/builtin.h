@@ -1,0 +1,29 @@
+/// The built-in artifacts, so that a fresh machine has something worth seeing.
+///
+/// Frame    glTF-like: +Y up, millimetres. Deterministic: the same name and count give the same mesh.
+/// Threads  pure; any.
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+[[nodiscard]] std::vector<std::string_view> builtin_names(); ///< "amphora", ...
+
+/// About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 2e7
+/// triangles.
+[[nodiscard]] Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
+
+/// Display title and short text of a built-in artifact in `language` ("en", "de", ...); English otherwise.
+struct BuiltinText {
+    std::string_view title;
+    std::string_view text;
+};
+[[nodiscard]] BuiltinText builtin_text(std::string_view name, std::string_view language);
+
+} // namespace frustumscreen

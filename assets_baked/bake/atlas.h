@@ -1,0 +1,21 @@
+/// Packs rectangles into one picture.
+///
+/// Units    texels. Threads  pure; any. Method  skyline, bottom-left, tallest first (Jylanki 2010).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace frustumscreen {
+
+struct AtlasLayout {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::ivec2> corners; ///< top-left of each rectangle, in the order given
+};
+
+/// About square; `sizes` are all at least 1 x 1.
+[[nodiscard]] AtlasLayout pack_rectangles(const std::vector<glm::ivec2>& sizes);
+
+} // namespace frustumscreen

@@ -1,0 +1,254 @@
+#include "assets_baked/bake/bake.h"
+
+#include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/level.h"
+#include "assets_baked/bake/relief.h"
+#include "assets_baked/bake/texture_bake.h"
+#include "assets_baked/bake/triangle_mesh.h"
+#include "assets_baked/bake/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Simplification tolerances, box units, fine to coarse: on an artifact 0.1 m long 0.02 mm ... 0.64 mm.
+constexpr std::array<float, 6> mesh_tolerances{2e-4F, 4e-4F, 8e-4F, 1.6e-3F, 3.2e-3F, 6.4e-3F};
+constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
+
+/// A level with the picture that it wears.
+struct Candidate {
+    PackLevel level;
+    Image8 texture;
+};
+
+/// Everything that candidates are made from and measured against.
+class Bakery {
+public:
+    Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
+        : options_(options), frame_(frame), points_(in_box(mesh, frame)), source_(mesh, points_),
+          welded_(weld(mesh, points_)), texel_box_(1.0F / static_cast<float>(options.size)) {}
+
+    [[nodiscard]] bool has_surface() const { return !welded_.indices.empty(); }
+    [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
+
+    std::vector<Candidate> mesh_levels() {
+        std::vector<Candidate> candidates;
+        for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
+            options_.progress("simplified levels",
+                              0.05 + 0.5 * static_cast<double>(k) / mesh_tolerances.size());
+            const float tolerance = mesh_tolerances[k];
+            const TriangleMesh fewer = simplify(k == 0 ? welded_ : finest_, tolerance);
+            if (k == 0) {
+                finest_ = fewer;
+                visible_ = visible_sides(fewer, source_, ViewingZone{});
+                simplified_triangles_ = fewer.triangle_count();
+                if (visible_.indices.empty()) {
+                    visible_ = fewer; // nothing is seen from the zone: a sheet flat on the table
+                }
+                samples_ = sample_source(source_, visible_, 4.0F * tolerance);
+                candidates.push_back(candidate_of(visible_, tolerance));
+                continue;
+            }
+            if (fewer.indices.empty() || fewer.triangle_count() * 20 > simplified_triangles_ * 19) {
+                continue; // nothing left, or not 5 % fewer than the last: not worth a level
+            }
+            simplified_triangles_ = fewer.triangle_count();
+            const SourceMesh seen_mesh = as_source(visible_);
+            const std::vector<glm::dvec3> seen_points(visible_.positions.begin(), visible_.positions.end());
+            const SourceScene seen(seen_mesh, seen_points);
+            const TriangleMesh sides = visible_sides_like(fewer, visible_, seen, tolerance);
+            if (!sides.indices.empty()) {
+                candidates.push_back(candidate_of(sides, tolerance));
+            }
+        }
+        return candidates;
+    }
+
+    /// Relief levels share one atlas; `relief` receives it.
+    std::vector<Candidate> relief_levels(ReliefAtlas& atlas) {
+        std::vector<ReliefDirection> directions{ReliefDirection::PlusX, ReliefDirection::MinusX,
+                                                ReliefDirection::PlusY, ReliefDirection::MinusY,
+                                                ReliefDirection::PlusZ};
+        if (options_.prop == PropKind::Cube) {
+            directions.push_back(ReliefDirection::MinusZ);
+        }
+        options_.progress("layered relief", 0.6);
+        std::optional<BakedRelief> relief =
+            bake_relief(source_, visible_, frame_.box_size, directions, options_.size);
+        std::vector<Candidate> candidates;
+        if (!relief) {
+            return candidates;
+        }
+        const Image<AtlasTexel> texels = rasterise(relief->grid);
+        const Image8 texture = lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_);
+        for (std::size_t k = 0; k < relief_tolerances.size(); ++k) {
+            options_.progress("relief levels", 0.7 + 0.3 * static_cast<double>(k) / relief_tolerances.size());
+            const ChartedMesh fewer = simplify_grid(*relief, relief_tolerances[k]);
+            if (fewer.indices.empty()) {
+                continue;
+            }
+            PackLevel level = make_level(fewer, frame_.box_size, LevelTechnique::Relief);
+            level.error = measure(level, texture, frame_.box_size, source_, samples_, options_.unlit);
+            candidates.push_back({std::move(level), texture});
+        }
+        atlas = std::move(relief->atlas);
+        return candidates;
+    }
+
+private:
+    Candidate candidate_of(const TriangleMesh& mesh, float tolerance) {
+        const ChartedMesh charted = chart(mesh, texel_box_);
+        const Image<AtlasTexel> texels = rasterise(charted);
+        const float reach = 4.0F * tolerance + 1e-3F;
+        Image8 texture = lit(charted, texels, bake_colour(charted, texels, source_, reach), reach);
+        PackLevel level = make_level(charted, frame_.box_size, LevelTechnique::Mesh);
+        level.error = measure(level, texture, frame_.box_size, source_, samples_, options_.unlit);
+        return {std::move(level), std::move(texture)};
+    }
+
+    /// The texture in the museum's light: baked on the finest level, looked up from there for the others.
+    Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach) {
+        if (!options_.unlit) {
+            if (light_.texels.empty()) {
+                light_mesh_ = mesh;
+                light_ = bake_light(mesh, texels, source_);
+                multiply(colour, light_);
+            } else {
+                multiply(colour, transfer_light(mesh, texels, light_mesh_, light_, reach));
+            }
+        }
+        return finish(colour, texels);
+    }
+
+    static void multiply(ImageFloat& colour, const ImageFloat& light) {
+        for (std::size_t k = 0; k < colour.texels.size(); ++k) {
+            colour.texels[k] *= light.texels[k];
+        }
+    }
+
+    const BakeOptions& options_;
+    const BoxFrame& frame_;
+    std::vector<glm::dvec3> points_;
+    SourceScene source_;
+    TriangleMesh welded_;
+    float texel_box_;
+    TriangleMesh finest_;
+    TriangleMesh visible_;
+    SourceSamples samples_;
+    std::size_t simplified_triangles_ = 0;
+    ChartedMesh light_mesh_;
+    ImageFloat light_;
+};
+
+/// Cheapest level that is good enough by default: on an artifact of 0.1 m, half a projector pixel and less.
+std::uint32_t choose_default(const std::vector<PackLevel>& levels) {
+    constexpr float good_mean_box = 4e-4F;
+    constexpr float good_p95_box = 1.2e-3F;
+    for (std::uint32_t k = 0; k < levels.size(); ++k) {
+        if (levels[k].error.mean_box <= good_mean_box && levels[k].error.p95_box <= good_p95_box) {
+            return k;
+        }
+    }
+    return static_cast<std::uint32_t>(levels.size()) - 1;
+}
+
+/// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.
+void drop_useless(std::vector<Candidate>& candidates) {
+    constexpr float worst_mean_box = 3e-3F; // 0.3 mm on an artifact of 0.1 m
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Candidate& candidate : candidates) {
+        nearest = std::min(nearest, candidate.level.error.mean_box);
+    }
+    std::erase_if(candidates, [&](const Candidate& candidate) {
+        return candidate.level.error.mean_box > std::max(worst_mean_box, nearest);
+    });
+}
+
+/// Moves the kept candidates into the pack; equal textures are stored once.
+void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
+    drop_useless(candidates);
+    std::vector<PackLevel> levels;
+    for (const Candidate& candidate : candidates) {
+        levels.push_back(candidate.level);
+    }
+    std::optional<std::uint32_t> relief_texture;
+    for (const std::size_t k : measured_front(levels)) {
+        PackLevel& level = candidates[k].level;
+        const bool is_relief = level.technique == LevelTechnique::Relief;
+        if (is_relief && relief_texture) {
+            level.texture = *relief_texture;
+        } else {
+            level.texture = static_cast<std::uint32_t>(pack.textures.size());
+            pack.textures.push_back(std::move(candidates[k].texture));
+            if (is_relief) {
+                relief_texture = level.texture;
+                pack.relief = std::move(atlas);
+            }
+        }
+        pack.levels.push_back(std::move(level));
+    }
+}
+
+} // namespace
+
+std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
+    std::vector<std::size_t> order(levels.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        order[k] = k;
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return levels[a].indices.size() != levels[b].indices.size()
+                   ? levels[a].indices.size() < levels[b].indices.size()
+                   : levels[a].error.mean_box < levels[b].error.mean_box;
+    });
+    std::vector<std::size_t> front;
+    for (const std::size_t k : order) {
+        if (front.empty() || levels[k].error.mean_box < levels[front.back()].error.mean_box) {
+            front.push_back(k);
+        }
+    }
+    return front;
+}
+
+Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
+    const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
+    const Result<BoxFrame> frame = make_box_frame(mesh, up);
+    if (!frame) {
+        return tl::unexpected<Error>(frame.error());
+    }
+    options.progress("reading the surface", 0.0);
+    Bakery bakery(mesh, *frame, options);
+    if (!bakery.has_surface()) {
+        return bad_input("every triangle is degenerate; there is no surface to show");
+    }
+    std::vector<Candidate> candidates = bakery.mesh_levels();
+    ReliefAtlas atlas;
+    for (Candidate& candidate : bakery.relief_levels(atlas)) {
+        candidates.push_back(std::move(candidate));
+    }
+    Pack pack;
+    pack.prop_kind = name_of(options.prop);
+    pack.unlit = options.unlit;
+    pack.relief_size = options.size;
+    pack.box_size = frame->box_size;
+    pack.box_from_file = frame->box_from_file;
+    pack.provenance.source_triangles = mesh.triangles.size();
+    std::vector<glm::dvec3> used;
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            used.push_back(bakery.points()[vertex]);
+        }
+    }
+    pack.extremes = profile_extremes(used);
+    keep(pack, candidates, atlas);
+    pack.default_level = choose_default(pack.levels);
+    options.progress("done", 1.0);
+    return pack;
+}
+
+} // namespace frustumscreen

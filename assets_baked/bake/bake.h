@@ -1,0 +1,35 @@
+/// From a source mesh to a pack: levels of relief and of simplified mesh, measured, the front kept.
+///
+/// Frame    in: the file's; out: the box (pack.h).
+/// Errors   one line for the curator.
+/// Threads  uses all cores; `progress` is called on the caller's.
+/// Memory   about 1.5 kB a source triangle at most, and 30 B for each texel of an atlas.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+#include "app/pack/pack.h"
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct BakeOptions {
+    int size = 512; ///< texels along the longest edge of a face, 16..4096
+    bool unlit = false;
+    PropKind prop = PropKind::Frustum;
+    std::string up; ///< empty: the format's own
+    /// Called with what is being done and how much of all is done, 0..1.
+    std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
+};
+
+/// Title, languages, captions and provenance are left for the caller to fill in.
+[[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
+
+/// Indices of the levels that no other level beats in both cost (triangles) and error, cheapest first.
+[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels);
+
+} // namespace frustumscreen

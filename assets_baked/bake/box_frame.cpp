@@ -1,0 +1,132 @@
+#include "assets_baked/bake/box_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// A profile point: horizontal coordinate, height, and where it comes from.
+struct ProfilePoint {
+    double across;
+    double height;
+    std::size_t source;
+};
+
+double turn(const ProfilePoint& a, const ProfilePoint& b, const ProfilePoint& c) {
+    return (b.across - a.across) * (c.height - a.height) - (b.height - a.height) * (c.across - a.across);
+}
+
+/// Convex hull by monotone chain (Andrew 1979).
+void append_hull(std::vector<ProfilePoint> points, std::vector<std::size_t>& sources) {
+    std::sort(points.begin(), points.end(), [](const ProfilePoint& a, const ProfilePoint& b) {
+        return a.across != b.across ? a.across < b.across : a.height < b.height;
+    });
+    for (int side = 0; side < 2; ++side) {
+        std::vector<ProfilePoint> chain;
+        for (const ProfilePoint& point : points) {
+            while (chain.size() >= 2 && turn(chain[chain.size() - 2], chain.back(), point) <= 0.0) {
+                chain.pop_back();
+            }
+            chain.push_back(point);
+        }
+        for (const ProfilePoint& point : chain) {
+            sources.push_back(point.source);
+        }
+        std::reverse(points.begin(), points.end());
+    }
+}
+
+} // namespace
+
+std::optional<glm::dmat3> up_rotation(std::string_view up) {
+    // Rows: where the file's axes go.
+    const auto rows = [](glm::dvec3 x, glm::dvec3 y, glm::dvec3 z) {
+        return glm::transpose(glm::dmat3(x, y, z));
+    };
+    if (up == "z" || up == "+z") {
+        return glm::dmat3(1.0);
+    }
+    if (up == "-z") {
+        return rows({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
+    }
+    if (up == "y" || up == "+y") {
+        return rows({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    }
+    if (up == "-y") {
+        return rows({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+    }
+    if (up == "x" || up == "+x") {
+        return rows({0, 1, 0}, {0, 0, 1}, {1, 0, 0});
+    }
+    if (up == "-x") {
+        return rows({0, -1, 0}, {0, 0, 1}, {-1, 0, 0});
+    }
+    return std::nullopt;
+}
+
+Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up) {
+    const std::optional<glm::dmat3> rotation = up_rotation(up);
+    if (!rotation) {
+        return bad_input("the up axis is '" + std::string(up) + "'; allowed are x, y, z, -x, -y, -z");
+    }
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-std::numeric_limits<double>::infinity());
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            const glm::dvec3 p = *rotation * mesh.positions[vertex];
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    const glm::dvec3 size = high - low;
+    const double longest = std::max({size.x, size.y, size.z});
+    if (!(longest > 1e-30) || !(longest < 1e30)) {
+        return bad_input("the artifact's bounding box has no extent; there is nothing to show");
+    }
+    BoxFrame frame;
+    frame.file_units_per_box = longest;
+    frame.box_size = glm::max(size / longest, glm::dvec3(1e-6));
+    const glm::dvec3 foot((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
+    frame.box_from_file = glm::dmat4(*rotation / longest);
+    frame.box_from_file[3] = glm::dvec4(-foot / longest, 1.0);
+    return frame;
+}
+
+std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
+    // Subtract first, then scale: the same map as box_from_file, without its cancellation far from the
+    // origin.
+    const glm::dmat3 rotation = glm::dmat3(frame.box_from_file) * frame.file_units_per_box;
+    const glm::dvec3 foot = -glm::dvec3(frame.box_from_file[3]) * frame.file_units_per_box;
+    std::vector<glm::dvec3> points;
+    points.reserve(mesh.positions.size());
+    for (const glm::dvec3& p : mesh.positions) {
+        points.push_back((rotation * p - foot) / frame.file_units_per_box);
+    }
+    return points;
+}
+
+std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points) {
+    std::vector<std::size_t> sources;
+    for (int axis = 0; axis < 2; ++axis) {
+        std::vector<ProfilePoint> profile;
+        profile.reserve(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            profile.push_back({points[k][axis], points[k].z, k});
+        }
+        append_hull(std::move(profile), sources);
+    }
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    std::vector<glm::dvec3> extremes;
+    extremes.reserve(sources.size());
+    for (const std::size_t source : sources) {
+        extremes.push_back(points[source]);
+    }
+    return extremes;
+}
+
+} // namespace frustumscreen

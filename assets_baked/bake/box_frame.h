@@ -1,0 +1,40 @@
+/// The artifact's own normalised box, and its outermost vertices.
+///
+/// Frames   box: up axis turned to +Z, bounding box centred on the Z axis, standing on z = 0, longest edge 1
+///          (conventions: placement by default). 64-bit, so that an artifact far from its origin keeps its
+///          detail.
+/// Threads  pure; any.
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+/// "x", "-x", "y", ... to the rotation that turns that axis of the file to +Z; nothing for other words.
+[[nodiscard]] std::optional<glm::dmat3> up_rotation(std::string_view up);
+
+struct BoxFrame {
+    glm::dmat4 box_from_file{1.0};
+    glm::dvec3 box_size{1.0};
+    double file_units_per_box = 1.0; ///< length of the longest edge in the file's units
+};
+
+/// Of the vertices that triangles use. Errors: every vertex at one point, or extents beyond 1e-30..1e30.
+[[nodiscard]] Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up);
+
+/// Positions in the box frame, one for each of the mesh's positions.
+[[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame);
+
+/// The points that bound the largest scale inside any prop that is symmetric in X and Y with convex outline:
+/// vertices of the convex hulls of the (x, z) and (y, z) profiles.
+[[nodiscard]] std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points);
+
+} // namespace frustumscreen

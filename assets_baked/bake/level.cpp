@@ -1,0 +1,253 @@
+#include "assets_baked/bake/level.h"
+
+#include "firmware_host/base/parallel.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr float code_max = 65535.0F;
+
+std::uint16_t quantised(double value01) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value01, 0.0, 1.0) * 65535.0));
+}
+
+glm::vec3 box_low(const glm::dvec3& box_size) {
+    return {-box_size.x / 2.0, -box_size.y / 2.0, 0.0};
+}
+
+glm::vec3 position_of(const PackVertex& vertex, const glm::dvec3& box_size) {
+    const glm::vec3 unit(vertex.position[0], vertex.position[1], vertex.position[2]);
+    return box_low(box_size) + unit / code_max * glm::vec3(box_size);
+}
+
+/// Triangles in clusters, each in vertex-cache order, with what culls them.
+void cluster(PackLevel& level, const glm::dvec3& box_size) {
+    constexpr std::size_t most_vertices = 128;
+    constexpr std::size_t most_triangles = 192;
+    std::vector<glm::vec3> positions;
+    positions.reserve(level.vertices.size());
+    for (const PackVertex& vertex : level.vertices) {
+        positions.push_back(position_of(vertex, box_size));
+    }
+    std::vector<std::uint32_t> ordered(level.indices.size());
+    meshopt_optimizeVertexCache(ordered.data(), level.indices.data(), level.indices.size(), positions.size());
+    std::vector<meshopt_Meshlet> meshlets(
+        meshopt_buildMeshletsBound(ordered.size(), most_vertices, most_triangles));
+    std::vector<std::uint32_t> meshlet_vertices(meshlets.size() * most_vertices);
+    std::vector<unsigned char> meshlet_triangles(meshlets.size() * most_triangles * 3);
+    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshlet_vertices.data(), meshlet_triangles.data(),
+                                          ordered.data(), ordered.size(), &positions[0].x, positions.size(),
+                                          sizeof(glm::vec3), most_vertices, most_triangles, 0.5F));
+    level.indices.clear();
+    for (const meshopt_Meshlet& meshlet : meshlets) {
+        const meshopt_Bounds bounds = meshopt_computeMeshletBounds(
+            &meshlet_vertices[meshlet.vertex_offset], &meshlet_triangles[meshlet.triangle_offset],
+            meshlet.triangle_count, &positions[0].x, positions.size(), sizeof(glm::vec3));
+        PackCluster result;
+        result.first_index = static_cast<std::uint32_t>(level.indices.size());
+        result.index_count = meshlet.triangle_count * 3;
+        result.centre = {bounds.center[0], bounds.center[1], bounds.center[2]};
+        result.radius = bounds.radius * 1.0001F + 1e-6F;
+        if (bounds.cone_cutoff < 1.0F) {
+            result.cone_apex = {bounds.cone_apex[0], bounds.cone_apex[1], bounds.cone_apex[2]};
+            result.cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]};
+            result.cone_cutoff =
+                bounds.cone_cutoff + 1e-4F; // 32-bit rounding must not cull an edge-on triangle
+        }
+        for (std::size_t k = 0; k < result.index_count; ++k) {
+            const unsigned char local = meshlet_triangles[meshlet.triangle_offset + k];
+            level.indices.push_back(meshlet_vertices[meshlet.vertex_offset + local]);
+        }
+        level.clusters.push_back(result);
+    }
+}
+
+void order_vertices(PackLevel& level) {
+    std::vector<PackVertex> ordered(level.vertices.size());
+    const std::size_t count =
+        meshopt_optimizeVertexFetch(ordered.data(), level.indices.data(), level.indices.size(),
+                                    level.vertices.data(), level.vertices.size(), sizeof(PackVertex));
+    ordered.resize(count);
+    level.vertices = std::move(ordered);
+}
+
+/// `count` points spread over triangles by area; point k lies on triangle result[k].
+struct AreaSampler {
+    explicit AreaSampler(std::vector<double> areas) : running(std::move(areas)) {
+        std::partial_sum(running.begin(), running.end(), running.begin());
+    }
+    /// Triangle under the k-th of `count` even steps of the area, and weights from a low-discrepancy pair.
+    [[nodiscard]] std::size_t triangle(std::size_t k, std::size_t count) const {
+        const double at = running.back() * (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+        return static_cast<std::size_t>(std::lower_bound(running.begin(), running.end(), at) -
+                                        running.begin());
+    }
+    [[nodiscard]] static glm::vec2 weights(std::size_t k) {
+        const double a = std::fmod(0.5 + static_cast<double>(k) * 0.7548776662466927, 1.0); // R2 sequence
+        const double b = std::fmod(0.5 + static_cast<double>(k) * 0.5698402909980532, 1.0);
+        const double root = std::sqrt(a);
+        return {root * (1.0 - b), root * b};
+    }
+    std::vector<double> running;
+};
+
+glm::vec3 texture_at(const Image8& texture, glm::vec2 uv) {
+    const float x = uv.x * static_cast<float>(texture.width) - 0.5F;
+    const float y = uv.y * static_cast<float>(texture.height) - 0.5F;
+    const int x0 = static_cast<int>(std::floor(x));
+    const int y0 = static_cast<int>(std::floor(y));
+    const std::array<float, 256>& linear = linear_from_srgb8();
+    const auto texel = [&](int i, int j) {
+        const glm::u8vec4 t =
+            texture.at(std::clamp(i, 0, texture.width - 1), std::clamp(j, 0, texture.height - 1));
+        return glm::vec3(linear[t.x], linear[t.y], linear[t.z]);
+    };
+    const float fx = x - static_cast<float>(x0);
+    const float fy = y - static_cast<float>(y0);
+    return glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), fx),
+                    glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
+}
+
+float squared_codes(const glm::vec3& a, const glm::vec3& b) {
+    float sum = 0.0F;
+    for (int k = 0; k < 3; ++k) {
+        const float difference =
+            static_cast<float>(srgb8_from_linear(a[k])) - static_cast<float>(srgb8_from_linear(b[k]));
+        sum += difference * difference;
+    }
+    return sum / 3.0F;
+}
+
+constexpr std::size_t sample_count = 24000;
+constexpr float search_reach = 0.2F;
+
+} // namespace
+
+PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size, LevelTechnique technique) {
+    PackLevel level;
+    level.technique = technique;
+    level.vertices.reserve(mesh.positions.size());
+    const glm::dvec3 low(box_low(box_size));
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        const glm::dvec3 unit = (glm::dvec3(mesh.positions[k]) - low) / box_size;
+        PackVertex vertex;
+        vertex.position = {quantised(unit.x), quantised(unit.y), quantised(unit.z)};
+        vertex.uv = {quantised(mesh.uv_texels[k].x / static_cast<float>(mesh.atlas_width)),
+                     quantised(mesh.uv_texels[k].y / static_cast<float>(mesh.atlas_height))};
+        level.vertices.push_back(vertex);
+    }
+    level.indices = mesh.indices;
+    cluster(level, box_size);
+    order_vertices(level);
+    return level;
+}
+
+TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size) {
+    TriangleMesh mesh;
+    mesh.positions.reserve(level.vertices.size());
+    for (const PackVertex& vertex : level.vertices) {
+        mesh.positions.push_back(position_of(vertex, box_size));
+    }
+    mesh.indices = level.indices;
+    return mesh;
+}
+
+SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible, float tolerance_box) {
+    const SourceMesh seen_mesh = as_source(visible);
+    const std::vector<glm::dvec3> seen_points(visible.positions.begin(), visible.positions.end());
+    const SourceScene seen(seen_mesh, seen_points);
+    std::vector<double> areas(source.mesh().triangles.size());
+    for (std::uint32_t t = 0; t < areas.size(); ++t) {
+        areas[t] = glm::length(
+            glm::cross(source.corner(t, 1) - source.corner(t, 0), source.corner(t, 2) - source.corner(t, 0)));
+    }
+    const AreaSampler sampler(std::move(areas));
+    std::vector<SourceSamples::Point> points(sample_count);
+    std::vector<std::uint8_t> keep(sample_count, 0);
+    parallel_for(sample_count, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto t = static_cast<std::uint32_t>(sampler.triangle(k, sample_count));
+            const glm::vec2 w = AreaSampler::weights(k);
+            const glm::vec3 a = source.corner(t, 0);
+            const glm::vec3 position = a + (source.corner(t, 1) - a) * w.x + (source.corner(t, 2) - a) * w.y;
+            const glm::vec4 colour = source.colour(t, w.x, w.y);
+            const SourceMaterial& material = source.mesh().materials[source.mesh().triangle_materials[t]];
+            const SurfaceHit near = seen.nearest(position, tolerance_box);
+            if (near.hit && !(material.alpha_mask && colour.w < material.alpha_cutoff)) {
+                points[k] = {position, near.normal,
+                             glm::clamp(glm::vec3(colour), glm::vec3(0.0F), glm::vec3(1.0F))};
+                keep[k] = 1;
+            }
+        }
+    });
+    SourceSamples samples;
+    for (std::size_t k = 0; k < sample_count; ++k) {
+        if (keep[k] != 0) {
+            samples.points.push_back(points[k]);
+        }
+    }
+    return samples;
+}
+
+LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                   const SourceScene& source, const SourceSamples& samples, bool compare_colour) {
+    const TriangleMesh surface = surface_of(level, box_size);
+    const SourceMesh level_mesh = as_source(surface);
+    const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
+    const SourceScene level_scene(level_mesh, level_points);
+
+    std::vector<float> distances(sample_count + samples.points.size(), 0.0F);
+    std::vector<float> colour_errors(samples.points.size(), 0.0F);
+    std::vector<double> areas(surface.triangle_count());
+    for (std::size_t t = 0; t < areas.size(); ++t) {
+        areas[t] = glm::length(surface.area_normal(t));
+    }
+    const AreaSampler sampler(std::move(areas));
+    parallel_for(sample_count, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t t = sampler.triangle(k, sample_count);
+            const glm::vec2 w = AreaSampler::weights(k);
+            const glm::vec3 a = surface.corner(t, 0);
+            const glm::vec3 p = a + (surface.corner(t, 1) - a) * w.x + (surface.corner(t, 2) - a) * w.y;
+            const SurfaceHit hit = source.nearest(p, search_reach);
+            distances[k] = hit.hit ? hit.distance : search_reach;
+        }
+    });
+    parallel_for(samples.points.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const SourceSamples::Point& point = samples.points[k];
+            const SurfaceHit hit = level_scene.nearest(point.position, search_reach);
+            distances[sample_count + k] = hit.hit ? hit.distance : search_reach;
+            if (hit.hit && compare_colour) {
+                const auto uv = [&](int corner) {
+                    const PackVertex& v = level.vertices[level.indices[3 * std::size_t{hit.triangle} +
+                                                                       static_cast<std::size_t>(corner)]];
+                    return glm::vec2(v.uv[0], v.uv[1]) / code_max;
+                };
+                const glm::vec2 at = uv(0) * (1.0F - hit.u - hit.v) + uv(1) * hit.u + uv(2) * hit.v;
+                colour_errors[k] = squared_codes(texture_at(texture, at), point.colour);
+            }
+        }
+    });
+    LevelError error;
+    error.mean_box = static_cast<float>(std::accumulate(distances.begin(), distances.end(), 0.0) /
+                                        static_cast<double>(distances.size()));
+    if (!colour_errors.empty()) {
+        error.colour_rmse =
+            static_cast<float>(std::sqrt(std::accumulate(colour_errors.begin(), colour_errors.end(), 0.0) /
+                                         static_cast<double>(colour_errors.size())));
+    }
+    std::sort(distances.begin(), distances.end());
+    error.p95_box = distances[distances.size() * 95 / 100];
+    error.max_box = distances.back();
+    return error;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,40 @@
+/// A level of the pack from charted triangles: quantised, ordered for the vertex cache, cut into clusters,
+/// measured.
+///
+/// Frame    box. Threads  pure; any (measure uses all cores).
+/// Library  meshoptimizer (meshlets and their normal cones).
+#pragma once
+
+#include "app/pack/pack.h"
+#include "assets_baked/bake/charts.h"
+#include "assets_baked/bake/source_scene.h"
+
+namespace frustumscreen {
+
+/// Level with vertices, indices and clusters; texture and error are left to the caller.
+[[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size,
+                                   LevelTechnique technique);
+
+/// A level's surface back from its quantised vertices.
+[[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
+
+/// Points on the source that a visitor sees, with their colour: drawn once, compared with every level.
+struct SourceSamples {
+    struct Point {
+        glm::vec3 position{0.0F};
+        glm::vec3 normal{0.0F}; ///< of the side that is seen
+        glm::vec3 colour{0.0F}; ///< linear
+    };
+    std::vector<Point> points;
+};
+/// `visible` is the kept surface of the finest level: only source points near it are drawn.
+[[nodiscard]] SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible,
+                                          float tolerance_box);
+
+/// Both ways: the level's points against the source, the source's seen points against the level.
+/// Colour is compared only where `compare_colour` (unlit): baked light is not an error.
+[[nodiscard]] LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                                 const SourceScene& source, const SourceSamples& samples,
+                                 bool compare_colour);
+
+} // namespace frustumscreen

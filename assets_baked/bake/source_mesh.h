@@ -1,0 +1,48 @@
+/// A curator's artifact as it came from the file: one triangle list with materials.
+///
+/// Frame    the file's own coordinates (glTF: the scene's, node transforms applied), 64-bit.
+/// Threads  values; any.
+#pragma once
+
+#include "app/image/image.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class Wrap : std::uint8_t { Repeat, Mirror, Clamp };
+
+struct SourceTexture {
+    std::shared_ptr<const Image8> image; ///< sRGB; may be shared between materials
+    Wrap wrap_u = Wrap::Repeat;
+    Wrap wrap_v = Wrap::Repeat;
+};
+
+struct SourceMaterial {
+    glm::vec4 base_colour{1.0F}; ///< linear factor
+    int texture = -1;            ///< index into SourceMesh::textures; -1 = none
+    bool alpha_mask = false;     ///< cut where alpha < alpha_cutoff
+    float alpha_cutoff = 0.5F;
+};
+
+/// Corner attributes of a triangle, kept per vertex: the loader splits vertices as the file does.
+struct SourceMesh {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec2>
+        uvs; ///< texture transform applied; empty or one each position; v = 0 at the top row
+    std::vector<glm::vec4> colours; ///< linear vertex colour factors; empty or one each position
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
+    std::vector<std::uint32_t> triangle_materials;       ///< one each triangle
+    std::vector<SourceMaterial> materials;               ///< at least one
+    std::vector<SourceTexture> textures;
+    char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,282 @@
+#include "assets_baked/bake/source_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cassert>
+#include <cmath>
+
+namespace frustumscreen {
+
+struct SourceScene::Embree {
+    const SourceMesh* mesh = nullptr;
+    std::vector<glm::vec3> positions; // box frame; one spare for Embree's 16-byte reads
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    bool varying_colour = false;
+};
+
+namespace {
+
+/// Nearest point on a triangle (Ericson, Real-Time Collision Detection, 5.1.5), as barycentric weights of b
+/// and c.
+glm::vec2 nearest_on_triangle(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b,
+                              const glm::vec3& c) {
+    const glm::vec3 ab = b - a;
+    const glm::vec3 ac = c - a;
+    const glm::vec3 ap = p - a;
+    const float d1 = glm::dot(ab, ap);
+    const float d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0F && d2 <= 0.0F) {
+        return {0.0F, 0.0F};
+    }
+    const glm::vec3 bp = p - b;
+    const float d3 = glm::dot(ab, bp);
+    const float d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0F && d4 <= d3) {
+        return {1.0F, 0.0F};
+    }
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0F && d1 >= 0.0F && d3 <= 0.0F) {
+        return {d1 / (d1 - d3), 0.0F};
+    }
+    const glm::vec3 cp = p - c;
+    const float d5 = glm::dot(ab, cp);
+    const float d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0F && d5 <= d6) {
+        return {0.0F, 1.0F};
+    }
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0F && d2 >= 0.0F && d6 <= 0.0F) {
+        return {0.0F, d2 / (d2 - d6)};
+    }
+    const float va = d3 * d6 - d5 * d4;
+    if (va <= 0.0F && d4 - d3 >= 0.0F && d5 - d6 >= 0.0F) {
+        const float w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {1.0F - w, w};
+    }
+    const float sum = va + vb + vc;
+    return sum > 0.0F ? glm::vec2(vb / sum, vc / sum) : glm::vec2(0.0F);
+}
+
+float wrapped(float x, Wrap wrap) {
+    switch (wrap) {
+    case Wrap::Repeat:
+        return x - std::floor(x);
+    case Wrap::Mirror: {
+        const float period = x - 2.0F * std::floor(x / 2.0F);
+        return period <= 1.0F ? period : 2.0F - period;
+    }
+    case Wrap::Clamp:
+        break;
+    }
+    return std::fmin(std::fmax(x, 0.0F), 1.0F);
+}
+
+int wrapped_texel(int i, int size, Wrap wrap) {
+    if (wrap == Wrap::Repeat) {
+        return ((i % size) + size) % size;
+    }
+    return std::min(std::max(i, 0), size - 1); // Mirror at its edge repeats the edge texel
+}
+
+/// Bilinear at the base level, filtered in linear light.
+glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
+    const Image8& image = *texture.image;
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+        return glm::vec4(1.0F);
+    }
+    const float x = wrapped(uv.x, texture.wrap_u) * static_cast<float>(image.width) - 0.5F;
+    const float y = wrapped(uv.y, texture.wrap_v) * static_cast<float>(image.height) - 0.5F;
+    const int x0 = static_cast<int>(std::floor(x));
+    const int y0 = static_cast<int>(std::floor(y));
+    const float fx = x - static_cast<float>(x0);
+    const float fy = y - static_cast<float>(y0);
+    const std::array<float, 256>& linear = linear_from_srgb8();
+    const auto texel = [&](int i, int j) {
+        const glm::u8vec4 t = image.at(wrapped_texel(i, image.width, texture.wrap_u),
+                                       wrapped_texel(j, image.height, texture.wrap_v));
+        return glm::vec4(linear[t.x], linear[t.y], linear[t.z], static_cast<float>(t.w) / 255.0F);
+    };
+    const glm::vec4 top = glm::mix(texel(x0, y0), texel(x0 + 1, y0), fx);
+    const glm::vec4 bottom = glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx);
+    return glm::mix(top, bottom, fy);
+}
+
+/// Lets a ray pass where alpha MASK is cut.
+void cut_masked(const RTCFilterFunctionNArguments* arguments) {
+    assert(arguments->N == 1);
+    const auto* scene = static_cast<const SourceScene*>(arguments->geometryUserPtr);
+    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, 1, 0);
+    const SourceMesh& mesh = scene->mesh();
+    const SourceMaterial& material = mesh.materials[mesh.triangle_materials[triangle]];
+    if (!material.alpha_mask) {
+        return;
+    }
+    const float u = RTCHitN_u(arguments->hit, 1, 0);
+    const float v = RTCHitN_v(arguments->hit, 1, 0);
+    if (scene->colour(triangle, u, v).w < material.alpha_cutoff) {
+        arguments->valid[0] = 0;
+    }
+}
+
+struct NearestQuery {
+    const SourceScene* scene;
+    glm::vec3 point;
+    SurfaceHit best;
+    float best_squared;
+};
+
+bool keep_nearest(RTCPointQueryFunctionArguments* arguments) {
+    auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
+    const glm::vec3& a = query.scene->corner(arguments->primID, 0);
+    const glm::vec3& b = query.scene->corner(arguments->primID, 1);
+    const glm::vec3& c = query.scene->corner(arguments->primID, 2);
+    const glm::vec2 weights = nearest_on_triangle(query.point, a, b, c);
+    const glm::vec3 point = a + (b - a) * weights.x + (c - a) * weights.y;
+    const glm::vec3 away = point - query.point;
+    const float squared = glm::dot(away, away);
+    if (!(squared < query.best_squared)) { // also refuses the NaN of a degenerate triangle
+        return false;
+    }
+    query.best_squared = squared;
+    query.best = {true, std::sqrt(squared), arguments->primID, weights.x, weights.y, point, {}};
+    arguments->query->radius = query.best.distance;
+    return true;
+}
+
+} // namespace
+
+SourceScene::SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> points)
+    : embree_(std::make_unique<Embree>()) {
+    embree_->mesh = &mesh;
+    embree_->positions.reserve(points.size() + 1);
+    for (const glm::dvec3& p : points) {
+        embree_->positions.emplace_back(p);
+    }
+    embree_->positions.emplace_back(0.0F);
+    bool masked = false;
+    embree_->varying_colour = !mesh.colours.empty() || mesh.materials.size() > 1;
+    for (const SourceMaterial& material : mesh.materials) {
+        masked = masked || material.alpha_mask;
+        embree_->varying_colour = embree_->varying_colour || material.texture >= 0;
+    }
+
+    embree_->device = rtcNewDevice(nullptr);
+    embree_->scene = rtcNewScene(embree_->device);
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               embree_->positions.data(), 0, sizeof(glm::vec3), points.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                               sizeof(mesh.triangles[0]), mesh.triangles.size());
+    if (masked) {
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, cut_masked);
+        rtcSetGeometryOccludedFilterFunction(geometry, cut_masked);
+    }
+    rtcSetGeometryPointQueryFunction(geometry, keep_nearest);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(embree_->scene);
+}
+
+SourceScene::~SourceScene() {
+    rtcReleaseScene(embree_->scene);
+    rtcReleaseDevice(embree_->device);
+}
+
+SurfaceHit SourceScene::trace(const glm::vec3& origin, const glm::vec3& direction, float near,
+                              float far) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray.org_x = origin.x;
+    query.ray.org_y = origin.y;
+    query.ray.org_z = origin.z;
+    query.ray.dir_x = direction.x;
+    query.ray.dir_y = direction.y;
+    query.ray.dir_z = direction.z;
+    query.ray.tnear = near;
+    query.ray.tfar = far;
+    query.ray.mask = 0xFFFFFFFFU;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(embree_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return {};
+    }
+    const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    const float length = glm::length(normal);
+    return {true,
+            query.ray.tfar,
+            query.hit.primID,
+            query.hit.u,
+            query.hit.v,
+            origin + direction * query.ray.tfar,
+            length > 0.0F ? normal / length : glm::vec3(0.0F)};
+}
+
+bool SourceScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float near, float far) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = near;
+    ray.tfar = far;
+    ray.mask = 0xFFFFFFFFU;
+    rtcOccluded1(embree_->scene, &context, &ray);
+    return ray.tfar < 0.0F;
+}
+
+SurfaceHit SourceScene::nearest(const glm::vec3& point, float reach) const {
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    RTCPointQuery query{point.x, point.y, point.z, 0.0F, reach};
+    NearestQuery state{this, point, {}, reach * reach};
+    rtcPointQuery(embree_->scene, &query, &context, nullptr, &state);
+    if (state.best.hit) {
+        const glm::vec3& a = corner(state.best.triangle, 0);
+        const glm::vec3 normal =
+            glm::cross(corner(state.best.triangle, 1) - a, corner(state.best.triangle, 2) - a);
+        const float length = glm::length(normal);
+        state.best.normal = length > 0.0F ? normal / length : glm::vec3(0.0F);
+    }
+    return state.best;
+}
+
+glm::vec4 SourceScene::colour(std::uint32_t triangle, float u, float v) const {
+    const SourceMesh& source = *embree_->mesh;
+    const SourceMaterial& material = source.materials[source.triangle_materials[triangle]];
+    const auto& corners = source.triangles[triangle];
+    const float w = 1.0F - u - v;
+    glm::vec4 result = material.base_colour;
+    if (!source.colours.empty()) {
+        result *=
+            source.colours[corners[0]] * w + source.colours[corners[1]] * u + source.colours[corners[2]] * v;
+    }
+    if (material.texture >= 0 && !source.uvs.empty()) {
+        const glm::vec2 uv =
+            source.uvs[corners[0]] * w + source.uvs[corners[1]] * u + source.uvs[corners[2]] * v;
+        result *= sample(source.textures[static_cast<std::size_t>(material.texture)], uv);
+    }
+    return result;
+}
+
+const SourceMesh& SourceScene::mesh() const {
+    return *embree_->mesh;
+}
+
+const glm::vec3& SourceScene::corner(std::uint32_t triangle, int k) const {
+    return embree_->positions[embree_->mesh->triangles[triangle][static_cast<std::size_t>(k)]];
+}
+
+bool SourceScene::has_varying_colour() const {
+    return embree_->varying_colour;
+}
+
+} // namespace frustumscreen

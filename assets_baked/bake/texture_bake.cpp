@@ -1,0 +1,337 @@
+#include "assets_baked/bake/texture_bake.h"
+
+#include "firmware_host/base/parallel.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uint32_t nothing = 0xFFFFFFFFU;
+
+struct SurfacePoint {
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+template <typename T>
+T blend(const std::vector<T>& values, const ChartedMesh& mesh, const AtlasTexel& texel) {
+    const std::size_t t = 3 * std::size_t{texel.triangle};
+    return values[mesh.indices[t]] * (1.0F - texel.u - texel.v) + values[mesh.indices[t + 1]] * texel.u +
+           values[mesh.indices[t + 2]] * texel.v;
+}
+
+SurfacePoint surface_at(const ChartedMesh& mesh, const AtlasTexel& texel) {
+    const std::size_t t = 3 * std::size_t{texel.triangle};
+    const glm::vec3& a = mesh.positions[mesh.indices[t]];
+    const glm::vec3 flat =
+        glm::cross(mesh.positions[mesh.indices[t + 1]] - a, mesh.positions[mesh.indices[t + 2]] - a);
+    glm::vec3 normal = blend(mesh.normals, mesh, texel);
+    if (glm::dot(normal, flat) < 0.5F * glm::length(normal) * glm::length(flat)) {
+        normal = flat; // across a sharp edge the smooth normal belongs to neither side
+    }
+    return {blend(mesh.positions, mesh, texel), glm::normalize(normal)};
+}
+
+/// Weights and squared distance of the point of triangle abc nearest to p, in the plane.
+glm::vec3 nearest_in_plane(const glm::vec2& p, const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+    const auto cross = [](const glm::vec2& x, const glm::vec2& y) { return x.x * y.y - x.y * y.x; };
+    const float area = cross(b - a, c - a);
+    if (area > 0.0F) {
+        const float u = cross(p - a, c - a) / area;
+        const float v = cross(b - a, p - a) / area;
+        if (u >= 0.0F && v >= 0.0F && u + v <= 1.0F) {
+            return {u, v, 0.0F};
+        }
+    }
+    glm::vec3 best(0.0F, 0.0F, 1e30F);
+    const auto on_edge = [&](const glm::vec2& from, const glm::vec2& to, auto weights) {
+        const glm::vec2 along = to - from;
+        const float squared = glm::dot(along, along);
+        const float s =
+            squared > 0.0F ? std::fmin(std::fmax(glm::dot(p - from, along) / squared, 0.0F), 1.0F) : 0.0F;
+        const glm::vec2 away = p - from - along * s;
+        const float distance = glm::dot(away, away);
+        if (distance < best.z) {
+            const glm::vec2 w = weights(s);
+            best = {w.x, w.y, distance};
+        }
+    };
+    on_edge(a, b, [](float s) { return glm::vec2(s, 0.0F); });
+    on_edge(b, c, [](float s) { return glm::vec2(1.0F - s, s); });
+    on_edge(c, a, [](float s) { return glm::vec2(0.0F, 1.0F - s); });
+    return best;
+}
+
+/// The source's hit nearest to p along the normal, of those that face the same way; else the nearest point at
+/// all.
+SurfaceHit find_on_source(const SourceScene& source, const SurfacePoint& at, float reach) {
+    const glm::vec3 origin = at.position + at.normal * reach;
+    SurfaceHit best;
+    float best_distance = reach;
+    float near = 0.0F;
+    for (int k = 0; k < 12; ++k) {
+        const SurfaceHit hit = source.trace(origin, -at.normal, near, 2.0F * reach);
+        if (!hit.hit) {
+            break;
+        }
+        const float distance = std::abs(hit.distance - reach);
+        // Sides count too: a source triangle seen from behind is a candidate only if nothing faces this way.
+        const float penalty = glm::dot(hit.normal, at.normal) > 0.0F ? 0.0F : 0.25F * reach;
+        if (distance + penalty < best_distance) {
+            best_distance = distance + penalty;
+            best = hit;
+        }
+        near = hit.distance + 1e-6F + hit.distance * 1e-6F;
+    }
+    return best.hit ? best : source.nearest(at.position, 8.0F * reach);
+}
+
+glm::vec3 clamped_rgb(const glm::vec4& colour) {
+    return glm::clamp(glm::vec3(colour), glm::vec3(0.0F), glm::vec3(1.0F));
+}
+
+/// The museum: a soft dome, brighter above, and a broad key light from the upper left of the artifact's
+/// front.
+float radiance(const glm::vec3& direction) {
+    static const glm::vec3 key = glm::normalize(glm::vec3(-0.45F, -0.60F, 0.80F));
+    const float dome = 0.42F + 0.30F * direction.z;
+    const float towards_key = std::fmax(glm::dot(direction, key), 0.0F);
+    const float lobe = towards_key * towards_key * towards_key * towards_key;
+    return dome + 1.1F * lobe;
+}
+
+/// Cosine-weighted directions about +Z, even over the hemisphere (Hammersley points).
+std::vector<glm::vec3> cosine_directions(int count) {
+    std::vector<glm::vec3> directions;
+    for (int k = 0; k < count; ++k) {
+        std::uint32_t bits = static_cast<std::uint32_t>(k);
+        float inverse = 0.0F;
+        for (float digit = 0.5F; bits != 0; bits >>= 1, digit *= 0.5F) {
+            inverse += digit * static_cast<float>(bits & 1U);
+        }
+        const float radius = std::sqrt((static_cast<float>(k) + 0.5F) / static_cast<float>(count));
+        const float angle = 2.0F * std::numbers::pi_v<float> * inverse;
+        directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                std::sqrt(std::fmax(0.0F, 1.0F - radius * radius)));
+    }
+    return directions;
+}
+
+float light_at(const SourceScene& source, const SurfacePoint& at, const std::vector<glm::vec3>& directions) {
+    constexpr float lift = 1.5e-3F; // what a simplified surface may lie below its source
+    constexpr float dome_reach = 1.5F;
+    const glm::vec3 side = std::abs(at.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+    const glm::vec3 tangent = glm::normalize(glm::cross(side, at.normal));
+    const glm::vec3 bitangent = glm::cross(at.normal, tangent);
+    const glm::vec3 origin = at.position + at.normal * lift;
+    float sum = 0.0F;
+    for (const glm::vec3& d : directions) {
+        const glm::vec3 direction = tangent * d.x + bitangent * d.y + at.normal * d.z;
+        if (direction.z < 0.0F) {
+            sum += 0.10F; // what the dark table sends back
+            continue;
+        }
+        if (!source.occluded(origin, direction, 0.0F, dome_reach)) {
+            sum += radiance(direction);
+        } else {
+            sum += 0.12F; // bounced once, unseen: keeps hollows readable
+        }
+    }
+    return sum / static_cast<float>(directions.size());
+}
+
+/// Means over the covered texels of each 3 x 3 neighbourhood; `known` marks them.
+template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& known, int passes) {
+    for (int pass = 0; pass < passes; ++pass) {
+        const Image<std::uint8_t> before = known;
+        const auto row = [&](std::size_t begin, std::size_t end) {
+            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+                for (int x = 0; x < image.width; ++x) {
+                    if (before.at(x, y) != 0) {
+                        continue;
+                    }
+                    Texel sum(0.0F);
+                    float count = 0.0F;
+                    for (int j = std::max(0, y - 1); j <= std::min(image.height - 1, y + 1); ++j) {
+                        for (int i = std::max(0, x - 1); i <= std::min(image.width - 1, x + 1); ++i) {
+                            if (before.at(i, j) != 0) {
+                                sum += image.at(i, j);
+                                count += 1.0F;
+                            }
+                        }
+                    }
+                    if (count > 0.0F) {
+                        image.at(x, y) = sum / count;
+                        known.at(x, y) = 1;
+                    }
+                }
+            }
+        };
+        parallel_for(static_cast<std::size_t>(image.height), 32, row);
+    }
+}
+
+/// Mean of each known texel with its known neighbours; charts lie further apart than that reaches.
+ImageFloat smoothed(const ImageFloat& image, const Image<std::uint8_t>& known) {
+    ImageFloat result = image;
+    parallel_for(static_cast<std::size_t>(image.height), 32, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                glm::vec3 sum(0.0F);
+                float count = 0.0F;
+                for (int j = std::max(0, y - 1); j <= std::min(image.height - 1, y + 1); ++j) {
+                    for (int i = std::max(0, x - 1); i <= std::min(image.width - 1, x + 1); ++i) {
+                        const float weight = known.at(i, j) != 0 ? 1.0F : 0.0F;
+                        sum += image.at(i, j) * weight;
+                        count += weight;
+                    }
+                }
+                if (known.at(x, y) != 0) {
+                    result.at(x, y) = sum / count;
+                }
+            }
+        }
+    });
+    return result;
+}
+
+template <typename Function> void for_each_texel(const Image<AtlasTexel>& texels, const Function& function) {
+    parallel_for(static_cast<std::size_t>(texels.height), 4, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < texels.width; ++x) {
+                if (texels.at(x, y).triangle != nothing) {
+                    function(x, y, texels.at(x, y));
+                }
+            }
+        }
+    });
+}
+
+} // namespace
+
+Image<AtlasTexel> rasterise(const ChartedMesh& mesh) {
+    constexpr float margin = static_cast<float>(chart_gutter_texels) - 0.5F;
+    Image<AtlasTexel> texels(mesh.atlas_width, mesh.atlas_height);
+    Image<float> distances(mesh.atlas_width, mesh.atlas_height, margin * margin);
+    for (std::size_t t = 0; 3 * t < mesh.indices.size(); ++t) {
+        const glm::vec2& a = mesh.uv_texels[mesh.indices[3 * t]];
+        const glm::vec2& b = mesh.uv_texels[mesh.indices[3 * t + 1]];
+        const glm::vec2& c = mesh.uv_texels[mesh.indices[3 * t + 2]];
+        const glm::ivec2 low = glm::max(glm::ivec2(glm::min(a, glm::min(b, c)) - margin), glm::ivec2(0));
+        const glm::ivec2 high = glm::min(glm::ivec2(glm::max(a, glm::max(b, c)) + margin),
+                                         glm::ivec2(texels.width - 1, texels.height - 1));
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
+                if (distances.at(x, y) == 0.0F) {
+                    continue;
+                }
+                const glm::vec3 nearest = nearest_in_plane(glm::vec2(x, y) + 0.5F, a, b, c);
+                if (nearest.z < distances.at(x, y)) {
+                    distances.at(x, y) = nearest.z;
+                    texels.at(x, y) = {static_cast<std::uint32_t>(t), nearest.x, nearest.y};
+                }
+            }
+        }
+    }
+    return texels;
+}
+
+ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
+                       float reach_box) {
+    ImageFloat colour(texels.width, texels.height, glm::vec3(0.0F));
+    const bool varies = source.has_varying_colour();
+    const glm::vec3 plain = clamped_rgb(source.mesh().materials[0].base_colour);
+    for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
+        if (!varies) {
+            colour.at(x, y) = plain;
+            return;
+        }
+        // Four points of the texel: its neighbours' half-way points, where they lie on the same triangle.
+        glm::vec3 sum(0.0F);
+        float count = 0.0F;
+        const SurfacePoint centre = surface_at(mesh, texel);
+        const glm::vec3 tangent = glm::normalize(glm::cross(
+            std::abs(centre.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), centre.normal));
+        const glm::vec3 bitangent = glm::cross(centre.normal, tangent);
+        const std::size_t t = 3 * std::size_t{texel.triangle};
+        const float uv_length =
+            glm::distance(mesh.uv_texels[mesh.indices[t]], mesh.uv_texels[mesh.indices[t + 1]]);
+        const float length =
+            glm::distance(mesh.positions[mesh.indices[t]], mesh.positions[mesh.indices[t + 1]]);
+        const float quarter = uv_length > 0.0F ? 0.25F * length / uv_length : 0.0F;
+        for (int k = 0; k < 4; ++k) {
+            SurfacePoint at = centre;
+            at.position += tangent * ((k & 1) != 0 ? quarter : -quarter) +
+                           bitangent * ((k & 2) != 0 ? quarter : -quarter);
+            const SurfaceHit hit = find_on_source(source, at, reach_box);
+            if (hit.hit) {
+                sum += clamped_rgb(source.colour(hit));
+                count += 1.0F;
+            }
+        }
+        colour.at(x, y) = count > 0.0F ? sum / count : plain;
+    });
+    return colour;
+}
+
+ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source) {
+    // Light is smooth: every third texel in each direction, then spread and smoothed.
+    constexpr int stride = 3;
+    constexpr int rays = 96;
+    const std::vector<glm::vec3> directions = cosine_directions(rays);
+    ImageFloat light(texels.width, texels.height, glm::vec3(0.0F));
+    Image<std::uint8_t> known(texels.width, texels.height, 0);
+    for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
+        if (x % stride == 0 && y % stride == 0) {
+            light.at(x, y) = glm::vec3(light_at(source, surface_at(mesh, texel), directions));
+            known.at(x, y) = 1;
+        }
+    });
+    spread(light, known, 4);
+    for (int pass = 0; pass < 2; ++pass) {
+        light = smoothed(light, known);
+    }
+    return light;
+}
+
+ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels, const ChartedMesh& from,
+                          const ImageFloat& from_light, float reach_box) {
+    const SourceMesh from_source = as_source({from.positions, from.indices});
+    const std::vector<glm::dvec3> points(from.positions.begin(), from.positions.end());
+    const SourceScene from_scene(from_source, points);
+    ImageFloat light(to_texels.width, to_texels.height, glm::vec3(1.0F));
+    for_each_texel(to_texels, [&](int x, int y, const AtlasTexel& texel) {
+        const SurfaceHit hit = find_on_source(from_scene, surface_at(to, texel), reach_box);
+        if (!hit.hit) {
+            return;
+        }
+        const glm::vec2 uv = blend(from.uv_texels, from, AtlasTexel{hit.triangle, hit.u, hit.v});
+        const glm::ivec2 at = glm::clamp(glm::ivec2(uv), glm::ivec2(0),
+                                         glm::ivec2(from_light.width - 1, from_light.height - 1));
+        light.at(x, y) = from_light.at(at.x, at.y);
+    });
+    return light;
+}
+
+Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels) {
+    ImageFloat filled = colour;
+    Image<std::uint8_t> known(texels.width, texels.height, 0);
+    for (std::size_t k = 0; k < texels.texels.size(); ++k) {
+        known.texels[k] = texels.texels[k].triangle != nothing ? 1 : 0;
+    }
+    spread(filled, known, 8);
+    Image8 result(colour.width, colour.height, glm::u8vec4(0, 0, 0, 255));
+    parallel_for(result.texels.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const glm::vec3& c = filled.texels[k];
+            result.texels[k] = {srgb8_from_linear(c.x), srgb8_from_linear(c.y), srgb8_from_linear(c.z), 255};
+        }
+    });
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,106 @@
+#include "assets_baked/bake/triangle_mesh.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Drops triangles whose corners repeat, and all but the first of those with the same three corners.
+void drop_repetitions(std::vector<std::uint32_t>& indices) {
+    using Key = std::array<std::uint32_t, 4>; // sorted corners, position in the list
+    std::vector<Key> keys;
+    keys.reserve(indices.size() / 3);
+    for (std::uint32_t t = 0; 3 * static_cast<std::size_t>(t) < indices.size(); ++t) {
+        std::array<std::uint32_t, 3> c{indices[3 * std::size_t{t}], indices[3 * std::size_t{t} + 1],
+                                       indices[3 * std::size_t{t} + 2]};
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+            continue;
+        }
+        std::sort(c.begin(), c.end());
+        keys.push_back({c[0], c[1], c[2], t});
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(
+        std::unique(keys.begin(), keys.end(),
+                    [](const Key& a, const Key& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }),
+        keys.end());
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a[3] < b[3]; });
+    std::vector<std::uint32_t> kept;
+    kept.reserve(3 * keys.size());
+    for (const Key& key : keys) {
+        kept.insert(kept.end(), indices.begin() + 3 * std::ptrdiff_t{key[3]},
+                    indices.begin() + 3 * std::ptrdiff_t{key[3]} + 3);
+    }
+    indices = std::move(kept);
+}
+
+/// Drops vertices that no triangle uses.
+void compact(TriangleMesh& mesh) {
+    std::vector<glm::vec3> used(mesh.positions.size());
+    const std::size_t count =
+        meshopt_optimizeVertexFetch(used.data(), mesh.indices.data(), mesh.indices.size(),
+                                    mesh.positions.data(), mesh.positions.size(), sizeof(glm::vec3));
+    used.resize(count);
+    mesh.positions = std::move(used);
+}
+
+} // namespace
+
+TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points) {
+    TriangleMesh result;
+    std::vector<glm::vec3> positions;
+    positions.reserve(box_points.size());
+    for (const glm::dvec3& p : box_points) {
+        positions.emplace_back(glm::vec3(p) + glm::vec3(0.0F)); // -0 becomes 0: the weld compares bits
+    }
+    std::vector<std::uint32_t> indices;
+    indices.reserve(3 * mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) {
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
+    }
+    std::vector<std::uint32_t> remap(positions.size());
+    const std::size_t count = meshopt_generateVertexRemap(
+        remap.data(), indices.data(), indices.size(), positions.data(), positions.size(), sizeof(glm::vec3));
+    result.positions.resize(count);
+    meshopt_remapVertexBuffer(result.positions.data(), positions.data(), positions.size(), sizeof(glm::vec3),
+                              remap.data());
+    result.indices.resize(indices.size());
+    meshopt_remapIndexBuffer(result.indices.data(), indices.data(), indices.size(), remap.data());
+    drop_repetitions(result.indices);
+    compact(result);
+    return result;
+}
+
+TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
+    TriangleMesh result{mesh.positions, std::vector<std::uint32_t>(mesh.indices.size())};
+    if (mesh.indices.empty()) {
+        return result;
+    }
+    const float scale = meshopt_simplifyScale(&mesh.positions[0].x, mesh.positions.size(), sizeof(glm::vec3));
+    const std::size_t count = meshopt_simplify(
+        result.indices.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
+        mesh.positions.size(), sizeof(glm::vec3), 0, tolerance_box / std::max(scale, 1e-20F), 0, nullptr);
+    result.indices.resize(count);
+    drop_repetitions(result.indices);
+    compact(result);
+    return result;
+}
+
+SourceMesh as_source(const TriangleMesh& mesh) {
+    SourceMesh source;
+    source.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    source.triangles.reserve(mesh.triangle_count());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        source.triangles.push_back({mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]});
+    }
+    source.triangle_materials.assign(source.triangles.size(), 0);
+    source.materials.resize(1);
+    return source;
+}
+
+} // namespace frustumscreen

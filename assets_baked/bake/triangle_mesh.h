@@ -1,0 +1,43 @@
+/// Plain triangles in the box frame, and what makes them fewer.
+///
+/// Frame    box (longest edge 1); counter-clockwise seen from outside.
+/// Threads  pure; any.
+/// Library  meshoptimizer (Garland & Heckbert 1997 quadrics).
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+struct TriangleMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+
+    [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
+    [[nodiscard]] const glm::vec3& corner(std::size_t triangle, int k) const {
+        return positions[indices[3 * triangle + static_cast<std::size_t>(k)]];
+    }
+    /// Not unit: twice the area long.
+    [[nodiscard]] glm::vec3 area_normal(std::size_t triangle) const {
+        return glm::cross(corner(triangle, 1) - corner(triangle, 0),
+                          corner(triangle, 2) - corner(triangle, 0));
+    }
+};
+
+/// The source's triangles with equal positions shared; degenerate triangles and repetitions (in either
+/// orientation: triangles are two-sided) are dropped.
+[[nodiscard]] TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points);
+
+/// Fewest triangles that meshoptimizer reaches within `tolerance_box`.
+[[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
+
+/// The same triangles as a source without materials, for ray casts against them.
+[[nodiscard]] SourceMesh as_source(const TriangleMesh& mesh);
+
+} // namespace frustumscreen

@@ -1,0 +1,183 @@
+#include "assets_baked/bake/visibility.h"
+
+#include "firmware_host/base/parallel.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+enum Side : std::uint8_t { none = 0, front = 1, back = 2, both = 3 };
+
+/// Integer hash (the finaliser of MurmurHash3), for points that depend on nothing but their number.
+std::uint32_t hashed(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x85EBCA6BU;
+    x ^= x >> 13;
+    x *= 0xC2B2AE35U;
+    x ^= x >> 16;
+    return x;
+}
+float unit_number(std::uint32_t x) {
+    return static_cast<float>(hashed(x) >> 8) / 16777216.0F;
+}
+
+/// Eyes spread over the zone: golden-angle azimuths, elevations even in the sine, distances in turn.
+std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre) {
+    constexpr int count = 1024;
+    constexpr double golden_angle = 2.399963229728653;
+    const double lowest = std::sin(zone.lowest_elevation_deg * std::numbers::pi / 180.0);
+    std::vector<glm::vec3> eyes;
+    for (int k = 0; k < count; ++k) {
+        const double sine =
+            lowest + (1.0 - lowest) * std::pow((k + 0.5) / count, 1.5); // more of the low ones
+        const double cosine = std::sqrt(1.0 - sine * sine);
+        const double azimuth = k * golden_angle;
+        const double distance = k % 3 == 0 ? zone.farthest_box : zone.nearest_box;
+        eyes.push_back(
+            centre +
+            glm::vec3(glm::dvec3(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine) * distance));
+    }
+    return eyes;
+}
+
+/// Sample weights on a triangle: towards the corners and edges first, where a view through a gap begins.
+glm::vec3 sample_weights(std::uint32_t triangle, int k) {
+    static constexpr std::array<glm::vec3, 4> fixed{glm::vec3(1.0F / 3.0F), glm::vec3(0.8F, 0.1F, 0.1F),
+                                                    glm::vec3(0.1F, 0.8F, 0.1F), glm::vec3(0.1F, 0.1F, 0.8F)};
+    if (k < static_cast<int>(fixed.size())) {
+        return fixed[static_cast<std::size_t>(k)];
+    }
+    const float r = std::sqrt(unit_number(triangle * 64U + static_cast<std::uint32_t>(2 * k)));
+    const float s = unit_number(triangle * 64U + static_cast<std::uint32_t>(2 * k + 1));
+    return {1.0F - r, r * (1.0F - s), r * s};
+}
+
+/// Sides of one triangle that some eye sees.
+std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
+                        const std::vector<glm::vec3>& eyes) {
+    constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees
+    constexpr int eyes_per_sample = 96;
+    const glm::vec3 area_normal = mesh.area_normal(triangle);
+    const float twice_area = glm::length(area_normal);
+    if (!(twice_area > 0.0F)) {
+        return none;
+    }
+    const glm::vec3 normal = area_normal / twice_area;
+    // One more sample for each 1e-4 of the box's square: a large triangle may show through a small window.
+    const int samples = 4 + std::min(28, static_cast<int>(twice_area * 5e3F));
+    std::uint8_t seen = none;
+    for (int k = 0; k < samples && seen != both; ++k) {
+        const glm::vec3 w = sample_weights(triangle, k);
+        const glm::vec3 p =
+            mesh.corner(triangle, 0) * w.x + mesh.corner(triangle, 1) * w.y + mesh.corner(triangle, 2) * w.z;
+        const std::uint32_t start = hashed(triangle * 37U + static_cast<std::uint32_t>(k));
+        for (std::uint32_t j = 0; j < eyes_per_sample && seen != both; ++j) {
+            const glm::vec3& eye = eyes[(start + j * 331U) % eyes.size()];
+            const glm::vec3 towards = eye - p;
+            const float facing = glm::dot(towards, normal);
+            const std::uint8_t side = facing > 0.0F ? front : back;
+            if ((seen & side) != 0) {
+                continue;
+            }
+            const glm::vec3 origin = p + normal * (facing > 0.0F ? lift : -lift);
+            const float distance = glm::length(towards);
+            if (!scene.occluded(origin, towards / distance, lift, distance)) {
+                seen = static_cast<std::uint8_t>(seen | side);
+            }
+        }
+    }
+    return seen;
+}
+
+/// A triangle takes on the sides of those that share a vertex with it.
+std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides) {
+    std::vector<std::uint8_t> of_vertex(mesh.positions.size(), none);
+    for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+        of_vertex[mesh.indices[k]] |= sides[k / 3];
+    }
+    std::vector<std::uint8_t> result(sides);
+    for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+        result[k / 3] |= of_vertex[mesh.indices[k]];
+    }
+    return result;
+}
+
+/// Flipped copies have vertices of their own, so that the two sides keep their own normals.
+TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides) {
+    TriangleMesh result{mesh.positions, {}};
+    std::vector<std::uint32_t> twin(mesh.positions.size(), 0xFFFFFFFFU);
+    const auto twin_of = [&](std::uint32_t vertex) {
+        if (twin[vertex] == 0xFFFFFFFFU) {
+            twin[vertex] = static_cast<std::uint32_t>(result.positions.size());
+            result.positions.push_back(mesh.positions[vertex]);
+        }
+        return twin[vertex];
+    };
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const std::array<std::uint32_t, 3> c{mesh.indices[3 * t], mesh.indices[3 * t + 1],
+                                             mesh.indices[3 * t + 2]};
+        if ((sides[t] & front) != 0) {
+            result.indices.insert(result.indices.end(), {c[0], c[1], c[2]});
+        }
+        if ((sides[t] & back) != 0) {
+            result.indices.insert(result.indices.end(), {twin_of(c[0]), twin_of(c[2]), twin_of(c[1])});
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, const ViewingZone& zone) {
+    glm::vec3 low(1e30F);
+    glm::vec3 high(-1e30F);
+    for (const glm::vec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const std::vector<glm::vec3> eyes = eyes_of(zone, (low + high) * 0.5F);
+    std::vector<std::uint8_t> sides(mesh.triangle_count(), none);
+    parallel_for(sides.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            sides[t] = sides_seen(mesh, static_cast<std::uint32_t>(t), scene, eyes);
+        }
+    });
+    return kept(mesh, grown(mesh, sides));
+}
+
+TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
+                                const SourceScene& finer_scene, float tolerance_box) {
+    std::vector<std::uint8_t> sides(mesh.triangle_count(), none);
+    parallel_for(sides.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const glm::vec3 area_normal = mesh.area_normal(t);
+            const float twice_area = glm::length(area_normal);
+            if (!(twice_area > 0.0F)) {
+                continue;
+            }
+            const glm::vec3 normal = area_normal / twice_area;
+            const int samples = 7 + std::min(57, static_cast<int>(twice_area * 5e4F));
+            for (int k = 0; k < samples && sides[t] != both; ++k) {
+                const glm::vec3 w = sample_weights(static_cast<std::uint32_t>(t), k);
+                const glm::vec3 p =
+                    mesh.corner(t, 0) * w.x + mesh.corner(t, 1) * w.y + mesh.corner(t, 2) * w.z;
+                // Look along the normal both ways, so that each side of a thin wall finds its own.
+                for (const float sign : {1.0F, -1.0F}) {
+                    const glm::vec3 origin = p + normal * (sign * tolerance_box);
+                    const SurfaceHit hit = finer_scene.nearest(origin, 4.0F * tolerance_box);
+                    if (hit.hit) {
+                        const glm::vec3 n = finer.area_normal(hit.triangle);
+                        sides[t] |= glm::dot(n, normal) > 0.0F ? front : back;
+                    }
+                }
+            }
+        }
+    });
+    return kept(mesh, sides);
+}
+
+} // namespace frustumscreen

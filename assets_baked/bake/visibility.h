@@ -1,0 +1,34 @@
+/// Which sides of which triangles a visitor can ever see.
+///
+/// Frame    box; the eyes are those of the viewing zone, all the way round (the prop can be turned), from
+///          `lowest_elevation_deg` up to straight above.
+/// Method   sample points on each triangle look for one eye of the zone that sees them; what is found is
+/// grown by the
+///          triangles that share a vertex, so that no picture meets an edge of the kept surface.
+/// Threads  uses all cores; deterministic.
+#pragma once
+
+#include "assets_baked/bake/source_scene.h"
+#include "assets_baked/bake/triangle_mesh.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+/// Where eyes can be, relative to the artifact; generous, since one pack serves every kiosk.
+struct ViewingZone {
+    double lowest_elevation_deg = 3.0; ///< above the table, seen from the prop's centre
+    double nearest_box = 2.0;          ///< distance in box units
+    double farthest_box = 20.0;
+};
+
+/// The triangles of `mesh` whose counter-clockwise side is seen, and for those whose other side is seen a
+/// flipped copy: what is left can be drawn with back faces culled. `scene` is what hides.
+[[nodiscard]] TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene,
+                                         const ViewingZone& zone);
+
+/// The triangles of a coarser `mesh` (with flipped copies) that lie on sides kept in `finer`.
+[[nodiscard]] TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
+                                              const SourceScene& finer_scene, float tolerance_box);
+
+} // namespace frustumscreen

@@ -1,0 +1,52 @@
+# One static library for each room of the house; ARCHITECTURE.md has the map.
+#
+#   frustumscreen_room(<room> SOURCES ... [USES <room>...] [LIBRARIES <target>...])
+#
+# USES are the rooms that this room may include; tests/layers checks every #include against it.
+add_library(frustumscreen_options INTERFACE)
+target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
+target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_definitions(frustumscreen_options INTERFACE
+    GLM_FORCE_RADIANS GLM_ENABLE_EXPERIMENTAL FRUSTUMSCREEN_VERSION="${PROJECT_VERSION}")
+target_compile_options(frustumscreen_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Werror -ffp-contract=off)
+if(FRUSTUMSCREEN_ASAN)
+    target_compile_options(frustumscreen_options INTERFACE
+        -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    target_link_options(frustumscreen_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(FRUSTUMSCREEN_TSAN)
+    target_compile_options(frustumscreen_options INTERFACE -fsanitize=thread)
+    target_link_options(frustumscreen_options INTERFACE -fsanitize=thread)
+endif()
+
+function(frustumscreen_room room)
+    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+    add_library(${room} STATIC ${ROOM_SOURCES})
+    target_link_libraries(${room} PUBLIC frustumscreen_options ${ROOM_USES} ${ROOM_LIBRARIES})
+    set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${room}: ${ROOM_USES}")
+    set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS
+        "${room}=${CMAKE_CURRENT_SOURCE_DIR}")
+endfunction()
+
+function(frustumscreen_program name)
+    cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
+    add_executable(${name} ${PROGRAM_SOURCES})
+    target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
+endfunction()
+
+# A GoogleTest program of one room; working directory is its own build folder.
+function(frustumscreen_test name)
+    cmake_parse_arguments(TEST "" "" "SOURCES;USES;LABELS" ${ARGN})
+    add_executable(${name} ${TEST_SOURCES})
+    target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} GTest::gtest_main)
+    target_compile_definitions(${name} PRIVATE
+        FRUSTUMSCREEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+        FRUSTUMSCREEN_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
+        FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    add_test(NAME ${name} COMMAND ${name})
+    if(TEST_LABELS)
+        set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}")
+    endif()
+endfunction()

@@ -1,0 +1,49 @@
+/// Little-endian numbers out of bytes and into bytes; reading past the end is remembered, never done.
+///
+/// Threads  values; any.
+#pragma once
+
+#include "firmware_host/base/file.h"
+
+#include <bit>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace frustumscreen {
+
+static_assert(std::endian::native == std::endian::little, "files are little-endian; so must the machine be");
+
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    /// The next number, or zero past the end (then `ok` is false for good).
+    template <typename T> [[nodiscard]] T read() {
+        static_assert(std::is_trivially_copyable_v<T>);
+        T value{};
+        if (bytes_.size() < sizeof(T)) {
+            ok_ = false;
+            bytes_ = {};
+            return value;
+        }
+        std::memcpy(&value, bytes_.data(), sizeof(T));
+        bytes_ = bytes_.subspan(sizeof(T));
+        return value;
+    }
+    [[nodiscard]] std::size_t left() const { return bytes_.size(); }
+    [[nodiscard]] bool ok() const { return ok_; }
+
+private:
+    std::span<const std::byte> bytes_;
+    bool ok_ = true;
+};
+
+template <typename T> void append(Bytes& bytes, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t at = bytes.size();
+    bytes.resize(at + sizeof(T));
+    std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,103 @@
+#include "firmware_host/base/file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace frustumscreen {
+
+namespace {
+
+/// An output file under its temporary name; unlinked unless `keep` was reached.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::filesystem::path& target)
+        : path_(target.string() + ".part" + std::to_string(::getpid())),
+          descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        if (descriptor_ >= 0) {
+            ::close(descriptor_);
+            ::unlink(path_.c_str());
+        }
+    }
+
+    [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+    [[nodiscard]] bool write(std::span<const std::byte> bytes) const {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) {
+                continue;
+            }
+            if (written < 0) {
+                return false;
+            }
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        }
+        return ::fsync(descriptor_) == 0;
+    }
+    [[nodiscard]] bool keep_as(const std::filesystem::path& target) {
+        if (::rename(path_.c_str(), target.c_str()) != 0) {
+            return false;
+        }
+        ::close(descriptor_);
+        descriptor_ = -1;
+        return true;
+    }
+
+private:
+    std::string path_;
+    int descriptor_;
+};
+
+std::string system_reason() {
+    return std::strerror(errno);
+}
+
+} // namespace
+
+Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes) {
+    std::error_code status;
+    if (!std::filesystem::exists(path, status)) {
+        return bad_input(path.string() + ": there is no such file");
+    }
+    if (!std::filesystem::is_regular_file(path, status)) {
+        return bad_input(path.string() + ": this is not a regular file");
+    }
+    const std::uintmax_t size = std::filesystem::file_size(path, status);
+    if (status) {
+        return bad_input(path.string() + ": cannot be read: " + status.message());
+    }
+    if (size > limit_bytes) {
+        return bad_input(path.string() + ": " + std::to_string(size) + " bytes; at most " +
+                         std::to_string(limit_bytes) + " are allowed");
+    }
+    std::ifstream stream(path, std::ios::binary);
+    Bytes bytes(static_cast<std::size_t>(size));
+    if (!stream || !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+        return bad_input(path.string() + ": cannot be read: " + system_reason());
+    }
+    return bytes;
+}
+
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    TemporaryFile file(path);
+    if (!file.is_open() || !file.write(bytes) || !file.keep_as(path)) {
+        return bad_input(path.string() + ": cannot be written: " + system_reason());
+    }
+    return {};
+}
+
+std::span<const std::byte> as_bytes(std::string_view text) {
+    return std::as_bytes(std::span<const char>(text.data(), text.size()));
+}
+
+std::string_view as_text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,27 @@
+/// Whole files in, whole files out; an output file appears by rename, complete or not at all.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+using Bytes = std::vector<std::byte>;
+
+/// Errors: not there, not readable, not a regular file, larger than `limit_bytes`.
+[[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path,
+                                      std::uintmax_t limit_bytes = std::uintmax_t{4} << 30);
+
+/// Writes beside `path`, fsyncs, renames over it. On any error nothing is left behind.
+[[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+[[nodiscard]] std::span<const std::byte> as_bytes(std::string_view text);
+[[nodiscard]] std::string_view as_text(std::span<const std::byte> bytes);
+
+} // namespace frustumscreen

@@ -1,0 +1,23 @@
+/// Monotonic time in integer nanoseconds; every clock reading comes in from outside as a parameter.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace frustumscreen {
+
+using Nanoseconds = std::chrono::nanoseconds;
+/// A point on CLOCK_MONOTONIC (or, in a replay, on the recording's own clock).
+using MonotonicTime = std::chrono::time_point<std::chrono::steady_clock, Nanoseconds>;
+
+[[nodiscard]] inline MonotonicTime from_microseconds(std::int64_t microseconds) {
+    return MonotonicTime(std::chrono::microseconds(microseconds));
+}
+[[nodiscard]] inline std::int64_t to_microseconds(MonotonicTime time) {
+    return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
+}
+[[nodiscard]] inline double to_seconds(Nanoseconds duration) {
+    return std::chrono::duration<double>(duration).count();
+}
+
+} // namespace frustumscreen
