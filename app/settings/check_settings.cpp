@@ -1,0 +1,111 @@
+#include "app/settings/check_settings.h"
+
+#include "app/settings/lit_zone.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Gap that must stay between the prop's top and the projector's lens.
+constexpr double least_clearance_m = 0.1;
+/// The projector looks down: the sine of its axis below the horizon is at least this (30 degrees).
+constexpr double least_downward = 0.5;
+
+bool inside(const PropShape& prop, const glm::dvec3& p) {
+    return std::all_of(prop.bounds.begin(), prop.bounds.end(),
+                       [&](const Plane& bound) { return bound.distance(p) <= 0.0; });
+}
+
+class Fitness {
+public:
+    Fitness(const std::string& file, const KeyLines& lines) : file_(file), lines_(lines) {}
+
+    void require(bool well, std::string_view key, const std::string& what) {
+        if (well || error_) {
+            return;
+        }
+        const auto line = lines_.find(key);
+        error_ = located(file_, line != lines_.end() ? line->second : 0, fmt::format("{} {}", key, what));
+    }
+    [[nodiscard]] bool names(std::string_view key) const { return lines_.find(key) != lines_.end(); }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    const std::string& file_;
+    const KeyLines& lines_;
+    std::optional<std::string> error_;
+};
+
+void check_prop(const Settings& settings, Fitness& fitness) {
+    const PropSize& prop = settings.prop;
+    fitness.require(prop.kind != PropKind::Frustum || prop.top_m < prop.base_m, "prop.top_m",
+                    fmt::format("is {}; a frustum's top must be smaller than prop.base_m, {} metres",
+                                prop.top_m, prop.base_m));
+    const double shorter = std::fmin(settings.table.width_m, settings.table.depth_m);
+    fitness.require(prop.base_m <= shorter, "prop.base_m",
+                    fmt::format("is {}; the prop must stand on the table, allowed are at most {} metres",
+                                prop.base_m, shorter));
+}
+
+void check_projector(const Settings& settings, Fitness& fitness) {
+    const RigidTransform& pose = settings.projector.table_from_projector;
+    const std::string_view position = fitness.names("projector.table_from_projector")
+                                          ? "projector.table_from_projector"
+                                          : "projector.position_m";
+    const double least_height = settings.prop.height_m + least_clearance_m;
+    fitness.require(
+        pose.translation.z >= least_height, position,
+        fmt::format("is {} metres above the table; allowed are at least {}, the prop's height and {}",
+                    pose.translation.z, least_height, least_clearance_m));
+    const double downward = -pose.direction({0, 0, 1}).z;
+    fitness.require(
+        downward >= least_downward, position,
+        fmt::format("looks {:.1f} degrees below the horizon; allowed are 30 to 90, down at the table",
+                    glm::degrees(std::asin(std::clamp(downward, -1.0, 1.0)))));
+    fitness.require(!picture_on_table(settings, 0.0).empty(), position,
+                    "throws its picture beside the table; aim it at the table (0, 0, 0)");
+}
+
+void check_eye(const Settings& settings, Fitness& fitness) {
+    const glm::dvec3& eye = settings.eye.default_m;
+    fitness.require(eye.z > 0.0, "eye.default_m",
+                    fmt::format("is {} metres above the table; allowed are heights above 0", eye.z));
+    fitness.require(!inside(make_prop(settings.prop), eye), "eye.default_m",
+                    "lies inside the prop; move it to where a visitor's eyes are");
+    fitness.require(settings.eye.nearest_m < settings.eye.farthest_m, "eye.nearest_m",
+                    fmt::format("is {}; allowed are distances below eye.farthest_m, {} metres",
+                                settings.eye.nearest_m, settings.eye.farthest_m));
+}
+
+void check_devices(const Settings& settings, Fitness& fitness) {
+    fitness.require(settings.tracker.kind != TrackerKind::Replay || !settings.tracker.poses.empty(),
+                    "tracker.kind", "is \"replay\"; it needs tracker.poses, the pose file to replay");
+    const auto& script = settings.panel.script;
+    fitness.require(
+        std::is_sorted(script.begin(), script.end(),
+                       [](const ScriptedPress& a, const ScriptedPress& b) { return a.at_s < b.at_s; }),
+        "panel.script", "goes back in time; sort it by at_s");
+    fitness.require(script.empty() || settings.panel.repeat_s == 0.0 ||
+                        settings.panel.repeat_s > script.back().at_s,
+                    "panel.repeat_s",
+                    fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds",
+                                settings.panel.repeat_s, script.empty() ? 0.0 : script.back().at_s));
+}
+
+} // namespace
+
+std::optional<std::string> unfit(const Settings& settings, const std::string& file, const KeyLines& lines) {
+    Fitness fitness(file, lines);
+    check_prop(settings, fitness);
+    check_projector(settings, fitness);
+    check_eye(settings, fitness);
+    check_devices(settings, fitness);
+    return fitness.error();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// Fitness of settings that are right by themselves: do they make an exhibit together?
+///
+/// Errors   one line, with the line of the key where the file names it; nothing if all is well.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/settings/settings.h"
+#include "app/settings/table_reader.h"
+
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+[[nodiscard]] std::optional<std::string> unfit(const Settings& settings, const std::string& file,
+                                               const KeyLines& lines);
+
+} // namespace frustumscreen

@@ -1,0 +1,108 @@
+#include "app/settings/config_json.h"
+
+#include "app/settings/lit_zone.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list_of(const glm::dvec2& v) {
+    return {v.x, v.y};
+}
+Json list_of(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json list_of(const glm::dmat4& matrix) {
+    Json list = Json::array();
+    for (int k = 0; k < 16; ++k) {
+        list.push_back(matrix[k / 4][k % 4]);
+    }
+    return list;
+}
+
+Json list_of(const std::vector<glm::dvec2>& polygon) {
+    Json list = Json::array();
+    for (const glm::dvec2& corner : polygon) {
+        list.push_back(list_of(corner));
+    }
+    return list;
+}
+
+Json projector_json(const ProjectorSettings& projector) {
+    const Pinhole& p = projector.pinhole;
+    return {{"width", p.width},
+            {"height", p.height},
+            {"fx", p.fx},
+            {"fy", p.fy},
+            {"cx", p.cx},
+            {"cy", p.cy},
+            {"table_from_projector", list_of(projector.table_from_projector.matrix())},
+            {"refresh_hz", projector.refresh_hz}};
+}
+
+Json lit_zone_json(const Settings& settings) {
+    const LitZone zone = lit_zone(settings);
+    return {
+        {"least_sine_of_light", least_sine_of_light},
+        {"any_eye",
+         {{"area_m2", area_of(zone.any_eye)},
+          {"rectangle_centre_m", list_of(zone.any_eye_rectangle.centre_m)},
+          {"rectangle_half_m", list_of(zone.any_eye_rectangle.half_m)},
+          {"polygon_m", list_of(zone.any_eye)}}},
+        {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}}};
+}
+
+Json tracker_json(const TrackerSettings& tracker) {
+    return {{"kind", tracker.kind == TrackerKind::Replay ? "replay" : "simulated"},
+            {"seed", tracker.seed},
+            {"poses", tracker.poses.string()},
+            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())}};
+}
+
+Json panel_json(const PanelSettings& panel) {
+    Json script = Json::array();
+    for (const ScriptedPress& press : panel.script) {
+        script.push_back({{"at_s", press.at_s}, {"button", press.button}});
+    }
+    return {{"script", script}, {"repeat_s", panel.repeat_s}};
+}
+
+Json exhibit_json(const ExhibitSettings& exhibit) {
+    Json packs = Json::array();
+    for (const auto& pack : exhibit.packs) {
+        packs.push_back(pack.string());
+    }
+    return {{"packs", packs}, {"language", exhibit.language}, {"caption_height_m", exhibit.caption_height_m}};
+}
+
+} // namespace
+
+std::string config_json(const CheckedSettings& checked) {
+    const Settings& settings = *checked;
+    Json json;
+    json["projector"] = projector_json(settings.projector);
+    json["prop"] = {{"kind", std::string(name_of(settings.prop.kind))},
+                    {"base_m", settings.prop.base_m},
+                    {"top_m", settings.prop.top_m},
+                    {"height_m", settings.prop.height_m}};
+    json["table"] = {{"width_m", settings.table.width_m}, {"depth_m", settings.table.depth_m}};
+    json["eye_default_m"] = list_of(settings.eye.default_m);
+    json["eye_zone"] = {{"lowest_elevation_deg", settings.eye.lowest_elevation_deg},
+                        {"nearest_m", settings.eye.nearest_m},
+                        {"farthest_m", settings.eye.farthest_m}};
+    json["lit_zone"] = lit_zone_json(settings);
+    json["tracker"] = tracker_json(settings.tracker);
+    json["panel"] = panel_json(settings.panel);
+    json["exhibit"] = exhibit_json(settings.exhibit);
+    // `replace`: a path's bytes need not be UTF-8, and a report must not fail over that.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace frustumscreen

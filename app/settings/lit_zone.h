@@ -1,0 +1,54 @@
+/// The zone of the table where the prop can stand so that every face the visitor sees is lit.
+///
+/// A face is lit where the projector's lens lies above the face's plane, by at least `least_sine` times its
+/// distance from the prop (below that the light only grazes it), and all four corners lie in the picture. The
+/// prop is convex, so no face shades another. The prop stands upright with its whole bottom on the table top.
+///
+/// Frames   table T, metres; polygons are counter-clockwise, empty if there is no such place.
+/// Threads  pure; any.
+/// Method   a side face's azimuth enters every condition through one cosine, so 'at any yaw' is the least
+///          cosine over the arc of azimuths that the eye sees: exact, nothing is sampled.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "app/settings/settings.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace frustumscreen {
+
+/// About 2 degrees: a face lit at less gets under a tenth of what the steep faces usually get.
+inline constexpr double least_sine_of_light = 0.035;
+
+struct Rectangle {
+    glm::dvec2 centre_m{0.0};
+    glm::dvec2 half_m{0.0}; ///< along X and Y; zero if there is none
+};
+
+struct LitZone {
+    /// Places of the prop's centre at which every face is lit at every yaw, for eyes anywhere. Convex.
+    std::vector<glm::dvec2> any_eye;
+    /// The largest upright rectangle in it about its centroid: where a simulated visitor may slide the prop.
+    Rectangle any_eye_rectangle;
+    /// Places at which every face that the default eye sees is lit at every yaw: the outline as seen from its
+    /// middle, at every degree at least.
+    std::vector<glm::dvec2> default_eye;
+};
+
+[[nodiscard]] LitZone lit_zone(const Settings& settings);
+
+/// For one pose, upright or not.
+[[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
+                                          const glm::dvec3& eye);
+/// For the prop upright at `place`, at every yaw.
+[[nodiscard]] bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
+                                                     const glm::dvec3& eye);
+
+/// The part of the table, lifted to height `z`, that the picture covers. Convex.
+[[nodiscard]] std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z);
+
+[[nodiscard]] double area_of(const std::vector<glm::dvec2>& polygon);
+
+} // namespace frustumscreen

@@ -1,0 +1,313 @@
+#include "app/settings/table_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t longest_text = 4096;
+
+std::string found(const toml::node& node) {
+    if (const auto* text = node.as_string()) {
+        return fmt::format("the text \"{}\"", printable(text->get(), 40));
+    }
+    if (const auto* integer = node.as_integer()) {
+        return fmt::format("{}", integer->get());
+    }
+    if (const auto* number = node.as_floating_point()) {
+        return fmt::format("{}", number->get());
+    }
+    if (const auto* boolean = node.as_boolean()) {
+        return boolean->get() ? "true" : "false";
+    }
+    if (const auto* array = node.as_array()) {
+        return fmt::format("a list of {}", array->size());
+    }
+    return node.is_table() ? "a table" : "a date or a time";
+}
+
+/// Levenshtein's distance.
+std::size_t edits(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row.back();
+}
+
+/// How far a mistyped key is from one that there is; a shortened one is near.
+std::size_t distance(std::string_view mistyped, std::string_view key) {
+    const bool shortened =
+        key.substr(0, mistyped.size()) == mistyped || mistyped.substr(0, key.size()) == key;
+    return shortened ? 1 : edits(mistyped, key);
+}
+
+std::uint32_t line_of(const toml::node& node) {
+    return static_cast<std::uint32_t>(node.source().begin.line);
+}
+
+} // namespace
+
+void ReadState::refuse(std::uint32_t line, std::string_view what) {
+    if (!error) {
+        error = located(file, line, what);
+    }
+}
+
+std::string located(std::string_view file, std::uint32_t line, std::string_view what) {
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : fmt::format("{}: {}", file, what);
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+    std::string result;
+    for (const char c : text.substr(0, limit)) {
+        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        result += control ? '?' : c;
+    }
+    if (text.size() > limit) {
+        // Not in the middle of a UTF-8 character.
+        while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xC0) == 0x80) {
+            result.pop_back();
+        }
+        if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0x80) {
+            result.pop_back();
+        }
+        result += "...";
+    }
+    return result;
+}
+
+std::string allowed(const Range& range) {
+    return fmt::format("allowed are {} to {}{}{}", range.low, range.high, range.unit.empty() ? "" : " ",
+                       range.unit);
+}
+
+TableReader::TableReader(ReadState& state, const toml::table* table, std::string name, std::uint32_t line)
+    : state_(&state), table_(table), name_(std::move(name)), line_(line) {}
+
+std::string TableReader::full_name(std::string_view key) const {
+    return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
+}
+
+bool TableReader::has(std::string_view key) const {
+    return table_ != nullptr && table_->contains(key);
+}
+
+const toml::node* TableReader::take(std::string_view key) {
+    known_.emplace_back(key);
+    const toml::node* node = table_ != nullptr ? table_->get(key) : nullptr;
+    if (node != nullptr) {
+        state_->lines[full_name(key)] = line_of(*node);
+    }
+    return state_->error ? nullptr : node;
+}
+
+void TableReader::refuse(std::string_view key, std::string_view what) {
+    const std::string name = full_name(key);
+    const auto line = state_->lines.find(name);
+    state_->refuse(line != state_->lines.end() ? line->second : line_, name + " " + std::string(what));
+}
+
+bool TableReader::number_of(const toml::node& node, const std::string& name, double& value,
+                            const Range& range) {
+    double read = std::numeric_limits<double>::quiet_NaN();
+    if (const auto* integer = node.as_integer()) {
+        read = static_cast<double>(integer->get());
+    } else if (const auto* number = node.as_floating_point()) {
+        read = number->get();
+    }
+    if (!(read >= range.low && read <= range.high)) {
+        state_->refuse(line_of(node), fmt::format("{} is {}; {}", name, found(node), allowed(range)));
+        return false;
+    }
+    value = read;
+    return true;
+}
+
+bool TableReader::text_of(const toml::node& node, const std::string& name, std::string& value) {
+    const auto* text = node.as_string();
+    if (text == nullptr || text->get().empty() || text->get().size() > longest_text ||
+        text->get().find('\0') != std::string::npos) {
+        state_->refuse(line_of(node), fmt::format("{} is {}; allowed is a text in quotes of 1 to {} bytes",
+                                                  name, found(node), longest_text));
+        return false;
+    }
+    value = text->get();
+    return true;
+}
+
+const toml::array* TableReader::list_of(std::string_view key, std::size_t least, std::size_t most,
+                                        std::string_view allowed_items) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return nullptr;
+    }
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->size() < least || array->size() > most) {
+        refuse(key, fmt::format("is {}; allowed is a list of {}", found(*node), allowed_items));
+        return nullptr;
+    }
+    return array;
+}
+
+void TableReader::number(std::string_view key, double& value, const Range& range) {
+    if (const toml::node* node = take(key)) {
+        number_of(*node, full_name(key), value, range);
+    }
+}
+
+void TableReader::integer(std::string_view key, int& value, int low, int high) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    const auto* integer = node->as_integer();
+    if (integer == nullptr || integer->get() < low || integer->get() > high) {
+        refuse(key, fmt::format("is {}; allowed are the whole numbers {} to {}", found(*node), low, high));
+        return;
+    }
+    value = static_cast<int>(integer->get());
+}
+
+void TableReader::integer(std::string_view key, std::uint64_t& value) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    const auto* integer = node->as_integer();
+    if (integer == nullptr || integer->get() < 0) {
+        refuse(key, fmt::format("is {}; allowed are the whole numbers from 0 to {}", found(*node),
+                                std::numeric_limits<std::int64_t>::max()));
+        return;
+    }
+    value = static_cast<std::uint64_t>(integer->get());
+}
+
+void TableReader::text(std::string_view key, std::string& value) {
+    if (const toml::node* node = take(key)) {
+        text_of(*node, full_name(key), value);
+    }
+}
+
+void TableReader::texts(std::string_view key, std::vector<std::string>& values, std::size_t most) {
+    const toml::array* array = list_of(key, 0, most, fmt::format("at most {} texts", most));
+    if (array == nullptr) {
+        return;
+    }
+    std::vector<std::string> read(array->size());
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        if (!text_of(*array->get(i), fmt::format("{}[{}]", full_name(key), i), read[i])) {
+            return;
+        }
+    }
+    values = std::move(read);
+}
+
+void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& range) {
+    const toml::array* array = list_of(key, 3, 3, "3 numbers, [x, y, z]");
+    if (array == nullptr) {
+        return;
+    }
+    glm::dvec3 read(0.0);
+    for (int i = 0; i < 3; ++i) {
+        if (!number_of(*array->get(static_cast<std::size_t>(i)), fmt::format("{}[{}]", full_name(key), i),
+                       read[i], range)) {
+            return;
+        }
+    }
+    value = read;
+}
+
+void TableReader::matrix(std::string_view key, glm::dmat4& value, const Range& range) {
+    const toml::array* array = list_of(key, 16, 16, "16 numbers, column by column");
+    if (array == nullptr) {
+        return;
+    }
+    glm::dmat4 read(0.0);
+    for (int i = 0; i < 16; ++i) {
+        if (!number_of(*array->get(static_cast<std::size_t>(i)), fmt::format("{}[{}]", full_name(key), i),
+                       read[i / 4][i % 4], range)) {
+            return;
+        }
+    }
+    value = read;
+}
+
+void TableReader::choice(std::string_view key, int& index, std::span<const std::string_view> words) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    const auto* text = node->as_string();
+    const auto word = text != nullptr ? std::find(words.begin(), words.end(), text->get()) : words.end();
+    if (word == words.end()) {
+        refuse(key, fmt::format("is {}; allowed are \"{}\"", found(*node), fmt::join(words, "\", \"")));
+        return;
+    }
+    index = static_cast<int>(word - words.begin());
+}
+
+TableReader TableReader::table(std::string_view key) {
+    const toml::node* node = take(key);
+    const toml::table* table = node != nullptr ? node->as_table() : nullptr;
+    if (node != nullptr && table == nullptr) {
+        refuse(key, fmt::format("is {}; allowed is a table, [{}]", found(*node), full_name(key)));
+    }
+    return {*state_, table, full_name(key), node != nullptr ? line_of(*node) : 0};
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key, std::size_t most) {
+    std::vector<TableReader> readers;
+    const toml::array* array = list_of(key, 0, most, fmt::format("at most {} tables {{ ... }}", most));
+    for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+        const toml::node& node = *array->get(i);
+        const std::string name = fmt::format("{}[{}]", full_name(key), i);
+        if (!node.is_table()) {
+            state_->refuse(line_of(node),
+                           fmt::format("{} is {}; allowed is a table {{ ... }}", name, found(node)));
+        }
+        readers.emplace_back(*state_, node.as_table(), name, line_of(node));
+    }
+    return readers;
+}
+
+void TableReader::finish() {
+    if (table_ == nullptr || state_->error) {
+        return;
+    }
+    const toml::key* left_over = nullptr;
+    for (const auto& [key, node] : *table_) {
+        const bool known = std::find(known_.begin(), known_.end(), key.str()) != known_.end();
+        if (!known && (left_over == nullptr || key.source().begin.line < left_over->source().begin.line)) {
+            left_over = &key;
+        }
+    }
+    if (left_over == nullptr) {
+        return;
+    }
+    const std::string key = printable(left_over->str());
+    const auto nearest =
+        std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
+            return distance(key, a) < distance(key, b);
+        });
+    const std::string advice = nearest != known_.end()
+                                   ? fmt::format("; the nearest allowed key is {}", full_name(*nearest))
+                                   : std::string();
+    state_->refuse(static_cast<std::uint32_t>(left_over->source().begin.line),
+                   fmt::format("{} is not a known key{}", full_name(key), advice));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,35 @@
+#include "app/tracking/pose_frames.h"
+
+#include <map>
+
+namespace frustumscreen {
+
+std::vector<Situation> pose_frames(std::span<const PoseSample> samples, const glm::dvec3& default_eye_m) {
+    std::map<MonotonicTime, Situation> frames;
+    for (const PoseSample& sample : samples) {
+        if (sample.ok && sample.station == prop_station) {
+            Situation frame;
+            frame.table_from_prop = {sample.rotation, sample.position_m};
+            frame.eye_m = default_eye_m;
+            frame.time = sample.time;
+            frame.prop_known = true;
+            frames.emplace(sample.time, frame);
+        }
+    }
+    for (const PoseSample& sample : samples) {
+        const auto frame = frames.find(sample.time);
+        if (sample.ok && sample.station == head_station && frame != frames.end() &&
+            !frame->second.head_known) {
+            frame->second.eye_m = sample.position_m;
+            frame->second.head_known = true;
+        }
+    }
+    std::vector<Situation> result;
+    result.reserve(frames.size());
+    for (const auto& [time, frame] : frames) {
+        result.push_back(frame);
+    }
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,56 @@
+/// What is the case on the table now: where the prop stands and where the visitor's eye is.
+///
+/// Frames   table T, metres. Samples of a device that reports in its own frame are registered on the way in.
+/// Time     a sample counts from its own time on; `at(now)` asks for any later time.
+/// Threads  values; one caller.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/tracker/tracker.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+
+namespace frustumscreen {
+
+struct Situation {
+    RigidTransform table_from_prop;
+    glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
+    MonotonicTime time;      ///< for which this holds
+    bool prop_known = false; ///< a usable pose of the prop was seen, and it is not too old
+    bool head_known = false; ///< else `eye_m` is the default eye
+    Nanoseconds prop_age{0}; ///< of the pose used
+};
+
+struct SituationLimits {
+    Nanoseconds oldest_prop = std::chrono::seconds(1);
+    Nanoseconds oldest_head = std::chrono::seconds(1);
+};
+
+class SituationTracker {
+public:
+    /// `table_from_device`: the registration, identity for samples in table coordinates.
+    SituationTracker(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
+                     const SituationLimits& limits = {});
+
+    /// Samples with ok = false, of other stations, or older than the last one of their station change
+    /// nothing.
+    void take(const PoseSample& sample);
+    /// The latest pose, neither filtered nor predicted.
+    [[nodiscard]] Situation at(MonotonicTime now) const;
+
+private:
+    struct Latest {
+        RigidTransform table_from_station;
+        MonotonicTime time;
+    };
+
+    RigidTransform table_from_device_;
+    glm::dvec3 default_eye_m_;
+    SituationLimits limits_;
+    std::optional<Latest> prop_;
+    std::optional<Latest> head_;
+};
+
+} // namespace frustumscreen

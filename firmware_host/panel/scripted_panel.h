@@ -1,0 +1,34 @@
+/// A panel whose buttons are pressed by a script.
+///
+/// Time     presses count from `start`; with a `repeat` above zero the script begins again after that long,
+///          which must be later than its last press.
+/// Threads  one caller.
+#pragma once
+
+#include "firmware_host/panel/panel.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+struct PanelPress {
+    Nanoseconds at{0};
+    int button = 0;
+};
+
+class ScriptedPanel final : public Panel {
+public:
+    /// `script` in ascending time.
+    ScriptedPanel(std::vector<PanelPress> script, Nanoseconds repeat, MonotonicTime start);
+
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
+    [[nodiscard]] std::string name() const override { return "scripted"; }
+
+private:
+    std::vector<PanelPress> script_;
+    Nanoseconds repeat_;
+    MonotonicTime round_start_;
+    std::size_t next_ = 0;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,37 @@
+#include "firmware_host/tracker/replay_tracker.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat)
+    : recording_(std::move(samples)) {
+    if (recording_.empty()) {
+        return;
+    }
+    std::stable_sort(recording_.begin(), recording_.end(),
+                     [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; });
+    shift_ = start - recording_.front().time;
+    if (repeat) {
+        // One mean step after the last sample; a single pose comes once a second.
+        const Nanoseconds span = recording_.back().time - recording_.front().time;
+        const auto steps = static_cast<Nanoseconds::rep>(std::max<std::size_t>(recording_.size() - 1, 1));
+        length_ = span > Nanoseconds::zero() ? span + std::max(span / steps, Nanoseconds(1))
+                                             : std::chrono::seconds(1);
+    }
+}
+
+Result<void> ReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
+    while (next_ < recording_.size() && recording_[next_].time + shift_ <= now) {
+        PoseSample sample = recording_[next_];
+        sample.time += shift_;
+        samples.push_back(sample);
+        if (++next_ == recording_.size() && length_ > Nanoseconds::zero()) {
+            next_ = 0;
+            shift_ += length_;
+        }
+    }
+    return {};
+}
+
+} // namespace frustumscreen

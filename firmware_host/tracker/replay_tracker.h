@@ -1,0 +1,28 @@
+/// A tracker that replays poses, normally of a pose file, at the speed they were taken.
+///
+/// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
+/// end. Threads  one caller.
+#pragma once
+
+#include "firmware_host/tracker/tracker.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+class ReplayTracker final : public Tracker {
+public:
+    /// Samples in any order; they are sorted by time.
+    ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat);
+
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
+    [[nodiscard]] std::string name() const override { return "replay"; }
+
+private:
+    std::vector<PoseSample> recording_;
+    Nanoseconds shift_{0};  ///< from the recording's clock to ours
+    Nanoseconds length_{0}; ///< of one round; 0 = played once
+    std::size_t next_ = 0;
+};
+
+} // namespace frustumscreen

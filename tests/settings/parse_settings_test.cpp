@@ -1,0 +1,140 @@
+#include "tests/settings/settings_text.h"
+
+#include <filesystem>
+
+namespace frustumscreen {
+namespace {
+
+void expect_same_pose(const RigidTransform& a, const RigidTransform& b) {
+    for (const glm::dvec3& p :
+         {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
+        EXPECT_LT(glm::distance(a.point(p), b.point(p)), 1e-12);
+    }
+}
+
+TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
+    const Settings defaults;
+    const Settings shipped = parsed(shipped_text());
+    EXPECT_EQ(shipped.projector.pinhole.width, defaults.projector.pinhole.width);
+    EXPECT_EQ(shipped.projector.pinhole.height, defaults.projector.pinhole.height);
+    EXPECT_NEAR(shipped.projector.pinhole.fx, defaults.projector.pinhole.fx, 1e-9);
+    EXPECT_NEAR(shipped.projector.pinhole.fy, defaults.projector.pinhole.fy, 1e-9);
+    EXPECT_EQ(shipped.projector.pinhole.cx, defaults.projector.pinhole.cx);
+    EXPECT_EQ(shipped.projector.pinhole.cy, defaults.projector.pinhole.cy);
+    EXPECT_EQ(shipped.projector.refresh_hz, defaults.projector.refresh_hz);
+    expect_same_pose(shipped.projector.table_from_projector, defaults.projector.table_from_projector);
+    EXPECT_EQ(shipped.prop.kind, defaults.prop.kind);
+    EXPECT_EQ(shipped.prop.base_m, defaults.prop.base_m);
+    EXPECT_EQ(shipped.prop.top_m, defaults.prop.top_m);
+    EXPECT_EQ(shipped.prop.height_m, defaults.prop.height_m);
+    EXPECT_EQ(shipped.table.width_m, defaults.table.width_m);
+    EXPECT_EQ(shipped.table.depth_m, defaults.table.depth_m);
+    EXPECT_EQ(shipped.eye.default_m, defaults.eye.default_m);
+    EXPECT_EQ(shipped.eye.lowest_elevation_deg, defaults.eye.lowest_elevation_deg);
+    EXPECT_EQ(shipped.eye.nearest_m, defaults.eye.nearest_m);
+    EXPECT_EQ(shipped.eye.farthest_m, defaults.eye.farthest_m);
+    EXPECT_EQ(shipped.tracker.kind, defaults.tracker.kind);
+    EXPECT_EQ(shipped.tracker.seed, defaults.tracker.seed);
+    EXPECT_EQ(shipped.exhibit.language, defaults.exhibit.language);
+    EXPECT_EQ(shipped.exhibit.caption_height_m, defaults.exhibit.caption_height_m);
+}
+
+TEST(Settings, AnEmptyFileIsTheDefaults) {
+    const Settings settings = parsed("");
+    EXPECT_NEAR(settings.projector.pinhole.fx, Settings().projector.pinhole.fx, 1e-9);
+    expect_same_pose(settings.projector.table_from_projector, Settings().projector.table_from_projector);
+}
+
+/// Pixel of a table point, by the pinhole of the settings.
+glm::dvec2 pixel_of(const Settings& settings, const glm::dvec3& table_point) {
+    const auto pixel = settings.projector.pinhole.pixel(
+        settings.projector.table_from_projector.inverse().point(table_point));
+    EXPECT_TRUE(pixel);
+    return pixel.value_or(glm::dvec2(-1.0));
+}
+
+TEST(Settings, TheShippedPictureExactlyCoversTheTableWithTheFarSideOnTop) {
+    const Settings settings = parsed(shipped_text());
+    EXPECT_LT(glm::distance(pixel_of(settings, {-0.4, 0.25, 0}), glm::dvec2(0, 0)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, 0.25, 0}), glm::dvec2(1280, 0)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, -0.25, 0}), glm::dvec2(1280, 800)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0, 0, 0.5}), glm::dvec2(640, 400)), 1e-9);
+}
+
+TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
+    const auto loaded = load_settings(FRUSTUMSCREEN_SOURCE_DIR "/config/near.toml");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const Settings& near = **loaded;
+    const double half = near.prop.base_m / 2;
+    const glm::dvec2 side = glm::abs(pixel_of(near, {half, half, 0}) - pixel_of(near, {-half, -half, 0}));
+    EXPECT_NEAR(side.x * side.y / (1280.0 * 800.0), 0.25, 0.01);
+    EXPECT_EQ(near.prop.base_m, Settings().prop.base_m);
+}
+
+TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
+    EXPECT_EQ(parsed("[table]\nwidth_m = 1\n").table.width_m, 1.0);
+}
+
+TEST(Settings, FocalLengthsAndLensShiftAreTakenAsTheyStand) {
+    const Settings settings =
+        parsed("[projector]\nwidth = 1000\nheight = 500\nfx = 1500\nfy = 1400\ncx = 480.5\ncy = 600\n");
+    const Pinhole& p = settings.projector.pinhole;
+    EXPECT_EQ(p.width, 1000);
+    EXPECT_EQ(p.height, 500);
+    EXPECT_EQ(p.fx, 1500.0);
+    EXPECT_EQ(p.fy, 1400.0);
+    EXPECT_EQ(p.cx, 480.5);
+    EXPECT_EQ(p.cy, 600.0);
+}
+
+TEST(Settings, TheAimLandsInThePrincipalPointAndThePictureStandsUpright) {
+    const Settings settings = parsed("[projector]\nposition_m = [0.3, 0.4, 1.0]\naim_m = [0.1, 0.0, 0.0]\n");
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.1, 0, 0}), glm::dvec2(640, 400)), 1e-9);
+    EXPECT_NEAR(pixel_of(settings, {0.1, 0.05, 0}).x, pixel_of(settings, {0.1, -0.05, 0}).x, 30.0);
+    EXPECT_LT(pixel_of(settings, {0.1, 0.05, 0}).y, 400.0);
+    EXPECT_GT(pixel_of(settings, {0.15, 0, 0}).x, 640.0);
+}
+
+TEST(Settings, RollTurnsThePictureClockwiseAsTheProjectorSeesIt) {
+    const Settings settings = parsed("[projector]\nroll_deg = 90\n");
+    // The picture's right edge now lies where its bottom was: at the visitor.
+    EXPECT_GT(pixel_of(settings, {0, -0.1, 0}).x, 640.0 + 100.0);
+    EXPECT_LT(pixel_of(settings, {0.1, 0, 0}).y, 400.0 - 100.0);
+}
+
+TEST(Settings, TheTwoWaysToPlaceTheProjectorAgree) {
+    const Settings by_matrix = parsed("[projector]\ntable_from_projector = "
+                                      "[1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0.05,0.02,1.3,1]\n");
+    const Settings by_aim = parsed("[projector]\nposition_m = [0.05, 0.02, 1.3]\n");
+    expect_same_pose(by_matrix.projector.table_from_projector, by_aim.projector.table_from_projector);
+}
+
+TEST(Settings, ACubesEdgesAreAllTheSame) {
+    const Settings settings = parsed("[prop]\nkind = \"cube\"\nbase_m = 0.12\n");
+    EXPECT_EQ(settings.prop.kind, PropKind::Cube);
+    EXPECT_EQ(settings.prop.top_m, 0.12);
+    EXPECT_EQ(settings.prop.height_m, 0.12);
+}
+
+TEST(Settings, PathsAreRelativeToTheSettingsFile) {
+    const Settings settings = parsed("[tracker]\nkind = \"replay\"\nposes = \"walk.csv\"\n"
+                                     "[exhibit]\npacks = [\"../a.fspack\", \"/b.fspack\"]\n");
+    EXPECT_EQ(settings.tracker.kind, TrackerKind::Replay);
+    EXPECT_EQ(settings.tracker.poses, std::filesystem::path("set/walk.csv"));
+    ASSERT_EQ(settings.exhibit.packs.size(), 2U);
+    EXPECT_EQ(settings.exhibit.packs[0], std::filesystem::path("a.fspack"));
+    EXPECT_EQ(settings.exhibit.packs[1], std::filesystem::path("/b.fspack"));
+}
+
+TEST(Settings, TheScriptIsReadInOrder) {
+    const Settings settings =
+        parsed("[panel]\nscript = [{at_s = 1, button = 0}, {at_s = 2.5}]\nrepeat_s = 4\n");
+    ASSERT_EQ(settings.panel.script.size(), 2U);
+    EXPECT_EQ(settings.panel.script[0].button, 0);
+    EXPECT_EQ(settings.panel.script[1].at_s, 2.5);
+    EXPECT_EQ(settings.panel.script[1].button, 1);
+    EXPECT_EQ(settings.panel.repeat_s, 4.0);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,152 @@
+#include "tests/settings/settings_text.h"
+
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+TEST(Refusals, NameFileLineKeyFoundAndAllowed) {
+    EXPECT_EQ(refusal("[prop]\n\n# a comment\nbase_m = -0.1\n"),
+              "set/kiosk.toml:4: prop.base_m is -0.1; allowed are 0.02 to 2 metres");
+    EXPECT_EQ(refusal("[eye]\ndefault_m = [0,\n 0.1,\n 1e9]\n"),
+              "set/kiosk.toml:4: eye.default_m[2] is 1000000000; allowed are -10 to 10 metres");
+}
+
+/// Each text, and words that its refusal must hold.
+using Expectations = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+void expect_refusals(const Expectations& expectations) {
+    for (const auto& [text, words] : expectations) {
+        const std::string message = refusal(text);
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        for (const std::string& word : words) {
+            EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' not in: " << message;
+        }
+    }
+}
+
+TEST(Refusals, OfWrongTypes) {
+    expect_refusals({
+        {"[prop]\nbase_m = \"0.16\"", {":2: prop.base_m is the text \"0.16\"", "0.02 to 2 metres"}},
+        {"[prop]\nbase_m = true", {":2: prop.base_m is true"}},
+        {"[prop]\nbase_m = [0.16]", {":2: prop.base_m is a list of 1"}},
+        {"[prop]\nbase_m = 1979-05-27", {":2: prop.base_m is a date"}},
+        {"[prop]\nbase_m.x = 1", {":2: prop.base_m is a table"}},
+        {"[projector]\nwidth = 1280.0", {":2: projector.width is 1280", "whole numbers 64 to 8192"}},
+        {"[tracker]\nseed = -1", {":2: tracker.seed is -1", "from 0"}},
+        {"prop = 5", {":1: prop is 5; allowed is a table, [prop]"}},
+        {"[[prop]]\nbase_m = 1", {"prop is a list of 1"}},
+        {"[eye]\ndefault_m = [0, 1]", {":2: eye.default_m is a list of 2", "[x, y, z]"}},
+        {"[eye]\ndefault_m = [0, 1, \"2\"]", {":2: eye.default_m[2] is the text"}},
+        {"[exhibit]\npacks = \"a.fspack\"", {":2: exhibit.packs is the text"}},
+        {"[exhibit]\npacks = [\"\"]", {":2: exhibit.packs[0] is the text \"\""}},
+        {"[exhibit]\nlanguage = 5", {":2: exhibit.language is 5"}},
+        {"[panel]\nscript = [5]", {":2: panel.script[0] is 5"}},
+    });
+}
+
+TEST(Refusals, OfNumbersThatAreNone) {
+    for (const std::string number : {"nan", "-nan", "inf", "-inf"}) {
+        expect_refusals({
+            {"[prop]\nbase_m = " + number, {":2: prop.base_m is "}},
+            {"[eye]\ndefault_m = [0, " + number + ", 1]", {":2: eye.default_m[1] is "}},
+            {"[projector]\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0," + number + ",1]",
+             {":2: projector.table_from_projector[14] is "}},
+        });
+    }
+}
+
+TEST(Refusals, OfUnknownKeysNameTheNearest) {
+    expect_refusals({
+        {"[prop]\nbase = 0.1", {":2: prop.base is not a known key; the nearest allowed key is prop.base_m"}},
+        {"[projctor]\nwidth = 640",
+         {":1: projctor is not a known key; the nearest allowed key is projector"}},
+        {"[projector]\nthrow = 1.5", {":2: projector.throw is not", "projector.throw_ratio"}},
+        {"[panel]\nscript = [{at = 1}]", {":2: panel.script[0].at is not", "panel.script[0].at_s"}},
+        {"[exhibit]\nlang = \"en\"", {":2: exhibit.lang is not", "exhibit.language"}},
+        {"heigth_m = 1", {":1: heigth_m is not a known key"}},
+        {"[prop]\n\"new\\nline\" = 1", {":2: prop.new?line is not"}},
+    });
+}
+
+TEST(Refusals, OfTextThatIsNotToml) {
+    expect_refusals({
+        {"[prop]\nbase_m = 0.1\nbase_m = 0.2\n", {":3: is not TOML", "base_m"}},
+        {"[prop]\nbase_m = \n", {":2: is not TOML"}},
+        {"[prop\n", {":1: is not TOML"}},
+        {"[prop]\n[prop]\n", {":2: is not TOML"}},
+        {"# \xff\xfe\n", {":1: is not TOML"}},
+        {std::string("a = \"\0\"", 7), {":1: is not TOML"}},
+    });
+}
+
+TEST(Refusals, OfMatricesThatAreNotRigid) {
+    const auto matrix = [](const std::string& columns) {
+        return "[projector]\ntable_from_projector = " + columns;
+    };
+    expect_refusals({
+        {matrix("[-1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]"),
+         {":2: projector.table_from_projector", "mirrors"}},
+        {matrix("[2,0,0,0, 0,-2,0,0, 0,0,-2,0, 0,0,1.2,1]"), {":2: projector.table_from_projector scales"}},
+        {matrix("[1,0.1,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]"), {"shears"}},
+        // Row by row instead of column by column: the translation stands in the last row.
+        {matrix("[1,0,0,0, 0,-1,0,0, 0,0,-1,1.2, 0,0,0,1]"), {"last row"}},
+        {matrix("[1,0,0]"), {"is a list of 3", "16 numbers, column by column"}},
+        {"[tracker]\ntable_from_tracker = [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]",
+         {":2: tracker.table_from_tracker"}},
+    });
+}
+
+TEST(Refusals, OfTwoWaysToSayOneThing) {
+    expect_refusals({
+        {"[projector]\nfx = 1500\nthrow_ratio = 1.5", {":3: projector.throw_ratio stands beside fx"}},
+        {"[projector]\nroll_deg = 0\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]",
+         {"projector.roll_deg stands beside table_from_projector"}},
+        {"[prop]\nkind = \"cube\"\nheight_m = 0.2", {":3: prop.height_m is 0.2", "0.16"}},
+    });
+}
+
+TEST(Refusals, OfSettingsThatMakeNoExhibit) {
+    expect_refusals({
+        {"[prop]\ntop_m = 0.16",
+         {":2: prop.top_m is 0.16; a frustum's top must be smaller than prop.base_m"}},
+        {"[prop]\nheight_m = 1.15",
+         {"projector.position_m is 1.2 metres above the table; allowed are at least 1.25"}},
+        {"[prop]\nbase_m = 0.6", {":2: prop.base_m is 0.6", "at most 0.5"}},
+        {"[projector]\nposition_m = [0, 0, 0.1]", {":2: projector.position_m is 0.1 metres above"}},
+        {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 2]",
+         {":2: projector.position_m looks -90.0 degrees"}},
+        {"[projector]\nposition_m = [0, -5, 1]",
+         {":2: projector.position_m throws its picture beside the table"}},
+        {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 1]",
+         {":3: projector.aim_m gives no direction"}},
+        {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 5, 1]",
+         {":3: projector.aim_m gives no direction"}},
+        {"[projector]\ntable_from_projector = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1.2,1]",
+         {":2: projector.table_from_projector looks -90.0 degrees below"}},
+        {"[eye]\ndefault_m = [0, 0, 0.05]", {":2: eye.default_m lies inside the prop"}},
+        {"[eye]\ndefault_m = [0, -1, -0.5]", {":2: eye.default_m is -0.5 metres above the table"}},
+        {"[eye]\nnearest_m = 3", {":2: eye.nearest_m is 3; allowed are distances below eye.farthest_m, 2"}},
+        {"[tracker]\nkind = \"replay\"", {":2: tracker.kind is \"replay\"; it needs tracker.poses"}},
+        {"[tracker]\nkind = \"magic\"",
+         {":2: tracker.kind is the text \"magic\"", "\"simulated\", \"replay\""}},
+        {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
+        {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
+         {":3: panel.repeat_s is 2", "after the last press, 2"}},
+        {"[exhibit]\nlanguage = \"e\"", {":2: exhibit.language", "\"de-CH\""}},
+        {"[exhibit]\nlanguage = \"../etc\"", {":2: exhibit.language"}},
+    });
+}
+
+TEST(Refusals, OfAFileThatIsTooLargeOrNotThere) {
+    const std::string message = refusal(std::string((std::size_t{1} << 20) + 1, '#'));
+    EXPECT_NE(message.find("1048577 bytes"), std::string::npos) << message;
+    const auto missing = load_settings("no/such/kiosk.toml");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().kind, ErrorKind::BadConfiguration);
+    EXPECT_NE(missing.error().message.find("no/such/kiosk.toml"), std::string::npos);
+}
+
+} // namespace
+} // namespace frustumscreen

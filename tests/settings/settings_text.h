@@ -1,0 +1,35 @@
+/// Texts of settings for the tests.
+#pragma once
+
+#include "app/settings/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace frustumscreen {
+
+inline std::string shipped_text() {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/config/kiosk.toml", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline Settings parsed(const std::string& text) {
+    const auto settings = parse_settings(text, "set/kiosk.toml");
+    EXPECT_TRUE(settings) << settings.error().message;
+    return settings ? **settings : Settings();
+}
+
+/// The refusal of `text`; empty if it was taken.
+inline std::string refusal(const std::string& text) {
+    const auto settings = parse_settings(text, "set/kiosk.toml");
+    if (settings) {
+        return {};
+    }
+    EXPECT_EQ(settings.error().kind, ErrorKind::BadConfiguration);
+    return settings.error().message;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,69 @@
+#include "app/tracking/situation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+const glm::dvec3 default_eye(0.0, -0.55, 0.5);
+
+PoseSample sample_at(std::int64_t t_us, int station, const glm::dvec3& position, bool ok = true) {
+    PoseSample sample;
+    sample.time = from_microseconds(t_us);
+    sample.station = station;
+    sample.position_m = position;
+    sample.ok = ok;
+    return sample;
+}
+
+TEST(Situation, KnowsNothingAtFirstButTheDefaultEye) {
+    const SituationTracker tracker({}, default_eye);
+    const Situation situation = tracker.at(from_microseconds(7));
+    EXPECT_FALSE(situation.prop_known);
+    EXPECT_FALSE(situation.head_known);
+    EXPECT_EQ(situation.eye_m, default_eye);
+    EXPECT_EQ(situation.time, from_microseconds(7));
+}
+
+TEST(Situation, TakesTheLatestPoseOfEachStationAndForgetsItWhenOld) {
+    SituationTracker tracker({}, default_eye,
+                             {std::chrono::milliseconds(100), std::chrono::milliseconds(50)});
+    tracker.take(sample_at(0, prop_station, {1, 0, 0}));
+    tracker.take(sample_at(10'000, prop_station, {2, 0, 0}));
+    tracker.take(sample_at(10'000, head_station, {0, -1, 1}));
+    const Situation fresh = tracker.at(from_microseconds(60'000));
+    EXPECT_TRUE(fresh.prop_known);
+    EXPECT_EQ(fresh.table_from_prop.translation, glm::dvec3(2, 0, 0));
+    EXPECT_EQ(fresh.prop_age, std::chrono::milliseconds(50));
+    EXPECT_EQ(fresh.eye_m, glm::dvec3(0, -1, 1));
+    const Situation headless = tracker.at(from_microseconds(60'001));
+    EXPECT_FALSE(headless.head_known);
+    EXPECT_EQ(headless.eye_m, default_eye);
+    EXPECT_TRUE(headless.prop_known);
+    EXPECT_FALSE(tracker.at(from_microseconds(110'001)).prop_known);
+}
+
+TEST(Situation, UnusableLateAndForeignSamplesChangeNothing) {
+    SituationTracker tracker({}, default_eye);
+    tracker.take(sample_at(10, prop_station, {1, 0, 0}));
+    tracker.take(sample_at(20, prop_station, {9, 0, 0}, false));
+    tracker.take(sample_at(5, prop_station, {9, 0, 0}));
+    tracker.take(sample_at(20, torch_station, {9, 0, 0}));
+    EXPECT_EQ(tracker.at(from_microseconds(30)).table_from_prop.translation, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(tracker.at(from_microseconds(30)).prop_age, std::chrono::microseconds(20));
+}
+
+TEST(Situation, ADevicesOwnFrameIsRegisteredToTheTable) {
+    // The device's +Z points down and its origin lies 0.3 m above the table.
+    const RigidTransform table_from_device{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
+    SituationTracker tracker(table_from_device, default_eye);
+    tracker.take(sample_at(0, prop_station, {0.1, 0.2, 0.3}));
+    const Situation situation = tracker.at(from_microseconds(0));
+    EXPECT_LT(glm::distance(situation.table_from_prop.translation, glm::dvec3(0.1, -0.2, 0.0)), 1e-15);
+    EXPECT_LT(glm::distance(situation.table_from_prop.direction({0, 0, 1}), glm::dvec3(0, 0, -1)), 1e-15);
+}
+
+} // namespace
+} // namespace frustumscreen
