@@ -60,7 +60,7 @@ glm::vec3 sample_weights(std::uint32_t triangle, int k) {
 std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
                         const std::vector<glm::vec3>& eyes) {
     constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees
-    constexpr int eyes_per_sample = 96;
+    constexpr int eyes_per_sample = 160;
     const glm::vec3 area_normal = mesh.area_normal(triangle);
     const float twice_area = glm::length(area_normal);
     if (!(twice_area > 0.0F)) {
@@ -93,15 +93,32 @@ std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const 
     return seen;
 }
 
-/// A triangle takes on the sides of those that share a vertex with it.
-std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides) {
-    std::vector<std::uint8_t> of_vertex(mesh.positions.size(), none);
+/// Seen sides spread to triangles that touch a seen one, and on over the surface for `reach_box`: what
+/// samples missed beside what they found is kept.
+std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides,
+                                std::uint8_t side) {
+    constexpr float reach_box = 5e-3F;
+    constexpr int steps = 12;
+    std::vector<float> away(mesh.positions.size(), 1e30F);
     for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
-        of_vertex[mesh.indices[k]] |= sides[k / 3];
+        if ((sides[k / 3] & side) != 0) {
+            away[mesh.indices[k]] = 0.0F;
+        }
+    }
+    for (int step = 0; step < steps; ++step) {
+        for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+            const std::uint32_t a = mesh.indices[k];
+            const std::uint32_t b = mesh.indices[k - k % 3 + (k + 1) % 3];
+            const float length = glm::distance(mesh.positions[a], mesh.positions[b]);
+            away[a] = std::fmin(away[a], away[b] + length);
+            away[b] = std::fmin(away[b], away[a] + length);
+        }
     }
     std::vector<std::uint8_t> result(sides);
     for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
-        result[k / 3] |= of_vertex[mesh.indices[k]];
+        if (away[mesh.indices[k]] <= reach_box) {
+            result[k / 3] |= side;
+        }
     }
     return result;
 }
@@ -146,7 +163,7 @@ TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, c
             sides[t] = sides_seen(mesh, static_cast<std::uint32_t>(t), scene, eyes);
         }
     });
-    return kept(mesh, grown(mesh, sides));
+    return kept(mesh, grown(mesh, grown(mesh, sides, front), back));
 }
 
 TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,

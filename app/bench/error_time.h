@@ -1,0 +1,37 @@
+/// Error against run time: every technique over the same poses, measured against the truth and timed in one
+/// interleaved run; once for each set-up.
+///
+/// Threads  the one whose context is current; the truth is cast on every core.
+/// Errors   whatever the parts report, with the set-up's name in front.
+#pragma once
+
+#include "app/bench/technique_set.h"
+
+namespace frustumscreen {
+
+struct SetUpResult {
+    std::string name;
+    std::string driver;
+    std::uint32_t default_level = 0;
+    std::uint32_t finest_level = 0;
+    std::vector<BenchPose> poses;
+    std::vector<TechniqueResult> techniques; ///< the floor first
+};
+
+struct ErrorTimeOptions {
+    int poses = 50;
+    std::uint64_t seed = 1;
+    int timing_rounds = 3; ///< at least; few poses are drawn more often
+    PictureOptions picture;
+    bool peers = true; ///< full mesh and two-pass
+    std::vector<int> two_pass_pixels = {640, 1024, 1600};
+};
+
+/// What is being done, and the share of it that is done.
+using StepProgress = std::function<void(const std::string& step, double done)>;
+
+[[nodiscard]] Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
+                                             const std::shared_ptr<const SourceMesh>& mesh,
+                                             const ErrorTimeOptions& options, const StepProgress& progress);
+
+} // namespace frustumscreen

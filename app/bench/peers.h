@@ -1,0 +1,22 @@
+/// The methods that the exhibit's own is compared with, drawing the full source mesh.
+///
+/// full mesh   through each visible face's collineation: one pass, exact up to texture filtering.
+/// two-pass    shader lamps (Raskar, Welch, Low & Bandyopadhyay 2001): the mesh as the eye sees it into a
+/// square
+///             picture cropped to the prop, then that picture projected from the eye onto the prop's faces.
+///
+/// Threads  the one whose context is current; the mesh and stage must outlive the technique.
+#pragma once
+
+#include "app/bench/peer_mesh.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh);
+/// `eye_pixels`: side of the eye's picture.
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh,
+                                                               int eye_pixels);
+
+} // namespace frustumscreen

@@ -1,0 +1,125 @@
+#include "app/bench/technique_set.h"
+
+#include "app/bench/floor_technique.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/surfaceless_display.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
+    TechniqueResult result;
+    result.kind = kind;
+    result.level = level;
+    result.triangles = triangles;
+    return result;
+}
+
+std::string level_name(const Pack& pack, std::uint32_t level) {
+    return fmt::format("{} {}{}", pack.levels[level].technique == LevelTechnique::Relief ? "relief" : "mesh",
+                       level, level == pack.default_level ? " (default)" : "");
+}
+
+} // namespace
+
+Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
+    const Pinhole& pinhole = set_up.settings.projector.pinhole;
+    Result<std::unique_ptr<SurfacelessDisplay>> display =
+        SurfacelessDisplay::create(pinhole.width, pinhole.height);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    const unsigned framebuffer = (*display)->framebuffer();
+    std::unique_ptr<TechniqueSet> set(new TechniqueSet(
+        std::move(*display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
+    Result<void> added = set->add(make_floor_technique(set->stage_), described(TechniqueKind::Floor, -1, 0));
+    if (!added) {
+        return tl::unexpected<Error>(added.error());
+    }
+    return set;
+}
+
+Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result) {
+    if (!technique) {
+        return tl::unexpected<Error>(technique.error());
+    }
+    result.name = (*technique)->name();
+    results_.push_back(std::move(result));
+    techniques_.push_back(std::move(*technique));
+    return {};
+}
+
+Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& options) {
+    return add(
+        make_pack_level(stage_, pack, level, options, level_name(pack, level)),
+        described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));
+}
+
+Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                     bool full_mesh, const std::vector<int>& two_pass_pixels) {
+    Result<std::unique_ptr<PeerMesh>> uploaded = PeerMesh::upload(mesh, prop_from_artifact);
+    if (!uploaded) {
+        return tl::unexpected<Error>(uploaded.error());
+    }
+    meshes_.push_back(std::move(*uploaded));
+    const PeerMesh& peer = *meshes_.back();
+    const std::uint64_t triangles = mesh.triangles.size();
+    if (full_mesh) {
+        if (Result<void> added =
+                add(make_full_mesh(stage_, peer), described(TechniqueKind::FullMesh, -1, triangles));
+            !added) {
+            return added;
+        }
+    }
+    for (const int pixels : two_pass_pixels) {
+        if (Result<void> added =
+                add(make_two_pass(stage_, peer, pixels), described(TechniqueKind::TwoPass, -1, triangles));
+            !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
+Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
+                                          std::size_t first, const Progress& progress) {
+    for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+        const TruthPicture picture = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), true);
+        for (std::size_t k = first; k < techniques_.size(); ++k) {
+            if (results_[k].kind == TechniqueKind::Floor) {
+                continue;
+            }
+            techniques_[k]->draw(poses[pose]);
+            Image8 colour = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+            Result<ImageFloat> points = techniques_[k]->hit_points(poses[pose]);
+            if (!points) {
+                return tl::unexpected<Error>(points.error());
+            }
+            results_[k].errors.push_back(measure(picture, {std::move(colour), std::move(*points)}));
+        }
+        progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
+    }
+    for (std::size_t k = first; k < results_.size(); ++k) {
+        results_[k].error = summarise(results_[k].errors);
+    }
+    return {};
+}
+
+void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {
+    std::vector<Technique*> techniques;
+    for (const std::unique_ptr<Technique>& technique : techniques_) {
+        techniques.push_back(technique.get());
+    }
+    const std::vector<FrameTimes> times = time_interleaved(techniques, poses, TimingPlan{rounds}, progress);
+    for (std::size_t k = 0; k < techniques.size(); ++k) {
+        results_[k].time_ms = spread_of(times[k].wall_ms);
+        results_[k].cpu_ms = quantile(times[k].cpu_ms, 0.5);
+        results_[k].cpu_times_floor = results_[k].cpu_ms / results_[0].cpu_ms;
+        results_[k].times_floor = results_[k].time_ms.median / results_[0].time_ms.median;
+    }
+}
+
+} // namespace frustumscreen

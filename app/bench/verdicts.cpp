@@ -1,0 +1,93 @@
+#include "app/bench/verdicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+bool silhouette_holds(const PictureError& error, const Limits& limits) {
+    return error.silhouette_percent <= limits.silhouette_percent ||
+           error.outline_shift_px <= limits.outline_shift_px;
+}
+
+Verdict judge_silhouette(const TechniqueResult& level, const Limits& limits) {
+    const auto failed =
+        std::count_if(level.errors.begin(), level.errors.end(),
+                      [&limits](const PictureError& error) { return !silhouette_holds(error, limits); });
+    return {
+        fmt::format("silhouette <= {:g} % or {:g} px", limits.silhouette_percent, limits.outline_shift_px),
+        fmt::format("worst {:.3f} %, {:.3f} px; {} of {} poses beyond", level.error.worst.silhouette_percent,
+                    level.error.worst.outline_shift_px, failed, level.errors.size()),
+        failed == 0};
+}
+
+bool no_larger(const PictureError& a, const PictureError& b) {
+    return a.silhouette_percent <= b.silhouette_percent && a.geometric_mean_mm <= b.geometric_mean_mm &&
+           a.sixteen_rays.rmse <= b.sixteen_rays.rmse;
+}
+
+} // namespace
+
+std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
+    const PictureError& worst = level.error.worst;
+    std::vector<Verdict> verdicts = {
+        judge_silhouette(level, limits),
+        {fmt::format("mean geometric error <= {:g} mm", limits.geometric_mean_mm),
+         fmt::format("worst pose {:.4f} mm", worst.geometric_mean_mm),
+         worst.geometric_mean_mm <= limits.geometric_mean_mm},
+        {fmt::format("colour RMSE <= {:g}", limits.colour_rmse),
+         fmt::format("worst pose {:.2f}", worst.sixteen_rays.rmse),
+         worst.sixteen_rays.rmse <= limits.colour_rmse}};
+    if (limits.times_floor > 0.0) {
+        verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
+                            fmt::format("{:.2f} x", level.times_floor),
+                            level.times_floor <= limits.times_floor});
+    }
+    return verdicts;
+}
+
+const TechniqueResult* cheapest_as_good(const SetUpResult& result, const TechniqueResult& two_pass) {
+    const TechniqueResult* best = nullptr;
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel &&
+            no_larger(technique.error.mean, two_pass.error.mean) &&
+            (best == nullptr || technique.times_floor < best->times_floor)) {
+            best = &technique;
+        }
+    }
+    return best;
+}
+
+std::vector<Verdict> judge(const SetUpResult& result) {
+    std::vector<Verdict> verdicts;
+    const auto add = [&verdicts](const std::string& whose, std::vector<Verdict> more) {
+        for (Verdict& verdict : more) {
+            verdict.what = whose + ": " + verdict.what;
+            verdicts.push_back(std::move(verdict));
+        }
+    };
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel &&
+            technique.level == static_cast<int>(result.default_level)) {
+            add("default level", judge(technique, default_level_limits));
+        }
+        if (technique.kind == TechniqueKind::PackLevel &&
+            technique.level == static_cast<int>(result.finest_level)) {
+            add("finest level", judge(technique, finest_level_limits));
+        }
+        if (technique.kind == TechniqueKind::TwoPass && technique.triangles >= least_two_pass_triangles) {
+            const TechniqueResult* level = cheapest_as_good(result, technique);
+            const double speed_up = level != nullptr ? technique.times_floor / level->times_floor : 0.0;
+            add(technique.name, {{fmt::format("a level as good is >= {:g} x faster", least_two_pass_speed_up),
+                                  level != nullptr ? fmt::format("{}: {:.1f} x faster", level->name, speed_up)
+                                                   : std::string("no level is as good"),
+                                  speed_up >= least_two_pass_speed_up}});
+        }
+    }
+    return verdicts;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,33 @@
+/// Numbers out of raw bytes, bounds checked.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+#include "assets_baked/bake/loaders/refusal.h"
+
+namespace frustumscreen {
+
+using ByteView = std::span<const std::byte>;
+
+/// The number at `offset`; refuses to read past the end.
+template <typename T> [[nodiscard]] T load(ByteView bytes, std::size_t offset, std::endian order) {
+    if (offset > bytes.size() || sizeof(T) > bytes.size() - offset) {
+        refuse("the data end at byte {}, {} more are needed at byte {}", bytes.size(), sizeof(T), offset);
+    }
+    std::array<std::byte, sizeof(T)> raw{};
+    std::memcpy(raw.data(), bytes.data() + offset, sizeof(T));
+    if (order != std::endian::native) {
+        std::reverse(raw.begin(), raw.end());
+    }
+    return std::bit_cast<T>(raw);
+}
+template <typename T> [[nodiscard]] T load_little(ByteView bytes, std::size_t offset) {
+    return load<T>(bytes, offset, std::endian::little);
+}
+
+} // namespace frustumscreen

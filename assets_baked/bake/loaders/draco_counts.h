@@ -1,0 +1,23 @@
+/// The numbers at the front of a Draco stream, read before the library sees it: the library allocates what a
+/// stream claims, so the claims are held against the stream's size first.
+///
+/// Errors   throws Refusal.
+/// Source   Draco 3D Graphics, Bitstream Specification 2.2, "Header", "Metadata", "Connectivity".
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "assets_baked/bake/loaders/bytes.h"
+
+namespace frustumscreen {
+
+struct DracoCounts {
+    std::uint64_t faces = 0;
+    std::uint64_t points = 0; ///< for edge breaker connectivity: vertices
+};
+
+/// Refuses anything that is not a triangle mesh of bitstream 2.2 with plausible counts.
+DracoCounts check_draco_stream(ByteView stream, const std::string& place);
+
+} // namespace frustumscreen

@@ -1,0 +1,59 @@
+/// One accessor, read element by element straight from its bytes: strides, normalised integers and sparse
+/// replacements as glTF 2.0, 3.6.2 has them. Nothing is unpacked that is not asked for, so a small file cannot make
+/// large arrays.
+///
+/// Lifetime  points into GltfBuffers.
+/// Errors    throws Refusal: an element that is not finite, sparse indices out of order.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "assets_baked/bake/loaders/gltf_buffers.h"
+#include "assets_baked/bake/loaders/gltf_model.h"
+
+namespace frustumscreen {
+
+class GltfAttribute {
+public:
+    GltfAttribute(const GltfModel& model, GltfBuffers& buffers, std::size_t accessor);
+    /// Numbers decoded elsewhere, `components` to an element, that stand for the accessor's own.
+    GltfAttribute(const GltfModel& model, std::size_t accessor,
+                  std::shared_ptr<const std::vector<double>> numbers, std::size_t components);
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] std::size_t components() const { return components_; }
+    [[nodiscard]] ComponentType type() const { return type_; }
+    [[nodiscard]] bool normalised() const { return normalised_; }
+    /// Elements come from data, not only from the file's word for how many zeros there are.
+    [[nodiscard]] bool has_data() const { return !bytes_.empty() || numbers_ != nullptr; }
+    [[nodiscard]] const std::string& place() const { return place_; }
+
+    /// Integers of these types mean fractions even where the file forgets to say so (colours, weights).
+    void normalise();
+
+    [[nodiscard]] double value(std::size_t element, std::size_t component) const;
+    [[nodiscard]] glm::dvec2 vec2(std::size_t element) const;
+    [[nodiscard]] glm::dvec3 vec3(std::size_t element) const;
+    /// For unsigned types.
+    [[nodiscard]] std::uint32_t whole(std::size_t element, std::size_t component = 0) const;
+
+private:
+    [[nodiscard]] double raw(std::size_t element, std::size_t component) const;
+
+    std::string place_;
+    std::size_t count_ = 0;
+    std::size_t components_ = 1;
+    ComponentType type_ = ComponentType::F32;
+    bool normalised_ = false;
+    ByteView bytes_; ///< from the first element on; empty: zeros
+    std::size_t stride_ = 0;
+    std::span<const std::uint32_t> sparse_elements_; ///< ascending
+    ByteView sparse_values_;
+    std::shared_ptr<const std::vector<double>> numbers_;
+};
+
+} // namespace frustumscreen

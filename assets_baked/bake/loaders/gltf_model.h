@@ -1,0 +1,161 @@
+/// A glTF 2.0 document as typed values: every member's type, range and reference is checked here, once, so that
+/// what follows may index freely. Bytes are not touched.
+///
+/// Frames   node transforms are parent_from_node.
+/// Errors   throws Refusal naming the JSON place.
+/// Source   Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022), and the extensions named beside the members.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "assets_baked/bake/loaders/json_place.h"
+#include "assets_baked/bake/source_mesh.h"
+
+namespace frustumscreen {
+
+struct GltfBuffer {
+    std::optional<std::string> uri; ///< none: the GLB's binary chunk
+    std::uint64_t byte_length = 0;
+    bool fallback = false; ///< EXT_meshopt_compression: stands for decoded data and may have none
+};
+
+enum class MeshoptMode { Attributes, Triangles, Indices };
+enum class MeshoptFilter { None, Octahedral, Quaternion, Exponential };
+
+/// EXT_meshopt_compression of a buffer view.
+struct GltfMeshopt {
+    std::size_t buffer = 0;
+    std::uint64_t byte_offset = 0;
+    std::uint64_t byte_length = 0;
+    std::size_t byte_stride = 0;
+    std::size_t count = 0;
+    MeshoptMode mode = MeshoptMode::Attributes;
+    MeshoptFilter filter = MeshoptFilter::None;
+};
+
+struct GltfBufferView {
+    std::size_t buffer = 0;
+    std::uint64_t byte_offset = 0;
+    std::uint64_t byte_length = 0;
+    std::optional<std::uint64_t> byte_stride;
+    std::optional<GltfMeshopt> meshopt;
+};
+
+enum class ComponentType : std::uint16_t { I8 = 5120, U8 = 5121, I16 = 5122, U16 = 5123, U32 = 5125, F32 = 5126 };
+
+struct GltfSparse {
+    std::size_t count = 0;
+    std::size_t indices_view = 0;
+    std::uint64_t indices_offset = 0;
+    ComponentType indices_type = ComponentType::U32;
+    std::size_t values_view = 0;
+    std::uint64_t values_offset = 0;
+};
+
+struct GltfAccessor {
+    std::optional<std::size_t> view; ///< none: zeros
+    std::uint64_t byte_offset = 0;
+    std::uint64_t byte_stride = 0; ///< the view's, or tightly packed
+    ComponentType type = ComponentType::F32;
+    std::size_t components = 1;
+    bool normalised = false;
+    std::size_t count = 0;
+    std::optional<GltfSparse> sparse;
+};
+
+struct GltfImage {
+    std::optional<std::string> uri;
+    std::optional<std::size_t> view;
+};
+
+struct GltfTexture {
+    std::optional<std::size_t> image; ///< none: only in a form that cannot be read
+    Wrap wrap_u = Wrap::Repeat;
+    Wrap wrap_v = Wrap::Repeat;
+};
+
+/// A material's use of a texture, with KHR_texture_transform.
+struct GltfTextureUse {
+    std::size_t texture = 0;
+    std::uint64_t uv_set = 0;
+    glm::dvec2 offset{0.0};
+    glm::dvec2 scale{1.0};
+    double rotation = 0.0; ///< radians
+
+    [[nodiscard]] glm::dvec2 transformed(const glm::dvec2& uv) const;
+};
+
+struct GltfMaterial {
+    glm::vec4 base_colour{1.0F};
+    std::optional<GltfTextureUse> texture;
+    bool alpha_mask = false;
+    float alpha_cutoff = 0.5F;
+};
+
+using GltfAttributes = std::map<std::string, std::size_t, std::less<>>; ///< POSITION -> accessor
+
+/// KHR_draco_mesh_compression of a primitive.
+struct GltfDraco {
+    std::size_t view = 0;
+    std::map<std::string, std::uint32_t, std::less<>> attributes; ///< POSITION -> Draco's unique id
+};
+
+struct GltfPrimitive {
+    std::string place; ///< meshes[1].primitives[0]
+    GltfAttributes attributes;
+    std::optional<std::size_t> indices;
+    std::optional<std::size_t> material;
+    std::uint64_t mode = 4;
+    std::vector<GltfAttributes> targets;
+    std::optional<GltfDraco> draco;
+};
+
+struct GltfMesh {
+    std::vector<GltfPrimitive> primitives;
+    std::vector<double> weights; ///< of morph targets
+};
+
+struct GltfNode {
+    std::vector<std::size_t> children;
+    std::optional<std::size_t> mesh;
+    std::optional<std::size_t> skin;
+    glm::dmat4 parent_from_node{1.0};
+    std::vector<double> weights; ///< empty: the mesh's
+};
+
+struct GltfSkin {
+    std::vector<std::size_t> joints;
+    std::optional<std::size_t> inverse_bind_matrices;
+};
+
+struct GltfModel {
+    bool quantised = false; ///< KHR_mesh_quantization is declared
+    std::vector<GltfBuffer> buffers;
+    std::vector<GltfBufferView> views;
+    std::vector<GltfAccessor> accessors;
+    std::vector<GltfImage> images;
+    std::vector<GltfTexture> textures;
+    std::vector<GltfMaterial> materials;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfNode> nodes;
+    std::vector<GltfSkin> skins;
+    /// Roots of the default scene, else of scene 0; nothing if the file has no scenes.
+    std::optional<std::vector<std::size_t>> scene_roots;
+};
+
+[[nodiscard]] GltfModel gltf_model_from(const JsonPlace& document);
+
+/// The parts about colour (gltf_surface.cpp).
+void read_surface(const JsonPlace& document, GltfModel& model);
+/// The parts about placement (gltf_nodes.cpp).
+void read_nodes(const JsonPlace& document, GltfModel& model);
+
+[[nodiscard]] std::size_t size_of(ComponentType type);
+
+} // namespace frustumscreen

@@ -1,0 +1,103 @@
+#include "assets_baked/bake/loaders/gltf_model.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "assets_baked/bake/loaders/refusal.h"
+
+namespace frustumscreen {
+
+namespace {
+
+glm::dmat4 matrix_from(const JsonPlace& place) {
+    const std::vector<double> values = place.numbers(16);
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) {
+        matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
+    }
+    return matrix;
+}
+
+glm::dvec3 vec3_or(const JsonPlace& place, std::string_view key, double fallback) {
+    const std::optional<JsonPlace> member = place.find(key);
+    if (!member) {
+        return glm::dvec3(fallback);
+    }
+    const std::vector<double> values = member->numbers(3);
+    return {values[0], values[1], values[2]};
+}
+
+glm::dmat4 transform_from(const JsonPlace& place) {
+    if (const auto matrix = place.find("matrix")) {
+        if (place.find("translation") || place.find("rotation") || place.find("scale")) {
+            refuse("{}: has a matrix and a translation, rotation or scale; only one of the two is allowed",
+                   place.path());
+        }
+        return matrix_from(*matrix);
+    }
+    glm::dmat4 transform = glm::translate(glm::dmat4(1.0), vec3_or(place, "translation", 0.0));
+    if (const auto rotation = place.find("rotation")) {
+        const std::vector<double> xyzw = rotation->numbers(4);
+        const glm::dquat quaternion(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+        if (glm::length(quaternion) < 1e-6) {
+            refuse("{}: is no rotation, its length is zero", rotation->path());
+        }
+        transform *= glm::mat4_cast(glm::normalize(quaternion));
+    }
+    return glm::scale(transform, vec3_or(place, "scale", 1.0));
+}
+
+std::vector<std::size_t> indices_from(const JsonPlace& place, std::size_t size) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        indices.push_back(place[i].index_into(size));
+    }
+    return indices;
+}
+
+GltfNode node_from(const JsonPlace& place, std::size_t node_count, const GltfModel& model) {
+    GltfNode node;
+    if (const auto children = place.find("children")) {
+        node.children = indices_from(*children, node_count);
+    }
+    node.mesh = place.index_or_none("mesh", model.meshes.size());
+    node.skin = place.index_or_none("skin", model.skins.size());
+    node.parent_from_node = transform_from(place);
+    if (const auto weights = place.find("weights")) {
+        node.weights = weights->numbers();
+    }
+    return node;
+}
+
+GltfSkin skin_from(const JsonPlace& place, std::size_t node_count, const GltfModel& model) {
+    GltfSkin skin;
+    skin.joints = indices_from(place.at("joints"), node_count);
+    skin.inverse_bind_matrices = place.index_or_none("inverseBindMatrices", model.accessors.size());
+    return skin;
+}
+
+std::optional<std::vector<std::size_t>> scene_roots_from(const JsonPlace& document, const GltfModel& model) {
+    const std::size_t scene_count = document.size_of("scenes");
+    const std::optional<std::size_t> named = document.index_or_none("scene", scene_count);
+    if (scene_count == 0) {
+        return std::nullopt;
+    }
+    const JsonPlace scene = document.at("scenes")[named.value_or(0)];
+    const std::optional<JsonPlace> roots = scene.find("nodes");
+    return roots ? indices_from(*roots, model.nodes.size()) : std::vector<std::size_t>();
+}
+
+} // namespace
+
+void read_nodes(const JsonPlace& document, GltfModel& model) {
+    const std::size_t node_count = document.size_of("nodes");
+    for (std::size_t i = 0; i < document.size_of("skins"); ++i) {
+        model.skins.push_back(skin_from(document.at("skins")[i], node_count, model));
+    }
+    for (std::size_t i = 0; i < node_count; ++i) {
+        model.nodes.push_back(node_from(document.at("nodes")[i], node_count, model));
+    }
+    model.scene_roots = scene_roots_from(document, model);
+}
+
+} // namespace frustumscreen

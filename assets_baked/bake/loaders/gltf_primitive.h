@@ -1,0 +1,65 @@
+/// Draws glTF primitives into a MeshAssembly: triangles, strips and fans, morph targets at their given weights, skins
+/// in the pose that the file's nodes are in. Points and lines are left out.
+///
+/// Frames   scene coordinates.
+/// Errors   throws Refusal naming the primitive or the accessor.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "assets_baked/bake/loaders/gltf_attribute.h"
+#include "assets_baked/bake/loaders/gltf_draco.h"
+#include "assets_baked/bake/loaders/mesh_assembly.h"
+
+namespace frustumscreen {
+
+/// Where one instance of a mesh goes.
+struct GltfPlacement {
+    glm::dmat4 scene_from_mesh{1.0};
+    /// Of a skin, one for each joint; then scene_from_mesh is not used (glTF 2.0, 3.7.3.3).
+    std::span<const glm::dmat4> scene_from_mesh_by_joint;
+    std::span<const double> morph_weights;
+};
+
+class GltfPrimitives {
+public:
+    /// `material_of` gives the mesh's material for one of the file, or for none.
+    using MaterialOf = std::function<std::uint32_t(std::optional<std::size_t>)>;
+
+    GltfPrimitives(const GltfModel& model, GltfBuffers& buffers, MeshAssembly& mesh, MaterialOf material_of)
+        : model_(model), buffers_(buffers), mesh_(mesh), material_of_(std::move(material_of)) {}
+
+    void draw(const GltfPrimitive& primitive, const GltfPlacement& placement);
+
+private:
+    struct Streams;
+
+    [[nodiscard]] Streams streams_of(const GltfPrimitive& primitive, const GltfPlacement& placement);
+    [[nodiscard]] std::optional<GltfAttribute> attribute(const GltfPrimitive& primitive, const std::string& name,
+                                                         const Streams& streams);
+    [[nodiscard]] const DracoMesh* draco_mesh(const GltfPrimitive& primitive);
+    void add_skin(const GltfPrimitive& primitive, Streams& streams);
+    void add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement, Streams& streams);
+    void draw_corners(const Streams& streams, const GltfPlacement& placement, std::uint32_t material);
+    [[nodiscard]] std::uint32_t corner(const Streams& streams, std::size_t i) const;
+    [[nodiscard]] std::uint32_t vertex(const Streams& streams, const GltfPlacement& placement,
+                                       std::uint32_t element);
+    void begin_vertices(std::size_t count);
+
+    const GltfModel& model_;
+    GltfBuffers& buffers_;
+    MeshAssembly& mesh_;
+    MaterialOf material_of_;
+    std::map<std::pair<std::size_t, std::map<std::string, std::uint32_t, std::less<>>>, DracoMesh> draco_;
+    /// Element of the primitive -> vertex of the mesh; of this primitive where `drawn_in_` is `drawing_`. Only the
+    /// vertices that triangles use are made, and nothing is cleared between primitives that share long accessors.
+    std::vector<std::uint32_t> vertex_of_;
+    std::vector<std::uint32_t> drawn_in_;
+    std::uint32_t drawing_ = 0;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,15 @@
+/// load_mesh for bytes that are in memory already; tests and fuzzers need no file then.
+#pragma once
+
+#include <filesystem>
+
+#include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+namespace frustumscreen {
+
+/// `path` names the model in messages; files beside it are read as it names them.
+[[nodiscard]] Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path);
+
+} // namespace frustumscreen

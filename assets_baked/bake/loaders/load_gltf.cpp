@@ -1,0 +1,296 @@
+#include "assets_baked/bake/loaders/load_gltf.h"
+
+#include <cmath>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "assets_baked/bake/loaders/gltf_primitive.h"
+#include "assets_baked/bake/loaders/picture_store.h"
+
+namespace frustumscreen {
+
+namespace {
+
+struct Container {
+    std::string_view json;
+    std::optional<ByteView> binary_chunk;
+};
+
+constexpr std::size_t glb_header_size = 12;
+constexpr std::size_t glb_chunk_header_size = 8;
+constexpr std::uint32_t glb_chunk_json = 0x4E4F534A;
+constexpr std::uint32_t glb_chunk_binary = 0x004E4942;
+
+/// GLB: a header, a JSON chunk, a binary chunk, perhaps others (glTF 2.0, 4).
+Container split_glb(ByteView file) {
+    if (file.size() < glb_header_size + glb_chunk_header_size) {
+        const bool has_version = file.size() >= 8;
+        const std::uint32_t version = has_version ? load_little<std::uint32_t>(file, 4) : 2;
+        if (version != 2) {
+            refuse("GLB header: version {} cannot be read, only 2", version);
+        }
+        refuse("GLB header: the file ends after {} bytes, it is truncated", file.size());
+    }
+    const auto version = load_little<std::uint32_t>(file, 4);
+    if (version != 2) {
+        refuse("GLB header: version {} cannot be read, only 2", version);
+    }
+    const auto length = load_little<std::uint32_t>(file, 8);
+    if (length > file.size()) {
+        refuse("GLB header: {} bytes are declared, the file has {}: it is truncated", length, file.size());
+    }
+    Container container;
+    std::size_t position = glb_header_size;
+    for (int chunk = 0; position + glb_chunk_header_size <= length; ++chunk) {
+        const std::size_t size = load_little<std::uint32_t>(file, position);
+        const auto type = load_little<std::uint32_t>(file, position + 4);
+        position += glb_chunk_header_size;
+        if (size > length - position) {
+            refuse("GLB chunk {}: {} bytes are declared, {} are left", chunk, size, length - position);
+        }
+        const ByteView data = file.subspan(position, size);
+        if ((chunk == 0) != (type == glb_chunk_json)) {
+            refuse("GLB chunk {}: the first chunk, and no other, must be JSON", chunk);
+        }
+        if (chunk == 0) {
+            container.json = as_text(data);
+        } else if (chunk == 1 && type == glb_chunk_binary) {
+            container.binary_chunk = data;
+        }
+        position += size;
+    }
+    if (container.json.empty()) {
+        refuse("GLB header: there is no JSON in the {} bytes that it declares", length);
+    }
+    return container;
+}
+
+nlohmann::json parse_json(std::string_view text) {
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& error) {
+        const std::string_view what = error.what();
+        const std::size_t end_of_code = what.find("] ");
+        refuse("the JSON is damaged: {}", end_of_code == std::string_view::npos ? what : what.substr(end_of_code + 2));
+    }
+}
+
+/// The mesh's materials and textures, made when a primitive first needs them.
+class Surfaces {
+public:
+    Surfaces(const GltfModel& model, GltfBuffers& buffers, Sidecars& sidecars, MeshAssembly& mesh)
+        : model_(model), buffers_(buffers), sidecars_(sidecars), mesh_(mesh) {}
+
+    std::uint32_t material(std::optional<std::size_t> index) {
+        const auto known = materials_.find(index);
+        if (known != materials_.end()) {
+            return known->second;
+        }
+        SourceMaterial made;
+        if (index) {
+            const GltfMaterial& source = model_.materials[*index];
+            made.base_colour = source.base_colour;
+            made.alpha_mask = source.alpha_mask;
+            made.alpha_cutoff = source.alpha_cutoff;
+            made.texture = source.texture ? texture(source.texture->texture) : -1;
+        }
+        return materials_[index] = mesh_.add_material(made);
+    }
+
+private:
+    int texture(std::size_t index) {
+        const auto known = textures_.find(index);
+        if (known != textures_.end()) {
+            return known->second;
+        }
+        const GltfTexture& source = model_.textures[index];
+        if (!source.image) {
+            refuse("textures[{}]: has no PNG, JPEG or WebP picture", index);
+        }
+        return textures_[index] = mesh_.add_texture({image(*source.image), source.wrap_u, source.wrap_v});
+    }
+
+    std::shared_ptr<const Image8> image(std::size_t index) {
+        std::shared_ptr<const Image8>& known = images_[index];
+        if (known) {
+            return known;
+        }
+        const GltfImage& source = model_.images[index];
+        const std::string place = fmt::format("images[{}]", index);
+        if (source.view) {
+            known = pictures_.decode(buffers_.view(*source.view), place);
+        } else if (const std::optional<Bytes> inside = bytes_of_data_uri(*source.uri, place)) {
+            known = pictures_.decode(*inside, place);
+        } else {
+            const std::string name = percent_decoded(*source.uri, place);
+            known = pictures_.decode(*sidecars_.read(name, place), fmt::format("{} ({})", place, name));
+        }
+        return known;
+    }
+
+    const GltfModel& model_;
+    GltfBuffers& buffers_;
+    Sidecars& sidecars_;
+    MeshAssembly& mesh_;
+    PictureStore pictures_;
+    std::map<std::optional<std::size_t>, std::uint32_t> materials_;
+    std::map<std::size_t, int> textures_;
+    std::map<std::size_t, std::shared_ptr<const Image8>> images_;
+};
+
+/// Nodes that are nobody's child. A node with two parents is refused.
+std::vector<std::size_t> root_nodes(const GltfModel& model) {
+    std::vector<std::optional<std::size_t>> parent(model.nodes.size());
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        for (const std::size_t child : model.nodes[i].children) {
+            if (parent[child]) {
+                refuse("nodes[{}]: is a child of nodes[{}] and of nodes[{}]; one parent is allowed", child,
+                       *parent[child], i);
+            }
+            parent[child] = i;
+        }
+    }
+    std::vector<std::size_t> roots;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        if (!parent[i]) {
+            roots.push_back(i);
+        }
+    }
+    return roots;
+}
+
+/// Every node below `roots`, parents first. With one parent each, what no root reaches runs in a circle.
+std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots) {
+    std::vector<bool> seen(model.nodes.size(), false);
+    std::vector<std::size_t> order;
+    const auto visit = [&](std::size_t node) {
+        if (!seen[node]) {
+            seen[node] = true;
+            order.push_back(node);
+        }
+    };
+    std::for_each(roots.begin(), roots.end(), visit);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::vector<std::size_t>& children = model.nodes[order[i]].children;
+        std::for_each(children.begin(), children.end(), visit);
+    }
+    return order;
+}
+
+std::vector<glm::dmat4> scene_from_nodes(const GltfModel& model) {
+    const std::vector<std::size_t> order = nodes_below(model, root_nodes(model));
+    if (order.size() < model.nodes.size()) {
+        std::vector<bool> reached(model.nodes.size(), false);
+        for (const std::size_t node : order) {
+            reached[node] = true;
+        }
+        const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
+        refuse("nodes[{}]: is its own ancestor; the nodes' children run in a circle", lost);
+    }
+    std::vector<glm::dmat4> scene_from_node(model.nodes.size());
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        scene_from_node[i] = model.nodes[i].parent_from_node;
+    }
+    for (const std::size_t node : order) {
+        for (const std::size_t child : model.nodes[node].children) {
+            scene_from_node[child] = scene_from_node[node] * model.nodes[child].parent_from_node;
+        }
+    }
+    return scene_from_node;
+}
+
+/// scene_from_joint times mesh_from_joint's inverse, for each joint (glTF 2.0, 3.7.3.1).
+std::vector<glm::dmat4> joint_transforms(const GltfModel& model, GltfBuffers& buffers, std::size_t skin_index,
+                                         const std::vector<glm::dmat4>& scene_from_node) {
+    const GltfSkin& skin = model.skins[skin_index];
+    std::optional<GltfAttribute> inverse_bind;
+    if (skin.inverse_bind_matrices) {
+        inverse_bind.emplace(model, buffers, *skin.inverse_bind_matrices);
+        if (inverse_bind->components() != 16 || inverse_bind->type() != ComponentType::F32 ||
+            inverse_bind->count() < skin.joints.size()) {
+            refuse("skins[{}].inverseBindMatrices: a 4x4 matrix of floats for each of {} joints is expected",
+                   skin_index, skin.joints.size());
+        }
+    }
+    std::vector<glm::dmat4> transforms;
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+        glm::dmat4 joint_from_mesh(1.0);
+        for (std::size_t i = 0; inverse_bind && i < 16; ++i) {
+            joint_from_mesh[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = inverse_bind->value(joint, i);
+        }
+        transforms.push_back(scene_from_node[skin.joints[joint]] * joint_from_mesh);
+    }
+    return transforms;
+}
+
+class SceneDrawer {
+public:
+    SceneDrawer(const GltfModel& model, GltfBuffers& buffers, Sidecars& sidecars)
+        : model_(model), buffers_(buffers), surfaces_(model, buffers, sidecars, mesh_),
+          primitives_(model, buffers, mesh_, [this](auto index) { return surfaces_.material(index); }) {}
+
+    SourceMesh draw() {
+        const std::vector<glm::dmat4> scene_from_node = scene_from_nodes(model_);
+        const std::vector<std::size_t> roots = model_.scene_roots ? *model_.scene_roots : root_nodes(model_);
+        for (const std::size_t node : nodes_below(model_, roots)) {
+            draw_node(node, scene_from_node);
+        }
+        if (model_.nodes.empty()) {
+            for (const GltfMesh& mesh : model_.meshes) {
+                draw_mesh(mesh, {glm::dmat4(1.0), {}, mesh.weights});
+            }
+        }
+        return mesh_.finish();
+    }
+
+private:
+    void draw_node(std::size_t index, const std::vector<glm::dmat4>& scene_from_node) {
+        const GltfNode& node = model_.nodes[index];
+        if (!node.mesh) {
+            return;
+        }
+        const GltfMesh& mesh = model_.meshes[*node.mesh];
+        GltfPlacement placement;
+        placement.scene_from_mesh = scene_from_node[index];
+        placement.morph_weights = node.weights.empty() ? mesh.weights : node.weights;
+        if (node.skin) {
+            const auto [known, is_new] = joints_.try_emplace(*node.skin);
+            if (is_new) {
+                known->second = joint_transforms(model_, buffers_, *node.skin, scene_from_node);
+            }
+            placement.scene_from_mesh_by_joint = known->second;
+        }
+        draw_mesh(mesh, placement);
+    }
+
+    void draw_mesh(const GltfMesh& mesh, const GltfPlacement& placement) {
+        for (const GltfPrimitive& primitive : mesh.primitives) {
+            primitives_.draw(primitive, placement);
+        }
+    }
+
+    const GltfModel& model_;
+    GltfBuffers& buffers_;
+    MeshAssembly mesh_{'y'};
+    std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< of each skin
+    Surfaces surfaces_;
+    GltfPrimitives primitives_;
+};
+
+} // namespace
+
+SourceMesh load_gltf(ByteView file, const std::filesystem::path& folder) {
+    const Container container =
+        as_text(file).starts_with("glTF") ? split_glb(file) : Container{as_text(file), std::nullopt};
+    GltfModel model;
+    {
+        const nlohmann::json document = parse_json(container.json);
+        model = gltf_model_from(JsonPlace(document, ""));
+    }
+    Sidecars sidecars(folder);
+    GltfBuffers buffers(model, sidecars, container.binary_chunk);
+    return SceneDrawer(model, buffers, sidecars).draw();
+}
+
+} // namespace frustumscreen

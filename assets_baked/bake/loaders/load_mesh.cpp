@@ -1,0 +1,116 @@
+#include "assets_baked/bake/load_mesh.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "assets_baked/bake/loaders/load_bytes.h"
+#include "assets_baked/bake/loaders/load_gltf.h"
+#include "assets_baked/bake/loaders/load_obj.h"
+#include "assets_baked/bake/loaders/load_ply.h"
+#include "assets_baked/bake/loaders/load_stl.h"
+#include "assets_baked/bake/loaders/text.h"
+
+namespace frustumscreen {
+
+namespace {
+
+enum class Format { Gltf, Obj, Ply, Stl };
+
+bool has_obj_line(std::string_view text) {
+    for (int line = 0; line < 200 && !text.empty(); ++line) {
+        const std::string_view words = trimmed(text.substr(0, text.find('\n')));
+        if (words.starts_with("v ") || words.starts_with("mtllib ") || words.starts_with("f ")) {
+            return true;
+        }
+        text.remove_prefix(std::min(text.size(), words.data() - text.data() + words.size() + 1));
+    }
+    return false;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    return extension;
+}
+
+/// By content first: a file may have been renamed. STL and OBJ have no sure mark, so the extension decides there.
+Format format_of(ByteView file, const std::filesystem::path& path) {
+    const std::string_view head = as_text(file.subspan(0, std::min<std::size_t>(file.size(), 64 * 1024)));
+    const std::string_view first = trimmed(head);
+    if (head.starts_with("glTF") || first.starts_with('{') || first.starts_with("\xEF\xBB\xBF{")) {
+        return Format::Gltf;
+    }
+    if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("ply ")) {
+        return Format::Ply;
+    }
+    if (has_length_of_binary_stl(file) || (first.starts_with("solid") && head.find("facet") != head.npos)) {
+        return Format::Stl;
+    }
+    const std::string extension = lower_extension(path);
+    if (extension == ".stl") {
+        return Format::Stl;
+    }
+    if (extension == ".obj" || has_obj_line(head)) {
+        return Format::Obj;
+    }
+    if (extension == ".ply") {
+        refuse("does not begin with \"ply\", so it is no PLY file");
+    }
+    if (extension == ".glb" || extension == ".gltf") {
+        refuse("begins neither with \"glTF\" nor with a JSON object, so it is no glTF file");
+    }
+    refuse("is neither glTF, OBJ, PLY nor STL");
+}
+
+SourceMesh load(ByteView file, const std::filesystem::path& path) {
+    if (file.empty()) {
+        refuse("the file is empty");
+    }
+    switch (format_of(file, path)) {
+    case Format::Gltf:
+        return load_gltf(file, path.parent_path());
+    case Format::Ply:
+        return load_ply(file);
+    case Format::Stl:
+        return load_stl(file);
+    default:
+        return load_obj(file, path.parent_path());
+    }
+}
+
+/// Names out of the file may hold anything; an error is one printable line.
+std::string one_line(std::string message) {
+    constexpr std::size_t most = 500;
+    for (char& c : message) {
+        const auto code = static_cast<unsigned char>(c);
+        c = code < 0x20 || code == 0x7f ? ' ' : c;
+    }
+    return message.size() <= most ? message : message.substr(0, most) + "...";
+}
+
+} // namespace
+
+Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path) {
+    const auto refused = [&](const std::string& message) {
+        return bad_input(one_line(path.string() + ": " + message));
+    };
+    try {
+        return load(file, path);
+    } catch (const Refusal& refusal) {
+        return refused(refusal.message);
+    } catch (const std::bad_alloc&) {
+        return refused("the model does not fit into this computer's memory; simplify it first");
+    } catch (const std::exception& error) { // out of a library
+        return refused(std::string("cannot be read: ") + error.what());
+    }
+}
+
+Result<SourceMesh> load_mesh(const std::filesystem::path& path) {
+    const Result<Bytes> file = read_file(path);
+    return file ? load_mesh_bytes(*file, path) : Result<SourceMesh>(bad_input(one_line(file.error().message)));
+}
+
+} // namespace frustumscreen

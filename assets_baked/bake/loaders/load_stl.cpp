@@ -1,0 +1,103 @@
+#include "assets_baked/bake/loaders/load_stl.h"
+
+#include <algorithm>
+
+#include "assets_baked/bake/loaders/mesh_assembly.h"
+#include "assets_baked/bake/loaders/text.h"
+#include "firmware_host/base/file.h"
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t header_size = 84;
+constexpr std::size_t facet_size = 50;
+
+bool is_word(std::string_view word, std::string_view lower) {
+    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
+    });
+}
+
+SourceMesh load_binary(ByteView file) {
+    if (file.size() < header_size) {
+        refuse("a binary STL begins with {} bytes, the file has {}", header_size, file.size());
+    }
+    const std::uint64_t count = load_little<std::uint32_t>(file, header_size - 4);
+    if (count > (file.size() - header_size) / facet_size) {
+        refuse("{} triangles are declared, {} are there: the file is truncated", count,
+               (file.size() - header_size) / facet_size);
+    }
+    MeshAssembly mesh('z');
+    for (std::size_t facet = 0; facet < count; ++facet) {
+        const ByteView corners = file.subspan(header_size + facet * facet_size + 12, 36);
+        std::array<std::uint32_t, 3> vertices{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::vec3 p(load_little<float>(corners, i * 12), load_little<float>(corners, i * 12 + 4),
+                              load_little<float>(corners, i * 12 + 8));
+            vertices[i] = mesh.add_vertex(glm::dvec3(p), "vertex", facet * 3 + i);
+        }
+        mesh.add_triangle(vertices[0], vertices[1], vertices[2], 0);
+    }
+    return mesh.finish();
+}
+
+double coordinate(WordReader& words) {
+    const std::string_view word = words.next();
+    const std::optional<double> number = number_from(word);
+    if (word.empty()) {
+        refuse("line {}: the text ends inside a facet: the file is truncated", words.line());
+    }
+    if (!number) {
+        refuse("line {}: a number is expected, not \"{}\"", words.line(), word.substr(0, 40));
+    }
+    return *number;
+}
+
+/// Only `vertex`, `endloop` and `endsolid` carry anything; the words between them are skipped.
+SourceMesh load_ascii(std::string_view text) {
+    WordReader words(text);
+    (void)words.next();
+    (void)words.rest_of_line(); // the solid's name
+    MeshAssembly mesh('z');
+    std::size_t in_loop = 0;
+    bool ended = false;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        if (is_word(word, "vertex")) {
+            const double x = coordinate(words);
+            const double y = coordinate(words);
+            const double z = coordinate(words);
+            (void)mesh.add_vertex({x, y, z}, "vertex", mesh.positions().size());
+            ++in_loop;
+        } else if (is_word(word, "endloop")) {
+            if (in_loop != 3) {
+                refuse("line {}: the facet has {} vertices, 3 are expected", words.line(), in_loop);
+            }
+            const auto end = static_cast<std::uint32_t>(mesh.positions().size());
+            mesh.add_triangle(end - 3, end - 2, end - 1, 0);
+            in_loop = 0;
+        } else if (is_word(word, "endsolid") || is_word(word, "solid")) {
+            ended = is_word(word, "endsolid");
+            (void)words.rest_of_line();
+        }
+    }
+    if (!ended || in_loop != 0) {
+        refuse("line {}: the text ends without \"endsolid\": the file is truncated", words.line());
+    }
+    return mesh.finish();
+}
+
+} // namespace
+
+bool has_length_of_binary_stl(ByteView file) {
+    return file.size() >= header_size &&
+           file.size() == header_size + facet_size * std::uint64_t{load_little<std::uint32_t>(file, header_size - 4)};
+}
+
+SourceMesh load_stl(ByteView file) {
+    const std::string_view text = trimmed(as_text(file.subspan(0, std::min<std::size_t>(file.size(), 1024))));
+    const bool is_text = text.size() >= 5 && is_word(text.substr(0, 5), "solid");
+    return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file)) : load_binary(file);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,16 @@
+/// STL, binary and ASCII. A binary file may begin with "solid" too: its length gives it away.
+///
+/// Frame    the file's; up is z.
+/// Errors   throws Refusal: truncated, a facet without three vertices. Normals and colour bits are left out.
+#pragma once
+
+#include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/source_mesh.h"
+
+namespace frustumscreen {
+
+/// 84 bytes and 50 for each triangle that they declare, exactly.
+[[nodiscard]] bool has_length_of_binary_stl(ByteView file);
+[[nodiscard]] SourceMesh load_stl(ByteView file);
+
+} // namespace frustumscreen

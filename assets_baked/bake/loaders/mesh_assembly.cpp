@@ -1,0 +1,91 @@
+#include "assets_baked/bake/loaders/mesh_assembly.h"
+
+#include <cmath>
+
+#include "assets_baked/bake/loaders/refusal.h"
+
+namespace frustumscreen {
+
+namespace {
+
+/// Fractions of a texel at 16k survive up to here in 32 bits; a UV beyond it, or none at all, carries no picture.
+constexpr double largest_uv = 1e6;
+
+float finite_uv(double value) {
+    return std::abs(value) <= largest_uv ? static_cast<float>(value) : 0.0F;
+}
+
+float colour_factor(float value) {
+    return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 1.0F;
+}
+
+} // namespace
+
+std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* place, std::size_t number) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(std::abs(position[axis]) <= largest_coordinate)) {
+            refuse("{} {}: its position ({}, {}, {}) is not a finite point within 1e30", place, number,
+                   position.x, position.y, position.z);
+        }
+    }
+    if (mesh_.positions.size() >= most_vertices) {
+        refuse("more than {} vertices after instancing; simplify the model first", most_vertices);
+    }
+    mesh_.positions.push_back(position);
+    return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+}
+
+void MeshAssembly::set_uv(const glm::dvec2& uv) {
+    mesh_.uvs.resize(mesh_.positions.size(), glm::vec2(0.0F));
+    mesh_.uvs.back() = glm::vec2(finite_uv(uv.x), finite_uv(uv.y));
+}
+
+void MeshAssembly::set_colour(const glm::vec4& linear) {
+    mesh_.colours.resize(mesh_.positions.size(), glm::vec4(1.0F));
+    mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g), colour_factor(linear.b),
+                                     colour_factor(linear.a));
+}
+
+std::uint32_t MeshAssembly::add_material(const SourceMaterial& material) {
+    mesh_.materials.push_back(material);
+    return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+}
+
+int MeshAssembly::add_texture(SourceTexture texture) {
+    mesh_.textures.push_back(std::move(texture));
+    return static_cast<int>(mesh_.textures.size() - 1);
+}
+
+void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
+    if (mesh_.triangles.size() >= most_triangles) {
+        refuse("more than {} triangles after instancing; simplify the model first", most_triangles);
+    }
+    mesh_.triangles.push_back({a, b, c});
+    mesh_.triangle_materials.push_back(material);
+}
+
+SourceMesh MeshAssembly::finish() {
+    if (mesh_.triangles.empty()) {
+        refuse("holds no triangles, so there is nothing to show");
+    }
+    if (mesh_.materials.empty()) {
+        mesh_.materials.emplace_back();
+    }
+    const std::size_t vertices = mesh_.positions.size();
+    if (!mesh_.uvs.empty()) {
+        mesh_.uvs.resize(vertices, glm::vec2(0.0F));
+    }
+    if (!mesh_.colours.empty()) {
+        mesh_.colours.resize(vertices, glm::vec4(1.0F));
+    }
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        for (const std::uint32_t vertex : mesh_.triangles[i]) {
+            if (vertex >= vertices) {
+                refuse("triangle {} uses vertex {}, but there are {} vertices", i, vertex, vertices);
+            }
+        }
+    }
+    return std::move(mesh_);
+}
+
+} // namespace frustumscreen

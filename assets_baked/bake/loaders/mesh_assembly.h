@@ -1,0 +1,43 @@
+/// Puts a SourceMesh together and keeps its promises: finite, bounded, every index in range.
+///
+/// Errors   throws Refusal.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "assets_baked/bake/source_mesh.h"
+
+namespace frustumscreen {
+
+/// What a curator's computer can still bake: 50 million triangles are 2 GiB of mesh. A small file that repeats
+/// its parts without end meets these limits too.
+inline constexpr std::size_t most_triangles = 50'000'000;
+inline constexpr std::size_t most_vertices = 100'000'000;
+/// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.
+inline constexpr double largest_coordinate = 1e30;
+
+class MeshAssembly {
+public:
+    explicit MeshAssembly(char default_up) { mesh_.default_up = default_up; }
+
+    /// `place` names the vertex's origin in messages, for example "vertex".
+    std::uint32_t add_vertex(const glm::dvec3& position, const char* place, std::size_t number);
+    /// Last vertex added. Vertices without get (0, 0) and white.
+    void set_uv(const glm::dvec2& uv);
+    void set_colour(const glm::vec4& linear);
+
+    std::uint32_t add_material(const SourceMaterial& material);
+    int add_texture(SourceTexture texture);
+    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
+
+    [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
+    [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
+    /// Refuses a mesh without triangles.
+    [[nodiscard]] SourceMesh finish();
+
+private:
+    SourceMesh mesh_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,144 @@
+#include "assets_baked/bake/loaders/ply_header.h"
+
+#include <array>
+#include <string_view>
+
+#include "assets_baked/bake/loaders/text.h"
+#include "firmware_host/base/file.h"
+
+namespace frustumscreen {
+
+namespace {
+
+/// Lines end with LF, CR LF or CR.
+class LineReader {
+public:
+    explicit LineReader(std::string_view text) : text_(text) {}
+
+    std::optional<std::string_view> next() {
+        if (position_ >= text_.size()) {
+            return std::nullopt;
+        }
+        ++line_;
+        const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
+        const std::string_view line = text_.substr(position_, end - position_);
+        const bool two = text_.substr(end).starts_with("\r\n");
+        position_ = std::min(end + (two ? 2 : 1), text_.size());
+        return line;
+    }
+    [[nodiscard]] std::size_t line() const { return line_; }
+    [[nodiscard]] std::size_t position() const { return position_; }
+
+private:
+    std::string_view text_;
+    std::size_t position_ = 0;
+    std::size_t line_ = 0;
+};
+
+PlyType type_from(std::string_view name, std::size_t line) {
+    using namespace std::string_view_literals;
+    constexpr std::array names = {
+        std::pair("char"sv, PlyType::I8),    std::pair("int8"sv, PlyType::I8),
+        std::pair("uchar"sv, PlyType::U8),   std::pair("uint8"sv, PlyType::U8),
+        std::pair("short"sv, PlyType::I16),  std::pair("int16"sv, PlyType::I16),
+        std::pair("ushort"sv, PlyType::U16), std::pair("uint16"sv, PlyType::U16),
+        std::pair("int"sv, PlyType::I32),    std::pair("int32"sv, PlyType::I32),
+        std::pair("uint"sv, PlyType::U32),   std::pair("uint32"sv, PlyType::U32),
+        std::pair("float"sv, PlyType::F32),  std::pair("float32"sv, PlyType::F32),
+        std::pair("double"sv, PlyType::F64), std::pair("float64"sv, PlyType::F64),
+    };
+    for (const auto& [known, type] : names) {
+        if (name == known) {
+            return type;
+        }
+    }
+    refuse("line {}: \"{}\" is no type of PLY", line, name.substr(0, 40));
+}
+
+PlyProperty property_from(WordReader& words, std::size_t line) {
+    PlyProperty property;
+    std::string_view type = words.next();
+    if (type == "list") {
+        property.list_count = type_from(words.next(), line);
+        if (*property.list_count == PlyType::F32 || *property.list_count == PlyType::F64) {
+            refuse("line {}: the length of a list is a whole number", line);
+        }
+        type = words.next();
+    }
+    property.type = type_from(type, line);
+    property.name = words.next();
+    return property;
+}
+
+void read_format(WordReader& words, PlyHeader& header, std::size_t line) {
+    const std::string_view format = words.next();
+    header.is_text = format == "ascii";
+    header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
+    if (!header.is_text && format != "binary_little_endian" && format != "binary_big_endian") {
+        refuse("line {}: the format \"{}\" is not known", line, format.substr(0, 40));
+    }
+}
+
+PlyElement element_from(WordReader& words, std::size_t line) {
+    PlyElement element;
+    element.name = words.next();
+    const std::string_view count = words.next();
+    const std::optional<std::int64_t> number = whole_from(count);
+    if (!number || *number < 0) {
+        refuse("line {}: a number of elements is expected, not \"{}\"", line, count.substr(0, 40));
+    }
+    element.count = static_cast<std::uint64_t>(*number);
+    return element;
+}
+
+} // namespace
+
+std::size_t size_of(PlyType type) {
+    switch (type) {
+    case PlyType::I8:
+    case PlyType::U8:
+        return 1;
+    case PlyType::I16:
+    case PlyType::U16:
+        return 2;
+    case PlyType::F64:
+        return 8;
+    default:
+        return 4;
+    }
+}
+
+PlyHeader ply_header_from(ByteView file) {
+    LineReader lines(as_text(file));
+    PlyHeader header;
+    bool has_format = false;
+    if (trimmed(lines.next().value_or("")) != "ply") {
+        refuse("line 1: \"ply\" is expected");
+    }
+    while (const std::optional<std::string_view> line = lines.next()) {
+        WordReader words(*line);
+        const std::string_view keyword = words.next();
+        if (keyword == "format") {
+            read_format(words, header, lines.line());
+            has_format = true;
+        } else if (keyword == "element") {
+            header.elements.push_back(element_from(words, lines.line()));
+        } else if (keyword == "property") {
+            if (header.elements.empty()) {
+                refuse("line {}: a property comes before the first element", lines.line());
+            }
+            header.elements.back().properties.push_back(property_from(words, lines.line()));
+        } else if (keyword == "end_header") {
+            if (!has_format) {
+                refuse("the header does not say the format");
+            }
+            header.size = lines.position();
+            return header;
+        } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+            refuse("line {}: \"{}\" is not known in a PLY header", lines.line(), keyword.substr(0, 40));
+        }
+    }
+    refuse("the header has no \"end_header\": the file is truncated");
+}
+
+} // namespace frustumscreen

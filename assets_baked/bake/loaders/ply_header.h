@@ -1,0 +1,41 @@
+/// The header of a PLY file: what elements follow and how they are written.
+///
+/// Errors   throws Refusal naming the line.
+/// Source   G. Turk, The PLY Polygon File Format, 1994.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets_baked/bake/loaders/bytes.h"
+
+namespace frustumscreen {
+
+enum class PlyType { I8, U8, I16, U16, I32, U32, F32, F64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::F32;
+    std::optional<PlyType> list_count; ///< type of a list's length
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+    bool is_text = false;
+    std::endian order = std::endian::little; ///< of binary data
+    std::vector<PlyElement> elements;
+    std::size_t size = 0; ///< bytes up to the data
+};
+
+[[nodiscard]] PlyHeader ply_header_from(ByteView file);
+[[nodiscard]] std::size_t size_of(PlyType type);
+
+} // namespace frustumscreen

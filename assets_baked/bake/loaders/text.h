@@ -1,0 +1,33 @@
+/// Words and numbers out of text files, independent of the locale.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// Words separated by blanks and line ends; knows its line for messages.
+class WordReader {
+public:
+    explicit WordReader(std::string_view text) : text_(text) {}
+
+    /// The next word, empty at the end of the text.
+    [[nodiscard]] std::string_view next();
+    /// The rest of the current line, without its end.
+    [[nodiscard]] std::string_view rest_of_line();
+    [[nodiscard]] std::size_t line() const { return line_; }
+
+private:
+    std::string_view text_;
+    std::size_t position_ = 0;
+    std::size_t line_ = 1;
+};
+
+/// The whole word as a number; "nan" and "inf" are numbers here and refused where a finite one is needed.
+[[nodiscard]] std::optional<double> number_from(std::string_view word);
+[[nodiscard]] std::optional<std::int64_t> whole_from(std::string_view word);
+[[nodiscard]] bool is_blank(char c);
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+} // namespace frustumscreen

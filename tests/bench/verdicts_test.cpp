@@ -1,0 +1,105 @@
+#include "app/bench/report.h"
+#include "app/bench/verdicts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+namespace {
+
+PictureError picture_error(double silhouette_percent, double outline_px, double mm, double rmse) {
+    PictureError error;
+    error.silhouette_percent = silhouette_percent;
+    error.outline_shift_px = outline_px;
+    error.geometric_mean_mm = mm;
+    error.sixteen_rays.rmse = rmse;
+    return error;
+}
+
+TechniqueResult technique(const std::string& name, TechniqueKind kind, int level, double times_floor,
+                          std::vector<PictureError> errors) {
+    TechniqueResult result;
+    result.name = name;
+    result.kind = kind;
+    result.level = level;
+    result.errors = std::move(errors);
+    result.error = summarise(result.errors);
+    result.time_ms = {times_floor, times_floor, times_floor};
+    result.times_floor = times_floor;
+    return result;
+}
+
+SetUpResult example() {
+    SetUpResult result;
+    result.name = "near";
+    result.default_level = 0;
+    result.finest_level = 1;
+    result.techniques = {
+        technique("floor", TechniqueKind::Floor, -1, 1.0, {}),
+        technique("mesh 0", TechniqueKind::PackLevel, 0, 3.0, {picture_error(0.5, 0.4, 0.1, 10.0)}),
+        technique("mesh 1", TechniqueKind::PackLevel, 1, 5.0, {picture_error(0.1, 0.05, 0.03, 7.0)}),
+        technique("two-pass 640", TechniqueKind::TwoPass, -1, 30.0, {picture_error(0.4, 0.3, 0.12, 9.0)})};
+    result.techniques[3].triangles = 1'000'000;
+    return result;
+}
+
+std::size_t missed(const std::vector<Verdict>& verdicts) {
+    return static_cast<std::size_t>(std::count_if(verdicts.begin(), verdicts.end(),
+                                                  [](const Verdict& verdict) { return !verdict.held; }));
+}
+
+TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
+    const auto verdict = [](std::vector<PictureError> errors) {
+        return judge(technique("t", TechniqueKind::PackLevel, 0, 1.0, std::move(errors)),
+                     default_level_limits)
+            .front()
+            .held;
+    };
+    EXPECT_TRUE(verdict({picture_error(0.6, 9.0, 0, 0), picture_error(9.0, 0.3, 0, 0)}));
+    EXPECT_FALSE(verdict({picture_error(0.1, 0.1, 0, 0), picture_error(0.61, 0.31, 0, 0)}));
+}
+
+TEST(Verdicts, OneBadPoseMissesALimit) {
+    TechniqueResult level = technique("t", TechniqueKind::PackLevel, 0, 1.0,
+                                      {picture_error(0, 0, 0.01, 1.0), picture_error(0, 0, 0.21, 1.0)});
+    EXPECT_EQ(missed(judge(level, default_level_limits)), 1U);
+}
+
+TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
+    const SetUpResult result = example();
+    const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);
+    ASSERT_NE(level, nullptr);
+    EXPECT_EQ(level->name, "mesh 1"); // mesh 0 is cheaper but its colours and silhouette are worse
+    SetUpResult none = result;
+    none.techniques[3].error.mean.geometric_mean_mm = 0.01;
+    EXPECT_EQ(cheapest_as_good(none, none.techniques[3]), nullptr);
+    EXPECT_EQ(missed(judge(result)), 0U); // 30 / 5 = 6 times
+    none.techniques[3] = result.techniques[3];
+    none.techniques[3].times_floor = 29.0;
+    EXPECT_EQ(missed(judge(none)), 1U);
+    none.techniques[3].triangles = 100'000; // the limit is not set for so small a source
+    EXPECT_EQ(missed(judge(none)), 0U);
+}
+
+TEST(Report, EveryRowHasAsManyFieldsAsTheHeader) {
+    SetUpResult result = example();
+    result.poses = {BenchPose{}};
+    for (const std::string& csv : {summary_csv({&result, 1}), poses_csv({&result, 1})}) {
+        std::size_t commas = std::string::npos;
+        std::size_t rows = 0;
+        for (std::size_t at = 0; at < csv.size(); ++rows) {
+            const std::size_t end = csv.find('\n', at);
+            const auto count =
+                static_cast<std::size_t>(std::count(csv.begin() + static_cast<std::ptrdiff_t>(at),
+                                                    csv.begin() + static_cast<std::ptrdiff_t>(end), ','));
+            commas = commas == std::string::npos ? count : commas;
+            EXPECT_EQ(count, commas) << csv.substr(at, end - at);
+            at = end + 1;
+        }
+        EXPECT_GE(rows, 4U);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
