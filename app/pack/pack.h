@@ -43,8 +43,8 @@ struct ReliefChart {
 };
 
 /// Layered relief (layered depth images in the directions of the prop's faces; Kim 2008, Shade 1998) as one
-/// packed atlas. relief: coordinate along the direction's axis, 0 = box minimum, 65534 = box maximum, 65535 =
-/// empty.
+/// packed atlas.
+/// relief: coordinate along the direction's axis, 0 = box minimum, 65534 = box maximum, 65535 = empty.
 struct ReliefAtlas {
     float texel_box = 0.0F; ///< edge of a texel, box units
     std::vector<ReliefChart> charts;
@@ -65,8 +65,8 @@ struct PackCluster {
     std::uint32_t index_count = 0; ///< multiple of 3
     glm::vec3 centre{0.0F};
     float radius = 0.0F;
-    /// Back-facing from an eye e if dot(normalize(cone_apex - e), cone_axis) >= cone_cutoff; cutoff > 1:
-    /// never.
+    /// Back-facing from an eye e if dot(normalize(cone_apex - e), cone_axis) >= cone_cutoff.
+    /// A cut-off above 1: never.
     glm::vec3 cone_apex{0.0F};
     glm::vec3 cone_axis{0.0F, 0.0F, 1.0F};
     float cone_cutoff = 2.0F;
@@ -74,8 +74,8 @@ struct PackCluster {
 
 enum class LevelTechnique { Relief, Mesh };
 
-/// Distance between a level's surface and the source's, both ways, over surface that a visitor can see. Box
-/// units.
+/// Distance between a level's surface and the source's, both ways, over surface that a visitor can see.
+/// Box units.
 struct LevelError {
     float mean_box = 0.0F;
     float p95_box = 0.0F;

@@ -1,17 +1,17 @@
 /// The pack as a file: one ZIP container with a manifest and hashed binary parts. FORMAT.md has the bytes.
 ///
-/// Errors   one line: what is wrong, where inside the pack, what to do. Every length, offset, count and dimension is
-///          checked before use; nothing of a pack is used before its hash was right.
+/// Errors   one line: what is wrong, where inside the pack, what to do. Every length, offset, count and
+///          dimension is checked before use; nothing of a pack is used before its hash was right.
 /// Threads  pure; any.
 #pragma once
-
-#include <filesystem>
-#include <span>
 
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <span>
 
 namespace frustumscreen {
 
@@ -35,7 +35,7 @@ private:
 /// Reads and verifies; messages begin with the file's name.
 [[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file);
 
-/// `box_from_file` and the placement of the box in a prop as one matrix: file coordinates -> prop coordinates.
+/// `box_from_file` and the placement of the box in a prop as one matrix: file to prop coordinates.
 struct Placement {
     double metres_per_box = 0.0; ///< uniform scale from box units to metres in the prop's frame
     glm::dmat4 prop_from_artifact{1.0};

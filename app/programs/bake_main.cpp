@@ -1,14 +1,15 @@
 /// frustumscreen-bake: a curator's artifact file to a pack.
 #include "app/pack/pack_file.h"
+#include "app/pack/sha256.h"
+#include "app/programs/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sodium.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -28,36 +29,6 @@ struct Arguments {
     std::vector<std::string> languages;
     std::vector<std::string> captions; ///< LANGUAGE=TEXT
 };
-
-/// One line that is written over while a person watches; silent in a pipe.
-class ProgressLine {
-public:
-    void show(std::string_view step, double done) {
-        if (!on_terminal_) {
-            return;
-        }
-        fmt::print(stderr, "\r\033[K{:3.0f} %  {}", done * 100.0, step);
-        std::fflush(stderr);
-    }
-    ~ProgressLine() {
-        if (on_terminal_) {
-            fmt::print(stderr, "\r\033[K");
-        }
-    }
-
-private:
-    bool on_terminal_ = ::isatty(STDERR_FILENO) != 0;
-};
-
-std::string sha256_of(const Bytes& bytes) {
-    std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
-    crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-    std::string text;
-    for (const unsigned char byte : digest) {
-        text += fmt::format("{:02x}", byte);
-    }
-    return text;
-}
 
 Result<void> describe(Pack& pack, const Arguments& arguments) {
     pack.title = arguments.title.empty() ? arguments.input.stem().string() : arguments.title;
@@ -81,7 +52,7 @@ Result<void> describe(Pack& pack, const Arguments& arguments) {
         return tl::unexpected<Error>(source.error());
     }
     pack.provenance.source_name = arguments.input.filename().string();
-    pack.provenance.source_sha256 = sha256_of(*source);
+    pack.provenance.source_sha256 = sha256_hex(*source);
     pack.provenance.licence = arguments.licence;
     return {};
 }
@@ -117,8 +88,10 @@ Result<void> work(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    ProgressLine progress;
-    arguments.options.progress = [&](std::string_view step, double done) { progress.show(step, done); };
+    ProgressLine progress("baking, per cent");
+    arguments.options.progress = [&](std::string_view, double done) {
+        progress.show(static_cast<std::size_t>(done * 100.0), 100);
+    };
 
     CLI::App app("Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen.",
                  "frustumscreen-bake");

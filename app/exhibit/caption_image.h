@@ -1,0 +1,28 @@
+/// A caption's text as a picture to lay on the table.
+///
+/// Units    metres on the table. Coverage is linear light, 255 = white; row 0 at the text's top.
+/// Threads  as Typesetter; made once for each text, language and size.
+#pragma once
+
+#include "app/exhibit/text_image.h"
+#include "app/image/image.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+
+namespace frustumscreen {
+
+struct CaptionImage {
+    Image<std::uint8_t> coverage;
+    glm::dvec2 size_m{0.0}; ///< along X and Y of the table
+};
+
+/// The title, larger and bold, over the text, wrapped to `width_m`. `em_m` is the text's type size; less than
+/// 24 pt
+/// (`least_caption_em_m`) becomes 24 pt.
+[[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
+                                        const std::string& text, double em_m, double width_m,
+                                        double texels_per_m);
+
+} // namespace frustumscreen

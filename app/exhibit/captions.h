@@ -1,0 +1,94 @@
+/// Where a caption lies on the table: beside the prop, never on it, and still while the prop moves.
+///
+/// A caption lies flat on the table top, its baseline towards the visitor's edge (-Y). Where the projector's
+/// rays to the table meet the prop first, nothing of the caption may be: the prop's shadow, which holds its
+/// footprint, is what is kept clear. A caption dims as the shadow comes near and is gone when they touch, so
+/// it is never on the prop however fast that moves; one that has the prop near it moves to a free place by
+/// fading out there and in here.
+///
+/// Frames   table T, the plane z = 0; metres.
+/// Time     `now` never goes back; fades are closed forms of it.
+/// Threads  values; one caller. `update` and `at` allocate nothing.
+/// Errors   none: without room the caption is not shown.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "firmware_host/base/time.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// 24 pt, the smallest type on the table.
+inline constexpr double least_caption_em_m = 24.0 * 0.0254 / 72.0;
+
+/// A convex polygon, counter-clockwise; no points = nothing.
+struct TablePolygon {
+    std::array<glm::dvec2, 12> points{};
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const glm::dvec2> corners() const { return std::span(points).first(count); }
+};
+
+struct TableRectangle {
+    glm::dvec2 centre_m{0.0};
+    glm::dvec2 size_m{0.0};
+    [[nodiscard]] std::array<glm::dvec2, 4> corners() const; ///< counter-clockwise from low x, low y
+};
+
+/// The part of the table that a convex prop hides from a point: from the lens, its shadow. Nothing returned
+/// if the point is not above the whole prop: then it may hide anything.
+[[nodiscard]] std::optional<TablePolygon>
+hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop, const glm::dvec3& from_m);
+
+/// Distance between two convex shapes; 0 if they touch or overlap.
+[[nodiscard]] double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b);
+
+struct CaptionPlace {
+    std::size_t shape = 0; ///< index into the sizes given
+    TableRectangle rectangle;
+    double opacity = 0.0; ///< 0 = do not draw
+};
+
+class CaptionPlacer {
+public:
+    /// `room`: the convex part of the table that the picture covers; captions stay `border_m` inside.
+    explicit CaptionPlacer(std::span<const glm::dvec2> room, double border_m = 0.008);
+
+    /// Another caption, in shapes (widths it was wrapped to) of falling preference; at most four. It appears
+    /// at the best place at the next update.
+    void set_shapes(std::span<const glm::dvec2> sizes_m);
+
+    /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye.
+    void update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
+                const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m);
+    [[nodiscard]] CaptionPlace at(MonotonicTime now) const;
+
+private:
+    struct Choice {
+        std::size_t shape = 0;
+        TableRectangle rectangle;
+    };
+    [[nodiscard]] std::optional<Choice> choose(const TablePolygon& shadow, const TablePolygon* hidden,
+                                               const glm::dvec2& prop_m) const;
+    [[nodiscard]] bool inside_room(const TableRectangle& rectangle) const;
+
+    std::vector<glm::dvec2> room_;
+    double border_m_;
+    std::array<glm::dvec2, 4> sizes_{};
+    std::size_t size_count_ = 0;
+
+    std::optional<Choice> place_;
+    MonotonicTime appears_;                  ///< since when it fades in
+    std::optional<MonotonicTime> leaves_;    ///< since when it fades out
+    std::optional<MonotonicTime> next_look_; ///< a search that found nothing waits until then
+    double clearance_m_ = 0.0;               ///< of the caption from the shadow, at the last update
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,57 @@
+/// What the exhibit shows: which artifact, in which language, how bright.
+///
+/// A change of artifact fades the old one out and the new one in, 0.2 s each; a press in the middle of it
+/// turns it round without a jump. Brightness is a closed form of time: nothing is integrated, so a late frame
+/// shows what an early one would have.
+///
+/// Time     `now` never goes back.
+/// Threads  values; one caller. `at` is pure.
+/// Errors   none. An exhibit without artifacts shows nothing.
+#pragma once
+
+#include "firmware_host/base/time.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class Wish { PreviousArtifact, NextArtifact, NextLanguage };
+
+inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(200); ///< out, and again in
+
+struct Shown {
+    std::size_t artifact = 0;
+    double brightness = 0.0; ///< 0..1, a factor on linear light
+    bool changing = false;   ///< brightness moves
+};
+
+class Exhibit {
+public:
+    /// `languages` (BCP 47): those that some artifact has a caption in, in the order the button goes through.
+    Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
+            MonotonicTime now);
+
+    void wish(Wish wish, MonotonicTime now);
+    [[nodiscard]] Shown at(MonotonicTime now) const;
+    [[nodiscard]] const std::string& language() const { return language_; }
+
+private:
+    void change_to(std::size_t artifact, MonotonicTime now);
+
+    std::size_t count_;
+    std::vector<std::string> languages_;
+    std::string language_;
+    std::size_t from_ = 0;
+    std::size_t to_ = 0;
+    MonotonicTime change_start_; ///< `from_` begins to fade
+};
+
+/// Index of the caption for `language` among captions in `languages`: the same tag, else the same language
+/// with another region or script, else English, else the first. `languages` is not empty.
+[[nodiscard]] std::size_t caption_for(std::string_view language, std::span<const std::string> languages);
+
+} // namespace frustumscreen

@@ -1,0 +1,54 @@
+/// Sets text as a picture of its coverage: captions on the table, labels on sheets and patterns.
+///
+/// Text     UTF-8, composed characters (NFC), left to right; what is not UTF-8 shows as U+FFFD. Scripts that
+/// run
+///          from right to left or join their letters need shaping and come with a later issue.
+/// Units    pixels; `em_px` is the type size. Coverage 0..255, row 0 at the top.
+/// Threads  one at a time (FreeType's faces are not shared). Offline or once for each caption, never in the
+/// frame. Errors   the typeface's files are missing or unreadable. Library  FreeType 2, grey coverage without
+/// hinting, pen positions to 1/64 pixel.
+#pragma once
+
+#include "app/image/image.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct Paragraph {
+    std::string text;
+    double em_px = 24.0;
+    bool bold = false;
+    double brightness = 1.0;      ///< of its letters, 0..1: scales the coverage
+    double space_before_px = 0.0; ///< not above the first
+};
+
+class Typesetter {
+public:
+    /// DejaVu Sans in the places where Debian has it, or in `folder`.
+    [[nodiscard]] static Result<Typesetter> open(const std::filesystem::path& folder = {});
+    Typesetter(Typesetter&&) noexcept;
+    Typesetter& operator=(Typesetter&&) noexcept;
+    ~Typesetter();
+
+    /// Lines broken at spaces so that they fit `width_px` (a longer word is broken where it must be); as wide
+    /// as the widest line, at least 1 x 1. Letters that reach over the edge are not cut off.
+    [[nodiscard]] Image<std::uint8_t> set(std::span<const Paragraph> paragraphs, double width_px) const;
+    /// One line.
+    [[nodiscard]] Image<std::uint8_t> line(std::string_view text, double em_px, bool bold = false) const;
+    /// Distance from one line's baseline to the next.
+    static constexpr double line_pitch_em = 1.28;
+
+private:
+    struct Faces;
+    explicit Typesetter(std::unique_ptr<Faces> faces);
+    std::unique_ptr<Faces> faces_;
+};
+
+} // namespace frustumscreen

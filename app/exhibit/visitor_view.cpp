@@ -1,0 +1,243 @@
+#include "app/exhibit/visitor_view.h"
+
+#include "firmware_host/base/parallel.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double prop_share_of_picture = 0.62;
+constexpr double largest_sine = 0.9;
+
+/// The room around the table: enough to read the shapes by, faint against the projector.
+constexpr double prop_albedo = 0.85;
+constexpr double table_albedo = 0.30;
+constexpr double ambient_light = 0.020; ///< on a surface that faces `ambient_from`, after exposure
+const glm::dvec3 ambient_from = glm::normalize(glm::dvec3(-0.35, -0.45, 0.82));
+constexpr double contact_shadow_reach_m = 0.035;
+
+/// A place that a visitor's ray meets.
+struct Place {
+    glm::dvec3 point_m{0.0}; ///< table frame
+    glm::dvec3 normal{0.0};  ///< table frame
+    bool on_prop = false;
+    bool lit = false; ///< in sight of the projector's lens
+};
+
+/// cos / d^2 of the projector's light at a place; 0 where it comes from behind.
+double received(const glm::dvec3& projector_m, const glm::dvec3& point_m, const glm::dvec3& normal) {
+    const glm::dvec3 to_light = projector_m - point_m;
+    const double distance = glm::length(to_light);
+    return std::max(0.0, glm::dot(normal, to_light) / (distance * distance * distance));
+}
+
+class Room {
+public:
+    Room(const VisitorScene& scene, const Image8& picture, const VisitorViewOptions& options)
+        : scene_(scene), picture_(picture), options_(options),
+          prop_from_table_(scene.table_from_prop.inverse()),
+          projector_from_table_(scene.table_from_projector.inverse()),
+          eye_in_prop_(prop_from_table_.point(scene.eye_m)),
+          lens_in_prop_(prop_from_table_.point(scene.table_from_projector.translation)) {
+        const PropFace& side = scene.prop.faces.front();
+        const glm::dvec3 middle =
+            (side.corners[0] + side.corners[1] + side.corners[2] + side.corners[3]) / 4.0;
+        const double light = received(lens(), middle, side.plane.normal);
+        exposure_ = light > 0.0 ? 1.0 / light : 1.0 / received(lens(), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+    }
+
+    [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
+        const glm::dvec3 in_prop = prop_from_table_.direction(direction);
+        PropHit hit;
+        if (intersect(scene_.prop, eye_in_prop_, in_prop, hit)) {
+            const Plane& plane = scene_.prop.faces[static_cast<std::size_t>(hit.face)].plane;
+            return Place{scene_.eye_m + hit.t * direction, scene_.table_from_prop.direction(plane.normal),
+                         true, plane.distance(lens_in_prop_) > 0.0};
+        }
+        if (meets_bottom(in_prop)) {
+            return Place{glm::dvec3(0.0), scene_.table_from_prop.direction(glm::dvec3(0, 0, -1)), true,
+                         false};
+        }
+        const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
+        const glm::dvec3 point = scene_.eye_m + t * direction;
+        if (t <= 0.0 || std::abs(point.x) > scene_.table_size_m.x / 2.0 ||
+            std::abs(point.y) > scene_.table_size_m.y / 2.0) {
+            return std::nullopt;
+        }
+        PropHit shade;
+        const bool shadowed =
+            intersect(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
+            shade.t < 1.0;
+        return Place{point, glm::dvec3(0, 0, 1), false, !shadowed};
+    }
+
+    /// Linear light that a place sends to the eye.
+    [[nodiscard]] glm::dvec3 sent_back(const Place& place) const {
+        glm::dvec3 light(0.0);
+        if (place.lit) {
+            light = projected(place.point_m);
+        }
+        if (!options_.light) {
+            return light;
+        }
+        light *= exposure_ * received(lens(), place.point_m, place.normal);
+        const double room =
+            ambient_light * (0.35 + 0.65 * std::max(0.0, glm::dot(place.normal, ambient_from)));
+        return place.on_prop ? prop_albedo * (light + room)
+                             : table_albedo * (light + room * contact_shadow(place.point_m));
+    }
+
+    [[nodiscard]] glm::dvec3 lens() const { return scene_.table_from_projector.translation; }
+    [[nodiscard]] glm::dvec3 in_projector(const glm::dvec3& point_m) const {
+        return projector_from_table_.point(point_m);
+    }
+
+private:
+    /// The projector's light, linear, as it would fall on a surface square to it.
+    [[nodiscard]] glm::dvec3 projected(const glm::dvec3& point_m) const {
+        const std::optional<glm::dvec2> pixel = scene_.projector.pixel(projector_from_table_.point(point_m));
+        if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x >= picture_.width ||
+            pixel->y >= picture_.height) {
+            return glm::dvec3(0.0);
+        }
+        if (options_.nearest) {
+            return texel(static_cast<int>(pixel->x), static_cast<int>(pixel->y));
+        }
+        const glm::dvec2 corner = glm::floor(*pixel - 0.5);
+        const glm::dvec2 f = *pixel - 0.5 - corner;
+        const int x = static_cast<int>(corner.x);
+        const int y = static_cast<int>(corner.y);
+        return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
+                        glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
+    }
+    [[nodiscard]] glm::dvec3 texel(int x, int y) const {
+        const glm::u8vec4& code =
+            picture_.at(std::clamp(x, 0, picture_.width - 1), std::clamp(y, 0, picture_.height - 1));
+        const std::array<float, 256>& linear = linear_from_srgb8();
+        return {linear[code.r], linear[code.g], linear[code.b]};
+    }
+    [[nodiscard]] bool meets_bottom(const glm::dvec3& direction) const {
+        const double t = -eye_in_prop_.z / direction.z;
+        const glm::dvec3 point = eye_in_prop_ + t * direction;
+        const double half = scene_.prop.size.base_m / 2.0;
+        return direction.z > 0.0 && t > 0.0 && std::abs(point.x) <= half && std::abs(point.y) <= half;
+    }
+    /// Less of the room's light arrives close to the prop.
+    [[nodiscard]] double contact_shadow(const glm::dvec3& point_m) const {
+        const glm::dvec3 p = prop_from_table_.point(point_m);
+        const double half = scene_.prop.size.base_m / 2.0;
+        const glm::dvec3 outside = glm::max(glm::abs(p) - glm::dvec3(half, half, 0.0), glm::dvec3(0.0));
+        return 1.0 - 0.75 * std::exp(-glm::length(outside) / contact_shadow_reach_m);
+    }
+
+    const VisitorScene& scene_;
+    const Image8& picture_;
+    VisitorViewOptions options_;
+    RigidTransform prop_from_table_;
+    RigidTransform projector_from_table_;
+    glm::dvec3 eye_in_prop_;
+    glm::dvec3 lens_in_prop_;
+    double exposure_ = 1.0;
+};
+
+} // namespace
+
+VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
+                             const glm::dvec3& eye_m, int width, int height) {
+    const glm::dvec3 centre_in_prop(0.0, 0.0, prop.size.height_m / 2.0);
+    double radius = 0.0;
+    for (const PropFace& face : prop.faces) {
+        for (const glm::dvec3& corner : face.corners) {
+            radius = std::max(radius, glm::distance(corner, centre_in_prop));
+        }
+    }
+    const glm::dvec3 towards = table_from_prop.point(centre_in_prop) - eye_m;
+    const double distance = glm::length(towards);
+    const glm::dvec3 forward = distance > 0.0 ? towards / distance : glm::dvec3(0, 0, -1);
+    const glm::dvec3 across = glm::cross(forward, glm::dvec3(0, 0, 1));
+    const glm::dvec3 right = glm::length(across) > 1e-9 ? glm::normalize(across) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 down = glm::cross(forward, right);
+
+    const double sine = distance > 0.0 ? std::min(largest_sine, radius / distance) : largest_sine;
+    const double focal_px = prop_share_of_picture * std::min(width, height) / 2.0 / std::tan(std::asin(sine));
+    return {{width, height, focal_px, focal_px, width / 2.0, height / 2.0},
+            {glm::normalize(glm::quat_cast(glm::dmat3(right, down, forward))), eye_m}};
+}
+
+Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const VisitorCamera& camera,
+                    const VisitorViewOptions& options) {
+    const Room room(scene, projected, options);
+    Image8 view(camera.pinhole.width, camera.pinhole.height, glm::u8vec4(0, 0, 0, 255));
+    const int rays = std::max(1, options.rays_per_side);
+    const auto pixel_colour = [&](int x, int y) {
+        glm::dvec3 sum(0.0);
+        for (int k = 0; k < rays * rays; ++k) {
+            const glm::dvec2 at(x + (k % rays + 0.5) / rays, y + (k / rays + 0.5) / rays);
+            if (const auto place =
+                    room.first_place(camera.table_from_camera.direction(camera.pinhole.ray(at)))) {
+                sum += room.sent_back(*place);
+            }
+        }
+        return sum / static_cast<double>(rays * rays);
+    };
+    parallel_for(static_cast<std::size_t>(view.height), 8, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                const glm::dvec3 colour = pixel_colour(x, y);
+                view.at(x, y) = glm::u8vec4(srgb8_from_linear(colour.r), srgb8_from_linear(colour.g),
+                                            srgb8_from_linear(colour.b), 255);
+            }
+        }
+    });
+    return view;
+}
+
+double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
+                                const glm::dvec2& pixel) {
+    const Image8 none;
+    const Room room(scene, none, {});
+    const glm::dvec3 ray = camera.pinhole.ray(pixel);
+    const std::optional<Place> place = room.first_place(camera.table_from_camera.direction(ray));
+    if (!place || !place->on_prop || !place->lit) {
+        return 0.0;
+    }
+    // A pixel of a pinhole covers Z^3 / (fx fy |n . p|) of a plane at the point p = (X, Y, Z).
+    const auto density = [](const Pinhole& pinhole, const glm::dvec3& p, const glm::dvec3& normal) {
+        return pinhole.fx * pinhole.fy * std::abs(glm::dot(normal, p)) / (p.z * p.z * p.z);
+    };
+    const glm::dvec3 seen = camera.table_from_camera.inverse().point(place->point_m);
+    const glm::dvec3 lit = room.in_projector(place->point_m);
+    return density(scene.projector, lit, scene.table_from_projector.inverse().direction(place->normal)) /
+           density(camera.pinhole, seen, camera.table_from_camera.inverse().direction(place->normal));
+}
+
+std::string visitor_cameras_json(std::span<const VisitorFrame> frames) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const VisitorFrame& frame : frames) {
+        const Pinhole& pinhole = frame.camera.pinhole;
+        const glm::dmat4 matrix = frame.camera.table_from_camera.matrix();
+        nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+        for (int k = 0; k < 16; ++k) {
+            numbers.push_back(matrix[k / 4][k % 4]);
+        }
+        list.push_back({{"frame", frame.frame},
+                        {"t_us", frame.t_us},
+                        {"eye_m", {frame.eye_m.x, frame.eye_m.y, frame.eye_m.z}},
+                        {"width", pinhole.width},
+                        {"height", pinhole.height},
+                        {"fx", pinhole.fx},
+                        {"fy", pinhole.fy},
+                        {"cx", pinhole.cx},
+                        {"cy", pinhole.cy},
+                        {"table_from_camera", numbers}});
+    }
+    return nlohmann::ordered_json{{"frames", list}}.dump(1) + "\n";
+}
+
+} // namespace frustumscreen

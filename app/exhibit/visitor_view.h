@@ -1,0 +1,89 @@
+/// What the visitor's eye sees: the simulated table with the prop, lit by the projector's picture.
+///
+/// A separate path, made to judge the whole chain: it knows the projector's finished picture, the
+/// configuration and the poses, and neither the artifact nor the collineation. A ray goes from the eye
+/// through each pixel to the prop or the table; the point it meets sends back the projector's pixel that
+/// lights it, if one does.
+///
+/// Frames   table T; metres. Pixels as in pinhole.h.
+/// Light    linear inside, sRGB codes at both edges. With `light`, the projector's light falls as cos / d^2,
+/// a
+///          faint room light shows the white prop and the dark table, and the exposure is that of an eye used
+///          to the dark: the middle of an upright side face, the prop at the table's centre, counts as 1.
+///          Without it, a surface sends back the projector's code as it is, and nothing where no light falls.
+/// Threads  uses all cores; deterministic. Offline only.
+/// Errors   none.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "app/image/image.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace frustumscreen {
+
+/// Everything that stands around the visitor.
+struct VisitorScene {
+    Pinhole projector; ///< of the picture handed in: its width and height are the picture's
+    RigidTransform table_from_projector;
+    PropShape prop;
+    RigidTransform table_from_prop;
+    glm::dvec3 eye_m{0.0};
+    glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
+};
+
+struct VisitorCamera {
+    Pinhole pinhole;
+    RigidTransform table_from_camera;
+};
+
+/// The camera at the eye E that looks at the prop's centre C = table_from_prop (0, 0, height / 2):
+///     forward = +Z = (C - E) / |C - E|,  right = +X = normalise(forward x table Z),  down = +Y = forward x
+///     right
+/// (straight above: right = table X);
+///     fx = fy = 0.62 * min(width, height) / 2 / tan(asin(r / |C - E|)),  cx = width / 2,  cy = height / 2,
+/// where r is the distance from C to the prop's farthest corner: the prop's sphere takes 0.62 of the
+/// picture's shorter side. r / |C - E| counts as at most 0.9.
+[[nodiscard]] VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
+                                           const glm::dvec3& eye_m, int width, int height);
+
+struct VisitorViewOptions {
+    bool light = true;
+    /// Rays along each side of a pixel, averaged in linear light; 1 = through the centre alone.
+    int rays_per_side = 3;
+    /// The projector's pixel as it is instead of a bilinear mixture of four.
+    bool nearest = false;
+};
+/// For comparing with a ray cast, ray for ray: `--no-light`. The visitor's picture should not be finer than
+/// the projector's: half its width and height is right for the default prop.
+[[nodiscard]] constexpr VisitorViewOptions exact_check() {
+    return {false, 1, false};
+}
+
+[[nodiscard]] Image8 visitor_view(const VisitorScene& scene, const Image8& projected,
+                                  const VisitorCamera& camera, const VisitorViewOptions& options = {});
+
+/// How many projector pixels one visitor's pixel covers, by area, at the surface point that the visitor sees
+/// through `pixel`; 0 if that is not a lit face of the prop. The visitor's pixel is no finer where this is
+/// >= 1.
+[[nodiscard]] double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
+                                              const glm::dvec2& pixel);
+
+/// One picture's camera for the file beside the pictures.
+struct VisitorFrame {
+    int frame = 0;
+    std::int64_t t_us = 0;
+    glm::dvec3 eye_m{0.0};
+    VisitorCamera camera;
+};
+/// {"frames": [{"frame", "t_us", "eye_m"[3], "width", "height", "fx", "fy", "cx", "cy",
+/// "table_from_camera"[16, column-major]}]}; ends with a line break.
+[[nodiscard]] std::string visitor_cameras_json(std::span<const VisitorFrame> frames);
+
+} // namespace frustumscreen

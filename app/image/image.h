@@ -1,0 +1,58 @@
+/// Pictures in memory, and PNG in and out.
+///
+/// Shape    row-major, row 0 at the top.
+/// Colour   8-bit sRGB at the edges; `linear_from_srgb` and back for light.
+/// Threads  values and pure functions; any.
+#pragma once
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+template <typename Texel> struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<Texel> texels;
+
+    Image() = default;
+    Image(int w, int h, Texel fill = Texel{})
+        : width(w), height(h), texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+    [[nodiscard]] Texel& at(int x, int y) {
+        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
+    [[nodiscard]] const Texel& at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+};
+
+using Image8 = Image<glm::u8vec4>;    ///< sRGB + alpha
+using Image16 = Image<std::uint16_t>; ///< relief; ReliefAtlas has the codes
+using ImageFloat = Image<glm::vec3>;
+
+/// sRGB transfer function, IEC 61966-2-1.
+[[nodiscard]] double linear_from_srgb(double srgb01);
+[[nodiscard]] double srgb_from_linear(double linear01);
+/// linear_from_srgb for each 8-bit code.
+[[nodiscard]] const std::array<float, 256>& linear_from_srgb8();
+/// Nearest 8-bit code; clamps.
+[[nodiscard]] std::uint8_t srgb8_from_linear(double linear01);
+
+/// Errors: not a PNG, damaged, larger than `limit_texels`.
+[[nodiscard]] Result<Image8> decode_png8(std::span<const std::byte> bytes,
+                                         std::int64_t limit_texels = 1 << 28);
+[[nodiscard]] Result<Image16> decode_png16(std::span<const std::byte> bytes,
+                                           std::int64_t limit_texels = 1 << 28);
+/// Lossless; RGB if every alpha is 255.
+[[nodiscard]] Bytes encode_png(const Image8& image);
+[[nodiscard]] Bytes encode_png(const Image16& image);
+/// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
+[[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
+
+} // namespace frustumscreen

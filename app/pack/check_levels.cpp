@@ -1,0 +1,123 @@
+#include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+constexpr float most_error_box = 10.0F; ///< the box is 1 long: more is no measurement
+constexpr float most_colour_rmse = 255.0F;
+
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_sound(const PackCluster& cluster) {
+    return is_finite(cluster.centre) && std::isfinite(cluster.radius) && cluster.radius >= 0.0F &&
+           is_finite(cluster.cone_apex) && is_finite(cluster.cone_axis) && std::isfinite(cluster.cone_cutoff);
+}
+
+Result<void> check_clusters(const PackLevel& level) {
+    std::uint64_t next = 0;
+    for (std::size_t k = 0; k < level.clusters.size(); ++k) {
+        const PackCluster& cluster = level.clusters[k];
+        if (cluster.first_index != next || cluster.index_count == 0 || cluster.index_count % 3 != 0) {
+            return bad_input(
+                fmt::format("cluster {} has {} indices from {} on; allowed is a multiple of 3 from {} on", k,
+                            cluster.index_count, cluster.first_index, next));
+        }
+        if (!is_sound(cluster)) {
+            return bad_input(fmt::format("cluster {} has a bound that is not a finite number", k));
+        }
+        next += cluster.index_count;
+    }
+    if (next != level.indices.size()) {
+        return bad_input(
+            fmt::format("the clusters cover {} indices, the level has {}", next, level.indices.size()));
+    }
+    return {};
+}
+
+Result<void> check_errors(const LevelError& error) {
+    const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; };
+    if (!allowed(error.mean_box, most_error_box) || !allowed(error.p95_box, most_error_box) ||
+        !allowed(error.max_box, most_error_box) || !allowed(error.colour_rmse, most_colour_rmse)) {
+        return bad_input(
+            fmt::format("its error is {} mean, {} p95, {} max, {} colour; allowed are 0 to {} and colour 0 "
+                        "to {}",
+                        error.mean_box, error.p95_box, error.max_box, error.colour_rmse, most_error_box,
+                        most_colour_rmse));
+    }
+    return {};
+}
+
+Result<void> check_level(const Pack& pack, const PackLevel& level) {
+    if (level.texture >= pack.textures.size()) {
+        return bad_input(fmt::format("it wears texture {}, the pack has {} textures", level.texture,
+                                     pack.textures.size()));
+    }
+    const Image8& texture = pack.textures[level.texture];
+    if (level.technique == LevelTechnique::Relief &&
+        (texture.width != pack.relief.relief.width || texture.height != pack.relief.relief.height)) {
+        return bad_input(
+            fmt::format("its texture is {} x {} texels, the relief {} x {}; a relief level needs the same",
+                        texture.width, texture.height, pack.relief.relief.width, pack.relief.relief.height));
+    }
+    if (auto good = check_errors(level.error); !good) {
+        return good;
+    }
+    return check_mesh(level);
+}
+
+} // namespace
+
+Result<void> check_mesh(const PackLevel& level) {
+    if (level.vertices.size() > most_vertices || level.indices.size() > most_indices ||
+        level.clusters.size() > most_clusters || level.indices.empty() || level.indices.size() % 3 != 0) {
+        return bad_input(
+            fmt::format("it has {} vertices, {} indices, {} clusters; allowed are {}, {} (a multiple of 3, "
+                        "not 0), {}",
+                        level.vertices.size(), level.indices.size(), level.clusters.size(), most_vertices,
+                        most_indices, most_clusters));
+    }
+    const std::uint32_t highest = *std::max_element(level.indices.begin(), level.indices.end());
+    if (highest >= level.vertices.size()) {
+        return bad_input(
+            fmt::format("an index is {}, the level has {} vertices", highest, level.vertices.size()));
+    }
+    const bool reserved = std::any_of(level.vertices.begin(), level.vertices.end(),
+                                      [](const PackVertex& vertex) { return vertex.reserved != 0; });
+    if (reserved) {
+        return bad_input("a vertex has its reserved bytes set; allowed is 0");
+    }
+    return check_clusters(level);
+}
+
+Result<void> check_levels(const Pack& pack) {
+    if (pack.levels.empty() || pack.levels.size() > most_levels) {
+        return bad_input(
+            fmt::format("the pack has {} levels, allowed are 1 to {}", pack.levels.size(), most_levels));
+    }
+    if (pack.default_level >= pack.levels.size()) {
+        return bad_input(fmt::format("default_level is {}, the pack has {} levels", pack.default_level,
+                                     pack.levels.size()));
+    }
+    bool uses_relief = false;
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        if (auto good = check_level(pack, pack.levels[k]); !good) {
+            return at(fmt::format("level {}", k), good.error());
+        }
+        uses_relief = uses_relief || pack.levels[k].technique == LevelTechnique::Relief;
+    }
+    if (!uses_relief && !pack.relief.relief.texels.empty()) {
+        return bad_input("the pack holds a relief that no level uses");
+    }
+    return {};
+}
+
+} // namespace frustumscreen::pack_format

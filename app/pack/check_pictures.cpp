@@ -1,0 +1,102 @@
+#include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+template <typename Texel> Result<void> check_size(const std::string& what, const Image<Texel>& image) {
+    const std::int64_t texels = static_cast<std::int64_t>(image.width) * image.height;
+    const bool sides = image.width > 0 && image.height > 0 && image.width <= most_side_texels &&
+                       image.height <= most_side_texels;
+    if (!sides || texels > most_texels || static_cast<std::size_t>(texels) != image.texels.size()) {
+        return bad_input(fmt::format("{} is {} x {} texels; allowed are 1 to {} a side, {} in all", what,
+                                     image.width, image.height, most_side_texels, most_texels));
+    }
+    return {};
+}
+
+Result<void> check_textures(const Pack& pack) {
+    if (pack.textures.size() > most_textures) {
+        return bad_input(
+            fmt::format("the pack has {} textures, allowed are {}", pack.textures.size(), most_textures));
+    }
+    std::int64_t together = 0;
+    for (std::size_t k = 0; k < pack.textures.size(); ++k) {
+        if (auto good = check_size(fmt::format("texture {}", k), pack.textures[k]); !good) {
+            return good;
+        }
+        together += static_cast<std::int64_t>(pack.textures[k].texels.size());
+    }
+    if (together > most_texels_together) {
+        return bad_input(fmt::format("the textures have {} texels together, allowed are {}", together,
+                                     most_texels_together));
+    }
+    return {};
+}
+
+/// Every chart inside the atlas and on texels of its own.
+Result<void> check_charts(const ReliefAtlas& atlas) {
+    std::vector<bool> taken(atlas.relief.texels.size());
+    for (std::size_t k = 0; k < atlas.charts.size(); ++k) {
+        const ReliefChart& chart = atlas.charts[k];
+        if (chart.width == 0 || chart.height == 0 || chart.x + chart.width > atlas.relief.width ||
+            chart.y + chart.height > atlas.relief.height) {
+            return bad_input(fmt::format(
+                "chart {} is {} x {} texels at ({}, {}), outside the atlas of {} x {}", k, chart.width,
+                chart.height, chart.x, chart.y, atlas.relief.width, atlas.relief.height));
+        }
+        if (chart.direction > ReliefDirection::MinusZ) {
+            return bad_input(fmt::format("chart {} has direction {}; allowed are 0 to 5", k,
+                                         static_cast<int>(chart.direction)));
+        }
+        // A chart's rings may reach a little beyond the box.
+        if (!(std::abs(chart.u0_box) <= 2.0F) || !(std::abs(chart.v0_box) <= 2.0F)) {
+            return bad_input(
+                fmt::format("chart {} begins at ({}, {}), outside the box", k, chart.u0_box, chart.v0_box));
+        }
+        for (int y = chart.y; y < chart.y + chart.height; ++y) {
+            for (int x = chart.x; x < chart.x + chart.width; ++x) {
+                const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas.relief.width) +
+                                static_cast<std::size_t>(x);
+                if (taken[at]) {
+                    return bad_input(fmt::format("chart {} overlaps another at texel ({}, {})", k, x, y));
+                }
+                taken[at] = true;
+            }
+        }
+    }
+    return {};
+}
+
+Result<void> check_relief(const ReliefAtlas& atlas) {
+    if (atlas.relief.texels.empty() && atlas.charts.empty()) {
+        return {};
+    }
+    if (auto good = check_size("the relief", atlas.relief); !good) {
+        return good;
+    }
+    if (!(atlas.texel_box > 0.0F) || !(atlas.texel_box <= 1.0F)) {
+        return bad_input(fmt::format("texel_box is {}; allowed are edges above 0 up to 1", atlas.texel_box));
+    }
+    if (atlas.charts.empty() || atlas.charts.size() > most_charts) {
+        return bad_input(
+            fmt::format("the relief has {} charts, allowed are 1 to {}", atlas.charts.size(), most_charts));
+    }
+    return check_charts(atlas);
+}
+
+} // namespace
+
+Result<void> check_pictures(const Pack& pack) {
+    if (auto good = check_textures(pack); !good) {
+        return good;
+    }
+    return check_relief(pack.relief);
+}
+
+} // namespace frustumscreen::pack_format

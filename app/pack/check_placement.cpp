@@ -1,0 +1,86 @@
+#include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
+#include "app/pack/relief_texel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+constexpr double similarity_tolerance = 1e-6; ///< relative
+/// Extremes of an artifact that was authored far from its origin have lost some digits there.
+constexpr double extremes_tolerance = 1e-3; ///< box units
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Rotation times one positive scale, and a translation: no mirror, no shear, no perspective.
+bool is_similarity(const glm::dmat4& m) {
+    const glm::dmat3 linear(m);
+    const double scale = std::cbrt(glm::determinant(linear));
+    if (!is_finite(m[0]) || !is_finite(m[1]) || !is_finite(m[2]) || !is_finite(m[3]) || !(scale > 1e-40) ||
+        !(scale < 1e40)) {
+        return false;
+    }
+    if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) {
+        return false;
+    }
+    const glm::dmat3 rotation = linear / scale;
+    const glm::dmat3 identity = glm::transpose(rotation) * rotation;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            if (!(std::abs(identity[column][row] - (row == column ? 1.0 : 0.0)) <= similarity_tolerance)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+Result<void> check_extremes(const Pack& pack) {
+    if (pack.extremes.empty() || pack.extremes.size() > most_extremes) {
+        return bad_input(fmt::format("the placement has {} extremes, allowed are 1 to {}",
+                                     pack.extremes.size(), most_extremes));
+    }
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high = -low;
+    for (const glm::dvec3& extreme : pack.extremes) {
+        if (!is_finite(extreme)) {
+            return bad_input("an extreme of the placement is not a finite number");
+        }
+        low = glm::min(low, extreme);
+        high = glm::max(high, extreme);
+    }
+    const glm::dvec3 low_off = glm::abs(low - box_low(pack.box_size));
+    const glm::dvec3 high_off = glm::abs(high - box_low(pack.box_size) - pack.box_size);
+    const glm::dvec3 off = glm::max(low_off, high_off);
+    if (std::max({off.x, off.y, off.z}) > extremes_tolerance) {
+        return bad_input(
+            "the placement's extremes do not reach just to the sides of its box; bake the pack again");
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> check_placement(const Pack& pack) {
+    const glm::dvec3& size = pack.box_size;
+    if (!is_finite(size) || !(std::min({size.x, size.y, size.z}) > 0.0) ||
+        !(std::abs(std::max({size.x, size.y, size.z}) - 1.0) <= similarity_tolerance)) {
+        return bad_input(fmt::format("box_size is {} x {} x {}; allowed are edges above 0, the longest 1",
+                                     size.x, size.y, size.z));
+    }
+    if (!is_similarity(pack.box_from_file)) {
+        return bad_input(
+            "box_from_file is not a rotation with one scale and a translation; bake the pack again");
+    }
+    return check_extremes(pack);
+}
+
+} // namespace frustumscreen::pack_format

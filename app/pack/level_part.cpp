@@ -1,0 +1,237 @@
+#include "app/pack/binary_parts.h"
+#include "app/pack/byte_order.h"
+#include "app/pack/limits.h"
+#include "app/pack/relief_texel.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+constexpr std::array<char, 4> level_magic{'F', 'S', 'L', 'V'};
+constexpr std::uint32_t level_version = 1;
+constexpr std::size_t header_bytes = 24;
+constexpr std::size_t cluster_bytes = 52;
+
+/// A vertex of a relief level as it is stored.
+struct StoredTexel {
+    std::uint16_t chart = 0, x = 0, y = 0;
+};
+static_assert(sizeof(StoredTexel) == 6);
+
+/// The texel whose centre has this code; nothing if the code is more than its rounding away from one.
+std::optional<int> texel_of(std::uint16_t code, int width) {
+    const int texel = static_cast<int>(std::floor(code / 65535.0 * width));
+    if (texel < 0 || texel >= width || std::abs(uv_code(texel, width) - code) > 1) {
+        return std::nullopt;
+    }
+    return texel;
+}
+
+/// Which chart owns each texel of the atlas; charts are disjoint.
+Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
+    Image<std::int32_t> owner(relief.relief.width, relief.relief.height, -1);
+    for (std::size_t k = 0; k < relief.charts.size(); ++k) {
+        const ReliefChart& chart = relief.charts[k];
+        for (int y = chart.y; y < chart.y + chart.height; ++y) {
+            for (int x = chart.x; x < chart.x + chart.width; ++x) {
+                owner.at(x, y) = static_cast<std::int32_t>(k);
+            }
+        }
+    }
+    return owner;
+}
+
+/// Whether two positions are one, but for rounding: of their codes, and of 32-bit arithmetic on the way.
+bool same_place(const PackVertex& a, const PackVertex& b, const glm::dvec3& box_size) {
+    constexpr double codes = 2.0;
+    constexpr double rounding_box = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        if (std::abs(a.position[k] - b.position[k]) > codes + rounding_box / box_size[axis] * 65535.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Result<std::vector<StoredTexel>> store_texels(const PackLevel& level, const ReliefAtlas& relief,
+                                              const glm::dvec3& box_size) {
+    const Image<std::int32_t> owner = chart_of_texels(relief);
+    std::vector<StoredTexel> texels;
+    texels.reserve(level.vertices.size());
+    for (std::size_t k = 0; k < level.vertices.size(); ++k) {
+        const PackVertex& vertex = level.vertices[k];
+        const std::optional<int> x = texel_of(vertex.uv[0], relief.relief.width);
+        const std::optional<int> y = texel_of(vertex.uv[1], relief.relief.height);
+        if (!x || !y || owner.at(*x, *y) < 0 || relief.relief.at(*x, *y) == empty_relief) {
+            return bad_input(fmt::format("vertex {} is not at the centre of a filled texel of a chart", k));
+        }
+        const auto chart = static_cast<std::size_t>(owner.at(*x, *y));
+        const PackVertex there = relief_vertex(relief, relief.charts[chart], *x, *y, box_size);
+        if (!same_place(vertex, there, box_size)) {
+            return bad_input(
+                fmt::format("vertex {} is not where the relief puts its texel ({}, {})", k, *x, *y));
+        }
+        texels.push_back({static_cast<std::uint16_t>(chart), static_cast<std::uint16_t>(*x),
+                          static_cast<std::uint16_t>(*y)});
+    }
+    return texels;
+}
+
+Result<std::vector<PackVertex>> vertices_of(const std::vector<StoredTexel>& texels, const ReliefAtlas& relief,
+                                            const glm::dvec3& box_size) {
+    std::vector<PackVertex> vertices;
+    vertices.reserve(texels.size());
+    for (std::size_t k = 0; k < texels.size(); ++k) {
+        const StoredTexel& texel = texels[k];
+        if (texel.chart >= relief.charts.size()) {
+            return bad_input(fmt::format("vertex {} lies in chart {}, the relief has {}", k, texel.chart,
+                                         relief.charts.size()));
+        }
+        const ReliefChart& chart = relief.charts[texel.chart];
+        const bool inside = texel.x >= chart.x && texel.x < chart.x + chart.width && texel.y >= chart.y &&
+                            texel.y < chart.y + chart.height;
+        if (!inside || relief.relief.at(texel.x, texel.y) == empty_relief) {
+            return bad_input(fmt::format("vertex {} is texel ({}, {}), {} chart {}", k, texel.x, texel.y,
+                                         inside ? "an empty one of" : "outside", texel.chart));
+        }
+        vertices.push_back(relief_vertex(relief, chart, texel.x, texel.y, box_size));
+    }
+    return vertices;
+}
+
+void append_cluster(Bytes& bytes, const PackCluster& cluster) {
+    append(bytes, cluster.first_index);
+    append(bytes, cluster.index_count);
+    for (int axis = 0; axis < 3; ++axis) {
+        append(bytes, cluster.centre[axis]);
+    }
+    append(bytes, cluster.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+        append(bytes, cluster.cone_apex[axis]);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        append(bytes, cluster.cone_axis[axis]);
+    }
+    append(bytes, cluster.cone_cutoff);
+}
+
+glm::vec3 take_vector(ByteCursor& cursor) {
+    glm::vec3 v(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        v[axis] = cursor.take<float>();
+    }
+    return v;
+}
+
+PackCluster take_cluster(ByteCursor& cursor) {
+    PackCluster cluster;
+    cluster.first_index = cursor.take<std::uint32_t>();
+    cluster.index_count = cursor.take<std::uint32_t>();
+    cluster.centre = take_vector(cursor);
+    cluster.radius = cursor.take<float>();
+    cluster.cone_apex = take_vector(cursor);
+    cluster.cone_axis = take_vector(cursor);
+    cluster.cone_cutoff = cursor.take<float>();
+    return cluster;
+}
+
+struct Header {
+    bool relief = false;
+    std::uint32_t vertices = 0, indices = 0, clusters = 0;
+};
+
+/// The counts fit the limits and exactly fill the part.
+Result<Header> read_header(std::span<const std::byte> bytes) {
+    if (bytes.size() < header_bytes ||
+        std::memcmp(bytes.data(), level_magic.data(), level_magic.size()) != 0) {
+        return bad_input("it does not begin as a level does (FSLV)");
+    }
+    ByteCursor cursor(bytes.subspan(level_magic.size()));
+    const auto version = cursor.take<std::uint32_t>();
+    const auto kind = cursor.take<std::uint32_t>();
+    if (version != level_version || kind > 1) {
+        return bad_input(fmt::format("its triangles have version {} and kind {}, allowed are {} and 0 or 1",
+                                     version, kind, level_version));
+    }
+    Header header{kind == 1, 0, 0, 0};
+    header.vertices = cursor.take<std::uint32_t>();
+    header.indices = cursor.take<std::uint32_t>();
+    header.clusters = cursor.take<std::uint32_t>();
+    const std::uint64_t needed =
+        std::uint64_t{header.clusters} * cluster_bytes +
+        std::uint64_t{header.indices} * sizeof(std::uint32_t) +
+        std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
+    if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
+        needed != cursor.left()) {
+        return bad_input(fmt::format("{} vertices, {} indices, {} clusters need {} bytes, it has {}",
+                                     header.vertices, header.indices, header.clusters, needed,
+                                     cursor.left()));
+    }
+    return header;
+}
+
+} // namespace
+
+Result<Bytes> encode_level(const PackLevel& level, const ReliefAtlas& relief, const glm::dvec3& box_size) {
+    const bool is_relief = level.technique == LevelTechnique::Relief;
+    Bytes bytes;
+    for (const char c : level_magic) {
+        append(bytes, c);
+    }
+    append(bytes, level_version);
+    append(bytes, std::uint32_t{is_relief ? 1U : 0U});
+    append(bytes, static_cast<std::uint32_t>(level.vertices.size()));
+    append(bytes, static_cast<std::uint32_t>(level.indices.size()));
+    append(bytes, static_cast<std::uint32_t>(level.clusters.size()));
+    for (const PackCluster& cluster : level.clusters) {
+        append_cluster(bytes, cluster);
+    }
+    append_all(bytes, level.indices);
+    if (!is_relief) {
+        append_all(bytes, level.vertices);
+        return bytes;
+    }
+    const Result<std::vector<StoredTexel>> texels = store_texels(level, relief, box_size);
+    if (!texels) {
+        return tl::unexpected(texels.error());
+    }
+    append_all(bytes, *texels);
+    return bytes;
+}
+
+Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
+                               const glm::dvec3& box_size) {
+    const Result<Header> header = read_header(bytes);
+    if (!header) {
+        return tl::unexpected(header.error());
+    }
+    PackLevel level;
+    level.technique = header->relief ? LevelTechnique::Relief : LevelTechnique::Mesh;
+    ByteCursor cursor(bytes.subspan(header_bytes));
+    level.clusters.reserve(header->clusters);
+    for (std::uint32_t k = 0; k < header->clusters; ++k) {
+        level.clusters.push_back(take_cluster(cursor));
+    }
+    level.indices = cursor.take_all<std::uint32_t>(header->indices);
+    if (!header->relief) {
+        level.vertices = cursor.take_all<PackVertex>(header->vertices);
+        return level;
+    }
+    Result<std::vector<PackVertex>> vertices =
+        vertices_of(cursor.take_all<StoredTexel>(header->vertices), relief, box_size);
+    if (!vertices) {
+        return tl::unexpected(vertices.error());
+    }
+    level.vertices = std::move(*vertices);
+    return level;
+}
+
+} // namespace frustumscreen::pack_format

@@ -1,0 +1,34 @@
+/// How large each thing in a pack may be. A pack is outside data: everything that it sizes is held against
+/// these before memory is taken for it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace frustumscreen::pack_format {
+
+inline constexpr std::uint64_t most_pack_bytes = std::uint64_t{2}
+                                                 << 30; ///< the whole file; ZIP without ZIP64
+inline constexpr std::uint64_t most_manifest_bytes = 16U << 20;
+inline constexpr std::uint64_t most_part_bytes = std::uint64_t{1} << 29;  ///< one part, unpacked
+inline constexpr std::uint64_t most_parts_bytes = std::uint64_t{1} << 30; ///< all of them, unpacked
+inline constexpr std::uint64_t most_signature_bytes = 64U << 10;
+inline constexpr std::size_t most_name_bytes = 100;
+
+inline constexpr std::size_t most_languages = 64;
+inline constexpr std::size_t most_language_bytes = 35; ///< RFC 5646, 4.4.1
+inline constexpr std::size_t most_line_bytes = 1000;   ///< titles, names, licences
+inline constexpr std::size_t most_text_bytes = 100000; ///< a caption's text
+
+inline constexpr std::size_t most_extremes = 100000;
+inline constexpr std::size_t most_levels = 32;
+inline constexpr std::size_t most_textures = 64;
+inline constexpr std::uint32_t most_vertices = 1U << 24; ///< of one level
+inline constexpr std::uint32_t most_indices = 3U << 24;  ///< of one level
+inline constexpr std::uint32_t most_clusters = 1U << 22; ///< of one level
+inline constexpr std::size_t most_charts = 65535;        ///< their numbers are 16 bits
+inline constexpr int most_side_texels = 16384; ///< of a texture or the relief; what OpenGL ES drivers take
+inline constexpr std::int64_t most_texels = 1 << 26; ///< of one picture
+inline constexpr std::int64_t most_texels_together = 1 << 28;
+
+} // namespace frustumscreen::pack_format

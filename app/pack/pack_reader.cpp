@@ -1,0 +1,129 @@
+#include "app/pack/pack_reader.h"
+
+#include "app/pack/limits.h"
+#include "app/pack/pack_contents.h"
+#include "app/pack/printable.h"
+#include "app/pack/sha256.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+Result<Manifest> read_manifest(ZipReader& zip) {
+    if (zip.entries().empty() || zip.entries().front().name != manifest_name) {
+        return bad_input("its first entry is not manifest.json; this is not a pack");
+    }
+    const ZipEntry& entry = zip.entries().front();
+    if (entry.bytes > most_manifest_bytes) {
+        return bad_input(
+            fmt::format("manifest.json has {} bytes, allowed are {}", entry.bytes, most_manifest_bytes));
+    }
+    const Result<Bytes> text = zip.read(entry);
+    if (!text) {
+        return tl::unexpected(text.error());
+    }
+    Result<Manifest> manifest = parse_manifest(as_text(*text));
+    if (!manifest) {
+        return at("manifest.json", manifest.error());
+    }
+    return manifest;
+}
+
+const PartRecord* find_part(const Manifest& manifest, std::string_view name) {
+    const auto part = std::find_if(manifest.parts.begin(), manifest.parts.end(),
+                                   [&](const PartRecord& p) { return p.name == name; });
+    return part != manifest.parts.end() ? &*part : nullptr;
+}
+
+Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
+    for (const PartRecord& part : manifest.parts) {
+        const ZipEntry* entry = zip.find(part.name);
+        if (entry == nullptr) {
+            return bad_input(fmt::format("the part {} is missing; copy the pack again", part.name));
+        }
+        if (entry->bytes != part.bytes) {
+            return bad_input(fmt::format("{} has {} bytes, its manifest says {}; the pack is altered",
+                                         part.name, entry->bytes, part.bytes));
+        }
+    }
+    for (const ZipEntry& entry : zip.entries()) {
+        if (entry.name == signature_name && entry.bytes > most_signature_bytes) {
+            return bad_input(
+                fmt::format("the signature has {} bytes, allowed are {}", entry.bytes, most_signature_bytes));
+        }
+        if (entry.name != manifest_name && entry.name != signature_name &&
+            find_part(manifest, entry.name) == nullptr) {
+            return bad_input(
+                fmt::format("{} is not listed in the manifest; the pack is altered", entry.name));
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
+    if (bytes.size() > most_pack_bytes) {
+        return bad_input(fmt::format("the pack has {} bytes, allowed are {}", bytes.size(), most_pack_bytes));
+    }
+    Result<ZipReader> zip = ZipReader::open(bytes);
+    if (!zip) {
+        return tl::unexpected(zip.error());
+    }
+    Result<Manifest> manifest = read_manifest(*zip);
+    if (!manifest) {
+        return tl::unexpected(manifest.error());
+    }
+    if (auto good = check_entries(*zip, *manifest); !good) {
+        return tl::unexpected(good.error());
+    }
+    return PackReader(std::move(*zip), std::move(*manifest));
+}
+
+Result<Bytes> PackReader::take(const std::string& name) {
+    const PartRecord* part = find_part(manifest_, name);
+    if (part == nullptr) {
+        return bad_input(
+            fmt::format("the manifest refers to the part '{}' and does not list it", printable(name)));
+    }
+    if (!taken_.insert(name).second) {
+        return bad_input(fmt::format("the manifest uses the part {} twice", name));
+    }
+    Result<Bytes> bytes = zip_.read(*zip_.find(name));
+    if (bytes && sha256_hex(*bytes) != part->sha256) {
+        return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
+    }
+    return bytes;
+}
+
+Result<void> PackReader::finish() const {
+    for (const PartRecord& part : manifest_.parts) {
+        if (!taken_.contains(part.name)) {
+            return bad_input(fmt::format("nothing uses the part {}; the pack is altered", part.name));
+        }
+    }
+    return {};
+}
+
+} // namespace frustumscreen::pack_format
+
+namespace frustumscreen {
+
+Result<std::vector<PackPart>> list_pack_parts(std::span<const std::byte> bytes) {
+    const Result<pack_format::PackReader> reader = pack_format::PackReader::open(bytes);
+    if (!reader) {
+        return tl::unexpected(reader.error());
+    }
+    const pack_format::ZipEntry& manifest = reader->zip().entries().front();
+    std::vector<PackPart> parts{{manifest.name, manifest.bytes, manifest.stored_bytes, ""}};
+    for (const pack_format::PartRecord& part : reader->manifest().parts) {
+        parts.push_back({part.name, part.bytes, reader->zip().find(part.name)->stored_bytes, part.sha256});
+    }
+    return parts;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,36 @@
+/// The container of a pack, opened: its manifest, and its parts one at a time, each held against its hash.
+///
+/// Errors   one line naming the part.
+/// Threads  one caller.
+#pragma once
+
+#include "app/pack/manifest.h"
+#include "app/pack/zip_archive.h"
+
+#include <set>
+#include <span>
+#include <string>
+
+namespace frustumscreen::pack_format {
+
+class PackReader {
+public:
+    /// The manifest is read, and the parts are those that it lists, at the sizes that it lists, no more and
+    /// no less. `bytes` must outlive the reader.
+    [[nodiscard]] static Result<PackReader> open(std::span<const std::byte> bytes);
+
+    [[nodiscard]] const Manifest& manifest() const { return manifest_; }
+    [[nodiscard]] const ZipReader& zip() const { return zip_; }
+    /// A part's bytes; each part can be taken once.
+    [[nodiscard]] Result<Bytes> take(const std::string& name);
+    /// Refuses parts that nothing refers to.
+    [[nodiscard]] Result<void> finish() const;
+
+private:
+    PackReader(ZipReader zip, Manifest manifest) : zip_(std::move(zip)), manifest_(std::move(manifest)) {}
+    ZipReader zip_;
+    Manifest manifest_;
+    std::set<std::string> taken_;
+};
+
+} // namespace frustumscreen::pack_format

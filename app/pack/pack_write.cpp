@@ -1,0 +1,128 @@
+#include "app/pack/binary_parts.h"
+#include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
+#include "app/pack/manifest.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/sha256.h"
+#include "app/pack/zip_archive.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace frustumscreen {
+
+using namespace pack_format;
+
+namespace {
+
+/// A part on its way into the container. Pictures are packed already.
+struct Part {
+    std::string name;
+    Bytes bytes;
+    Packing packing = Packing::Stored;
+};
+
+Result<void> check(const Pack& pack) {
+    const std::array checks{check_texts, check_placement, check_pictures, check_levels};
+    for (const auto& check_one : checks) {
+        if (auto good = check_one(pack); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
+    for (std::size_t k = 0; k < pack.textures.size(); ++k) {
+        manifest.textures.push_back(fmt::format("textures/{}.png", k));
+        parts.push_back({manifest.textures.back(), encode_png(pack.textures[k]), Packing::Stored});
+    }
+}
+
+void add_relief(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
+    if (pack.relief.charts.empty()) {
+        return;
+    }
+    manifest.relief = ReliefRecord{pack.relief.texel_box, "relief/atlas.png", "relief/charts.bin"};
+    parts.push_back({manifest.relief->atlas, encode_png(pack.relief.relief), Packing::Stored});
+    parts.push_back({manifest.relief->charts, encode_charts(pack.relief.charts), Packing::Deflated});
+}
+
+Result<void> add_levels(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        const PackLevel& level = pack.levels[k];
+        Result<Bytes> bytes = encode_level(level, pack.relief, pack.box_size);
+        if (!bytes) {
+            return at(fmt::format("level {}", k), bytes.error());
+        }
+        const std::string name = fmt::format("levels/{}.bin", k);
+        manifest.levels.push_back({level.technique, level.error, level.indices.size() / 3,
+                                   level.vertices.size(), level.texture, name});
+        parts.push_back({name, std::move(*bytes), Packing::Deflated});
+    }
+    return {};
+}
+
+/// The description without the pictures and levels, which the parts hold.
+Pack description_of(const Pack& pack) {
+    Pack description;
+    description.title = pack.title;
+    description.languages = pack.languages;
+    description.captions = pack.captions;
+    description.provenance = pack.provenance;
+    description.prop_kind = pack.prop_kind;
+    description.unlit = pack.unlit;
+    description.relief_size = pack.relief_size;
+    description.box_size = pack.box_size;
+    description.box_from_file = pack.box_from_file;
+    description.extremes = pack.extremes;
+    description.default_level = pack.default_level;
+    return description;
+}
+
+Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
+    std::uint64_t together = 0;
+    for (const Part& part : parts) {
+        together += part.bytes.size();
+        if (part.bytes.empty() || part.bytes.size() > most_part_bytes || together > most_parts_bytes) {
+            return bad_input(
+                fmt::format("{} has {} bytes; allowed are 1 to {}, and {} for all parts together", part.name,
+                            part.bytes.size(), most_part_bytes, most_parts_bytes));
+        }
+        manifest.parts.push_back({part.name, part.bytes.size(), sha256_hex(part.bytes)});
+    }
+    return {};
+}
+
+} // namespace
+
+Result<Bytes> write_pack(const Pack& pack) {
+    if (auto good = check(pack); !good) {
+        return tl::unexpected(good.error());
+    }
+    Manifest manifest;
+    manifest.description = description_of(pack);
+    std::vector<Part> parts;
+    add_textures(pack, manifest, parts);
+    add_relief(pack, manifest, parts);
+    if (auto good = add_levels(pack, manifest, parts); !good) {
+        return tl::unexpected(good.error());
+    }
+    if (auto good = list_parts(parts, manifest); !good) {
+        return tl::unexpected(good.error());
+    }
+    const std::string text = write_manifest(manifest);
+    if (text.size() > most_manifest_bytes) {
+        return bad_input(fmt::format("the manifest has {} bytes, allowed are {}; give fewer or shorter texts",
+                                     text.size(), most_manifest_bytes));
+    }
+    ZipWriter zip;
+    zip.add(std::string(manifest_name), as_bytes(text), Packing::Deflated);
+    for (const Part& part : parts) {
+        zip.add(part.name, part.bytes, part.packing);
+    }
+    return zip.finish();
+}
+
+} // namespace frustumscreen

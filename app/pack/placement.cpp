@@ -1,0 +1,19 @@
+#include "app/pack/pack_file.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+namespace frustumscreen {
+
+Placement place(const Pack& pack, const PropShape& prop) {
+    // The box stands on z = 0 by definition; an extreme that rounding put below must not scale it to nothing.
+    std::vector<glm::dvec3> extremes = pack.extremes;
+    for (glm::dvec3& extreme : extremes) {
+        extreme.z = std::fmax(extreme.z, 0.0);
+    }
+    const double scale = largest_scale_inside(prop, extremes);
+    return {scale, glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * pack.box_from_file};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,72 @@
+/// A ZIP container in memory: what a pack needs of it and no more.
+///
+/// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
+///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum.
+/// Threads  one caller.
+/// Library  minizip (ioapi functions over memory).
+#pragma once
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::pack_format {
+
+struct MemoryFile;
+
+enum class Packing { Stored, Deflated };
+
+/// Dates are fixed, so that the same entries give the same bytes.
+class ZipWriter {
+public:
+    ZipWriter();
+    ~ZipWriter();
+    ZipWriter(const ZipWriter&) = delete;
+    ZipWriter& operator=(const ZipWriter&) = delete;
+
+    void add(const std::string& name, std::span<const std::byte> bytes, Packing packing);
+    /// The archive; call once, last. Errors: Internal, when the library failed on the way.
+    [[nodiscard]] Result<Bytes> finish();
+
+private:
+    std::unique_ptr<MemoryFile> file_;
+    void* zip_ = nullptr;
+    bool good_ = true;
+};
+
+struct ZipEntry {
+    std::string name;
+    std::uint64_t bytes = 0; ///< unpacked, as the archive claims; never more than its packed bytes can hold
+    std::uint64_t stored_bytes = 0; ///< in the archive
+    std::uint64_t position = 0;     ///< the library's own handle: place in the directory ...
+    std::uint64_t number = 0;       ///< ... and number
+};
+
+class ZipReader {
+public:
+    /// `bytes` must outlive the reader.
+    [[nodiscard]] static Result<ZipReader> open(std::span<const std::byte> bytes);
+    ~ZipReader();
+    ZipReader(ZipReader&&) noexcept;
+    ZipReader& operator=(ZipReader&&) = delete;
+
+    [[nodiscard]] const std::vector<ZipEntry>& entries() const { return entries_; }
+    /// Null if there is none of that name.
+    [[nodiscard]] const ZipEntry* find(std::string_view name) const;
+    /// Unpacks an entry; the caller has held entry.bytes against a limit.
+    [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
+
+private:
+    ZipReader();
+    Result<void> read_directory();
+    std::unique_ptr<MemoryFile> file_;
+    void* zip_ = nullptr;
+    std::vector<ZipEntry> entries_;
+};
+
+} // namespace frustumscreen::pack_format

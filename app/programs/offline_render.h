@@ -1,0 +1,75 @@
+/// Pictures of a pack without a screen: the same plan and renderer as the live exhibit.
+///
+/// Frames   as situation.h: table T, metres.
+/// Threads  the one that made it: it holds a GL context.
+/// Errors   no EGL or OpenGL ES, an unknown technique, a pack that the driver cannot hold.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/pack/pack_file.h"
+#include "app/render/hit_points.h"
+#include "app/render/renderer.h"
+#include "app/scene/frame_plan.h"
+#include "app/settings/settings.h"
+#include "firmware_host/display/surfaceless_display.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// The level that a technique's name means: "auto" the pack's default, "finest", "level0", "level1", ...
+[[nodiscard]] Result<std::uint32_t> level_of(const Pack& pack, std::string_view technique);
+
+struct OfflineOptions {
+    std::string technique = "auto";
+    int width = 0; ///< of the picture; 0 = the configured projector's. The intrinsics scale with it.
+    int height = 0;
+    bool light = true;
+    bool hit_points = false;
+    int samples = 0; ///< a pixel, see RendererOptions; 0 = 4 for "finest", else the default
+};
+
+struct OfflinePicture {
+    Image8 colour;
+    std::optional<ImageFloat> hit_points; ///< prop frame, metres; NaN = no hit
+    double ms = 0.0;                      ///< plan, full redraw, until the GPU is done; no read-back
+};
+
+class OfflineRenderer {
+public:
+    /// `pack` must outlive it.
+    [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>>
+    create(const CheckedSettings& settings, const VerifiedPack& pack, const OfflineOptions& options);
+
+    [[nodiscard]] OfflinePicture draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m);
+
+    [[nodiscard]] const Pinhole& projector() const { return projector_; }
+    [[nodiscard]] const PropShape& prop() const { return prop_; }
+    /// "level0", ...: what "auto" and "finest" came to.
+    [[nodiscard]] const std::string& technique() const { return technique_; }
+    /// The level's measured mean error on the configured prop.
+    [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }
+
+private:
+    OfflineRenderer(const CheckedSettings& settings, const OfflineOptions& options);
+    void draw_once(const PlanView& view);
+
+    Pinhole projector_;
+    RigidTransform table_from_projector_;
+    PropShape prop_;
+    std::optional<LightCompensation> light_;
+    std::string technique_;
+    double estimated_error_mm_ = 0.0;
+    PlacedLevel placed_;
+    FramePlan plan_;
+    std::unique_ptr<SurfacelessDisplay> display_; ///< before everything that lives in its context
+    std::optional<ArtifactGpu> artifact_;
+    std::optional<Renderer> renderer_;
+    std::optional<HitPointRenderer> hit_points_;
+    bool warm_ = false;
+};
+
+} // namespace frustumscreen

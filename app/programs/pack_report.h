@@ -1,0 +1,38 @@
+/// What frustumscreen-pack tells about a pack, for programs (JSON) and for people.
+///
+/// Errors   as verify_pack, beginning with the file's name.
+/// Threads  one caller.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+#include "app/pack/pack_contents.h"
+#include "app/pack/pack_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A sound pack and what its container holds.
+struct OpenedPack {
+    std::filesystem::path file;
+    std::uint64_t file_bytes = 0;
+    VerifiedPack pack;
+    std::vector<PackPart> parts;
+};
+[[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
+
+/// {file, bytes, signed, title, languages, levels with errors in mm on this prop, default_level, parts}
+[[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSize& prop);
+/// list_json and {format_version, captions, provenance, prop_kind, unlit, relief_size, box_size, textures,
+/// relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
+[[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSize& prop);
+
+/// The same for people; each ends with a line break.
+[[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSize& prop);
+[[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSize& prop);
+
+} // namespace frustumscreen

@@ -1,0 +1,210 @@
+#include "app/programs/run_artifacts.h"
+
+#include "app/exhibit/caption_image.h"
+#include "app/pack/pack_file.h"
+#include "app/programs/offline_render.h"
+#include "app/settings/lit_zone.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Widths that a caption is wrapped to, in falling preference.
+constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
+
+/// Languages of all artifacts, in the order of their first appearance.
+template <typename Artifacts> std::vector<std::string> all_languages(const Artifacts& artifacts) {
+    std::vector<std::string> languages;
+    for (const auto& artifact : artifacts) {
+        for (const std::string& language : artifact.languages) {
+            if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+                languages.push_back(language);
+            }
+        }
+    }
+    return languages;
+}
+
+/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
+/// pixels: letters that were set pixel for pixel stay crisp.
+TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
+                         const RigidTransform& table_from_projector) {
+    const glm::dvec3 corner(rectangle.corners()[3], 0.0);
+    const std::optional<glm::dvec2> pixel = projector.pixel(table_from_projector.inverse().point(corner));
+    if (!pixel) {
+        return rectangle;
+    }
+    const glm::dvec3 ray = table_from_projector.direction(projector.ray(glm::round(*pixel)));
+    if (ray.z < 0.0) {
+        const glm::dvec3 lens = table_from_projector.translation;
+        rectangle.centre_m += glm::dvec2(lens + ray * (lens.z / -ray.z) - corner);
+    }
+    return rectangle;
+}
+
+std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
+    const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
+    return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
+}
+
+} // namespace
+
+/// Brings packs into the GPU's memory, one after the other; nothing of a pack but its clusters stays in ours.
+struct ArtifactShow::Loader {
+    const Settings& settings;
+    const ArtifactShowOptions& options;
+    PropShape prop;
+    Typesetter typesetter;
+    double texels_per_m = 0.0; ///< of captions: the projector's pixels at the table's centre
+    std::uint64_t next_id = 1;
+
+    [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
+        const Result<VerifiedPack> pack = load_pack(file);
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
+        const Result<std::uint32_t> level = level_of(**pack, options.technique);
+        if (!level) {
+            return at(file.string(), level.error());
+        }
+        Result<ArtifactGpu> gpu = ArtifactGpu::upload(**pack, *level);
+        if (!gpu) {
+            return at(file.string(), gpu.error());
+        }
+        const double metres_per_box = place(**pack, prop).metres_per_box;
+        const PackLevel& drawn = (*pack)->levels[*level];
+        Artifact artifact{(*pack)->title,
+                          fmt::format("level{}", *level),
+                          1e3 * metres_per_box * static_cast<double>(drawn.error.mean_box),
+                          drawn.clusters,
+                          placed(**pack, *level, metres_per_box, next_id++),
+                          std::move(*gpu),
+                          {},
+                          {},
+                          {}};
+        artifact.placed.clusters = artifact.clusters;
+        artifact.plan = make_plan(prop, artifact.placed);
+        if (Result<void> set = set_captions(**pack, artifact); !set) {
+            return at(file.string(), set.error());
+        }
+        return artifact;
+    }
+
+    [[nodiscard]] Result<void> set_captions(const Pack& pack, Artifact& artifact) {
+        std::vector<PackCaption> captions = pack.captions;
+        if (captions.empty()) {
+            captions.push_back({"en", pack.title, ""});
+        }
+        for (const PackCaption& caption : captions) {
+            std::vector<CaptionPicture> shapes;
+            for (const double width_m : caption_widths_m) {
+                const CaptionImage image =
+                    make_caption(typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
+                                 width_m, texels_per_m);
+                Result<CaptionGpu> gpu = CaptionGpu::upload(image.coverage);
+                if (!gpu) {
+                    return tl::unexpected<Error>(gpu.error());
+                }
+                shapes.push_back({std::move(*gpu), image.size_m, next_id++});
+            }
+            artifact.languages.push_back(caption.language);
+            artifact.captions.push_back(std::move(shapes));
+        }
+        return {};
+    }
+};
+
+Result<std::unique_ptr<ArtifactShow>>
+ArtifactShow::create(const Settings& settings, const ArtifactShowOptions& options, MonotonicTime now) {
+    Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    const Pinhole& pinhole = settings.projector.pinhole;
+    Result<Renderer> renderer = Renderer::create({pinhole.width, pinhole.height, options.samples});
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    const double lens_height_m = settings.projector.table_from_projector.translation.z;
+    Loader loader{settings, options, make_prop(settings.prop), std::move(*typesetter),
+                  pinhole.fx / lens_height_m};
+    std::vector<Artifact> artifacts;
+    artifacts.reserve(options.packs.size());
+    for (const std::filesystem::path& file : options.packs) {
+        Result<Artifact> artifact = loader.load(file);
+        if (artifact) {
+            artifacts.push_back(std::move(*artifact));
+        } else {
+            fmt::print(stderr, "frustumscreen: left out: {}\n", artifact.error().message);
+        }
+    }
+    if (artifacts.empty()) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
+            "make them with frustumscreen-bake");
+    }
+    return std::unique_ptr<ArtifactShow>(
+        new ArtifactShow(settings, std::move(*renderer), std::move(artifacts), now));
+}
+
+ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
+                           MonotonicTime now)
+    : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
+      prop_(make_prop(settings.prop)), renderer_(std::move(renderer)), artifacts_(std::move(artifacts)),
+      exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
+      placer_(picture_on_table(settings, 0.0)) {}
+
+const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime now, const Shown& shown,
+                                                                const Situation& situation, PlanView& view) {
+    const Artifact& artifact = artifacts_[shown.artifact];
+    const std::vector<CaptionPicture>& shapes =
+        artifact.captions[caption_for(exhibit_.language(), artifact.languages)];
+    if (placed_caption_ != &shapes) {
+        placed_caption_ = &shapes;
+        std::array<glm::dvec2, caption_widths_m.size()> sizes{};
+        std::transform(shapes.begin(), shapes.end(), sizes.begin(),
+                       [](const CaptionPicture& shape) { return shape.size_m; });
+        placer_.set_shapes(sizes);
+    }
+    const RigidTransform& pose = situation.table_from_prop;
+    placer_.update(now, hidden_by_prop(prop_, pose, table_from_projector_.translation),
+                   hidden_by_prop(prop_, pose, situation.eye_m), glm::dvec2(pose.translation));
+    const CaptionPlace place = placer_.at(now);
+    const double brightness = place.opacity * shown.brightness;
+    if (brightness <= 0.0) {
+        return nullptr;
+    }
+    const CaptionPicture& shape = shapes[place.shape];
+    view.caption = TablePicture{
+        picture_corners(on_pixels(place.rectangle, projector_, table_from_projector_)), brightness, shape.id};
+    return &shape;
+}
+
+DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+                              Redraw redraw) {
+    const Shown shown = exhibit_.at(now);
+    PlanView view{projector_, table_from_projector_, situation.table_from_prop,
+                  std::span(&situation.eye_m, 1)};
+    view.brightness = shown.brightness;
+    const CaptionPicture* caption = place_caption(now, shown, situation, view);
+    Artifact& artifact = artifacts_[shown.artifact];
+    plan_frame(prop_, artifact.placed, view, artifact.plan);
+    return renderer_.draw(artifact.plan, {&artifact.gpu, caption == nullptr ? nullptr : &caption->gpu},
+                          target, redraw);
+}
+
+ShowState ArtifactShow::state(MonotonicTime now) const {
+    const Shown shown = exhibit_.at(now);
+    const Artifact& artifact = artifacts_[shown.artifact];
+    const double opacity = placer_.at(now).opacity;
+    return {artifact.title, artifact.technique, exhibit_.language(), artifact.estimated_error_mm,
+            !shown.changing && (opacity <= 0.0 || opacity >= 1.0)};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,75 @@
+/// The exhibit on the display: packs in the GPU's memory, the exhibit's state, captions, plan and renderer.
+///
+/// Threads  the render thread, with the display's context current; also where it is destroyed.
+/// Errors   a pack that cannot be loaded is left out with a line on standard error; none left:
+/// BadConfiguration.
+#pragma once
+
+#include "app/exhibit/captions.h"
+#include "app/exhibit/exhibit.h"
+#include "app/programs/run_show.h"
+#include "app/render/renderer.h"
+#include "app/scene/frame_plan.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ArtifactShowOptions {
+    std::vector<std::filesystem::path> packs;
+    std::string technique = "auto"; ///< see `level_of`
+    int samples = default_samples;
+};
+
+class ArtifactShow final : public Show {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
+    create(const Settings& settings, const ArtifactShowOptions& options, MonotonicTime now);
+
+    void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+                                  Redraw redraw) override;
+    [[nodiscard]] ShowState state(MonotonicTime now) const override;
+
+private:
+    /// One text wrapped to one width.
+    struct CaptionPicture {
+        CaptionGpu gpu;
+        glm::dvec2 size_m{0.0};
+        std::uint64_t id = 0;
+    };
+    struct Artifact {
+        std::string title;
+        std::string technique;
+        double estimated_error_mm = 0.0;
+        std::vector<PackCluster> clusters; ///< what `placed` points into
+        PlacedLevel placed;
+        ArtifactGpu gpu;
+        FramePlan plan;
+        std::vector<std::string> languages;
+        std::vector<std::vector<CaptionPicture>> captions; ///< one list for each of `languages`
+    };
+    struct Loader;
+
+    ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
+                 MonotonicTime now);
+    /// Chooses the caption; its brightness includes the fades.
+    [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
+                                                      const Situation& situation, PlanView& view);
+
+    Pinhole projector_;
+    RigidTransform table_from_projector_;
+    PropShape prop_;
+    Renderer renderer_;
+    std::vector<Artifact> artifacts_;
+    Exhibit exhibit_;
+    CaptionPlacer placer_;
+    const std::vector<CaptionPicture>* placed_caption_ = nullptr;
+};
+
+} // namespace frustumscreen

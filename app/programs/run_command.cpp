@@ -1,0 +1,217 @@
+#include "app/programs/run_command.h"
+
+#include "app/programs/run_artifacts.h"
+#include "app/programs/run_loop.h"
+#include "app/programs/run_pattern.h"
+#include "app/programs/run_report.h"
+#include "app/programs/wiring.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path out;
+    std::filesystem::path status_file;
+    ArtifactShowOptions show;
+    double seconds = 0.0; ///< 0 = until told to stop
+    int stills = 8;
+    int changes = 0;
+    bool headless = false;
+    bool fast = false;
+    bool pattern = false;
+    bool full_redraw = false;
+    bool json = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app("Runs the exhibit until SIGTERM or SIGINT, or for some seconds.", "frustumscreen run");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_flag("--headless", request.headless, "without a screen");
+    CLI::Option* seconds = app.add_option("--seconds", request.seconds, "stop after so many seconds")
+                               ->check(CLI::Range(0.01, 1e6));
+    app.add_option("--out", request.out,
+                   "folder for frame_*.png, their poses.csv and frames.csv of all frames; made if missing")
+        ->needs(seconds);
+    app.add_option("--stills", request.stills, "how many pictures --out keeps, spread over the run")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+    app.add_option("--status-file", request.status_file, "JSON, renewed every second");
+    app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
+    app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
+    app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->capture_default_str();
+    app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");
+    app.add_flag("--full-redraw", request.full_redraw, "draw the whole picture every time, for measuring");
+    app.add_option("--soak", request.changes,
+                   "change the artifact so many times, evenly, instead of the panel")
+        ->check(CLI::Range(1, 1000000))
+        ->needs(seconds);
+    app.add_flag("--json", request.json, "report as JSON");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+Nanoseconds nanoseconds(double seconds) {
+    return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
+}
+
+/// SIGTERM and SIGINT wait in line from here on, for every thread that starts later; the loop looks for them.
+sigset_t hold_stop_signals() {
+    sigset_t signals{};
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    return signals;
+}
+
+Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
+                                        MonotonicTime start) {
+    if (request.pattern) {
+        return PatternShow::create(settings);
+    }
+    ArtifactShowOptions options = request.show;
+    if (options.packs.empty()) {
+        options.packs = settings.exhibit.packs;
+    }
+    return ArtifactShow::create(settings, options, start);
+}
+
+/// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.
+Result<void> write_pictures(const std::filesystem::path& folder, const LoopResult& result) {
+    std::vector<PoseSample> poses;
+    for (std::size_t k = 0; k < result.stills.size(); ++k) {
+        const Still& still = result.stills[k];
+        const RigidTransform& pose = still.situation.table_from_prop;
+        poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
+        poses.push_back({still.time, head_station, still.situation.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
+        const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
+        if (Result<void> written = write_file(file, encode_png(still.picture)); !written) {
+            return written;
+        }
+    }
+    if (Result<void> written = write_file(folder / "poses.csv", as_bytes(write_poses(poses))); !written) {
+        return written;
+    }
+    return write_file(folder / "frames.csv", as_bytes(frames_csv(result.rows)));
+}
+
+void report(const Request& request, const LoopResult& result) {
+    RunStatus status = result.status;
+    status.resident_mib = resident_mib();
+    if (request.json) {
+        fmt::print("{}", status_json(status));
+        return;
+    }
+    fmt::print(
+        "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 99th percentile {:.2f} ms; {} display times "
+        "missed; {:.0f} MiB resident",
+        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p99_ms, status.late,
+        status.resident_mib);
+    if (request.changes > 0) {
+        fmt::print("; {} changes of artifact, {:+.1f} MiB since the first tenth, p99/p50 {:.2f}",
+                   request.changes, status.resident_mib - result.first_resident_mib,
+                   status.median_ms > 0.0 ? status.p99_ms / status.median_ms : 0.0);
+    }
+    fmt::print("\n");
+    if (!request.out.empty()) {
+        fmt::print("{} pictures in {}\n", result.stills.size(), request.out.string());
+    }
+}
+
+Result<void> run(const Request& request) {
+    const sigset_t stop_signals = hold_stop_signals();
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    if (!request.out.empty()) {
+        std::error_code failed;
+        std::filesystem::create_directories(request.out, failed);
+        if (failed) {
+            return bad_input(
+                fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
+        }
+    }
+    const Result<std::unique_ptr<Display>> display = make_display(**settings, request.headless);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    // Simulated time starts at zero, real time when everything is loaded.
+    const auto now = [&request] {
+        return request.fast ? MonotonicTime{}
+                            : std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
+    };
+    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, now());
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    std::optional<Nanoseconds> press_every;
+    if (request.changes > 0) {
+        press_every = nanoseconds(request.seconds / request.changes);
+    }
+    const MonotonicTime start = now();
+    Result<Inputs> inputs = make_inputs(**settings, press_every, start);
+    if (!inputs) {
+        return tl::unexpected<Error>(inputs.error());
+    }
+    LoopOptions options;
+    if (request.seconds > 0.0) {
+        options.length = nanoseconds(request.seconds);
+    }
+    options.fast = request.fast;
+    options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
+    options.stills = request.out.empty() ? 0 : request.stills;
+    options.keep_rows = !request.out.empty();
+    options.stop_signals = stop_signals;
+    StatusFile status_file(request.status_file);
+    const Result<LoopResult> result =
+        run_loop(**settings, **display, *inputs, **show, options, status_file, start);
+    if (!result) {
+        return tl::unexpected<Error>(result.error());
+    }
+    if (!request.out.empty()) {
+        if (Result<void> written = write_pictures(request.out, *result); !written) {
+            return written;
+        }
+    }
+    report(request, *result);
+    return {};
+}
+
+} // namespace
+
+int run_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    if (const Result<void> ran = run(request); !ran) {
+        fmt::print(stderr, "frustumscreen: {}\n", ran.error().message);
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace frustumscreen

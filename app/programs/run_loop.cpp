@@ -1,0 +1,203 @@
+#include "app/programs/run_loop.h"
+
+#include "app/render/read_back.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t window_frames = 8192; ///< that the status' times are taken from
+constexpr std::size_t most_rows = 1U << 20U;
+constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
+
+std::optional<Wish> wish_of(int button) {
+    switch (button) {
+    case 0:
+        return Wish::PreviousArtifact;
+    case 1:
+        return Wish::NextArtifact;
+    case 2:
+        return Wish::NextLanguage;
+    default:
+        return std::nullopt;
+    }
+}
+
+MonotonicTime clock_now() {
+    return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
+}
+
+double milliseconds_since(MonotonicTime start) {
+    return 1e3 * to_seconds(clock_now() - start);
+}
+
+class Loop {
+public:
+    Loop(const Settings& settings, Display& display, Inputs& inputs, Show& show, const LoopOptions& options,
+         StatusFile& status_file, MonotonicTime start)
+        : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
+          start_(start),
+          period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
+          situation_(inputs.tracker->reports_table_frame() ? RigidTransform{}
+                                                           : settings.tracker.table_from_tracker,
+                     settings.eye.default_m),
+          times_(window_frames) {
+        samples_.reserve(1024);
+        events_.reserve(64);
+        if (options.keep_rows && options.length) {
+            rows_expected_ =
+                std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
+            result_.rows.reserve(rows_expected_);
+        }
+        for (int k = 0; k < options.stills; ++k) {
+            result_.stills.push_back({Image8(display.width(), display.height()), {}, {}});
+        }
+    }
+
+    [[nodiscard]] Result<LoopResult> run() {
+        MonotonicTime now = start_;
+        MonotonicTime next_status = start_ + between_statuses;
+        while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
+            if (Result<void> drawn = frame(now); !drawn) {
+                return tl::unexpected<Error>(drawn.error());
+            }
+            if (now >= next_status) {
+                post_status(now);
+                next_status += between_statuses;
+            }
+            now = next_display_time(now);
+        }
+        post_status(now);
+        result_.stills.resize(stills_taken_);
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] Result<void> frame(MonotonicTime now) {
+        const MonotonicTime begin = clock_now();
+        poll(now);
+        const Situation situation = situation_.at(now);
+        const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
+        const DrawResult drawn = show_.draw(now, situation, target, options_.redraw);
+        if (drawn.drawn) {
+            if (Result<MonotonicTime> shown = display_.present(now); !shown) {
+                return tl::unexpected<Error>(shown.error());
+            }
+        }
+        const double ms = milliseconds_since(begin);
+        RunStatus& status = result_.status;
+        ++status.frames;
+        ++(drawn.drawn ? status.drawn : status.unchanged);
+        if (drawn.drawn && status.frames > 1) { // the first one compiles shaders
+            times_.add(ms);
+        }
+        status.prop_known = situation.prop_known;
+        status.head_known = situation.head_known;
+        const ShowState state = show_.state(now);
+        if (result_.rows.size() < rows_expected_) {
+            result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
+                                    static_cast<float>(state.estimated_error_mm), drawn.drawn, state.artifact,
+                                    state.technique});
+        }
+        take_still(now, situation, state);
+        return {};
+    }
+
+    void poll(MonotonicTime now) {
+        samples_.clear();
+        events_.clear();
+        result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
+        result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+        for (const PoseSample& sample : samples_) {
+            situation_.take(sample);
+        }
+        for (const PanelEvent& event : events_) {
+            if (const std::optional<Wish> wish = wish_of(event.button)) {
+                show_.wish(*wish, now);
+            }
+        }
+    }
+
+    /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
+    void take_still(MonotonicTime now, const Situation& situation, const ShowState& state) {
+        if (stills_taken_ >= result_.stills.size() || !options_.length) {
+            return;
+        }
+        const auto part = *options_.length / (2 * static_cast<Nanoseconds::rep>(result_.stills.size()));
+        const auto number = static_cast<Nanoseconds::rep>(stills_taken_);
+        if (now - start_ < (2 * number + 1) * part ||
+            (!state.settled && now - start_ < (2 * number + 2) * part)) {
+            return;
+        }
+        Still& still = result_.stills[stills_taken_++];
+        still.situation = situation;
+        still.time = MonotonicTime(now - start_);
+        read_colour_into(display_.framebuffer(), still.picture);
+    }
+
+    void post_status(MonotonicTime now) {
+        RunStatus& status = result_.status;
+        const ShowState state = show_.state(now);
+        status.artifact = state.artifact;
+        status.technique = state.technique;
+        status.language = state.language;
+        status.estimated_error_mm = state.estimated_error_mm;
+        status.median_ms = times_.quantile(0.5);
+        status.p99_ms = times_.quantile(0.99);
+        status.uptime_s = to_seconds(now - start_);
+        if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
+            result_.first_resident_mib = resident_mib();
+        }
+        status_file_.post(status);
+    }
+
+    [[nodiscard]] bool told_to_stop() const {
+        const timespec at_once{};
+        return ::sigtimedwait(&options_.stop_signals, nullptr, &at_once) > 0;
+    }
+
+    /// Waits for it, unless the run is fast.
+    [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
+        MonotonicTime next = now + period_;
+        if (options_.fast) {
+            return next;
+        }
+        const MonotonicTime clock = clock_now();
+        if (clock > next) {
+            const auto missed = (clock - next) / period_;
+            result_.status.late += static_cast<std::uint64_t>(missed);
+            next += missed * period_;
+        }
+        std::this_thread::sleep_until(next);
+        return next;
+    }
+
+    Display& display_;
+    Inputs& inputs_;
+    Show& show_;
+    const LoopOptions& options_;
+    StatusFile& status_file_;
+    MonotonicTime start_;
+    Nanoseconds period_;
+    SituationTracker situation_;
+    FrameTimes times_;
+    std::vector<PoseSample> samples_;
+    std::vector<PanelEvent> events_;
+    std::size_t rows_expected_ = 0;
+    std::size_t stills_taken_ = 0;
+    LoopResult result_;
+};
+
+} // namespace
+
+Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs, Show& show,
+                            const LoopOptions& options, StatusFile& status_file, MonotonicTime start) {
+    return Loop(settings, display, inputs, show, options, status_file, start).run();
+}
+
+} // namespace frustumscreen

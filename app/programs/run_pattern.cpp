@@ -1,0 +1,34 @@
+#include "app/programs/run_pattern.h"
+
+namespace frustumscreen {
+
+PatternShow::PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload)
+    : scene_(std::move(scene)), typesetter_(std::move(typesetter)), upload_(std::move(upload)),
+      table_(table_pattern(scene_, typesetter_)) {}
+
+Result<std::unique_ptr<PatternShow>> PatternShow::create(const Settings& settings) {
+    Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    const Pinhole& pinhole = settings.projector.pinhole;
+    PatternScene scene{pinhole,
+                       settings.projector.table_from_projector,
+                       {settings.table.width_m, settings.table.depth_m},
+                       make_prop(settings.prop)};
+    return std::unique_ptr<PatternShow>(new PatternShow(std::move(scene), std::move(*typesetter),
+                                                        PictureUpload(pinhole.width, pinhole.height)));
+}
+
+DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const RenderTarget& target,
+                             Redraw redraw) {
+    const glm::dmat4 pose = situation.table_from_prop.matrix();
+    if (redraw == Redraw::Changes && target.buffer_age > 0 && shown_ == pose) {
+        return {};
+    }
+    shown_ = pose;
+    upload_.show(with_prop(table_, scene_, situation.table_from_prop, typesetter_), target.framebuffer);
+    return {true, {0, 0, scene_.projector.width, scene_.projector.height}, 1};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,138 @@
+#include "app/programs/run_report.h"
+
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Quotes a text for CSV where it must be.
+std::string csv_text(std::string_view text) {
+    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
+} // namespace
+
+std::string frames_csv(const std::vector<FrameRow>& rows) {
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n";
+    auto out = std::back_inserter(csv);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const FrameRow& row = rows[k];
+        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{}\n", k, row.t_us, row.ms, row.technique,
+                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact));
+    }
+    return csv;
+}
+
+FrameTimes::FrameTimes(std::size_t window) : window_(window), sorted_(window) {}
+
+void FrameTimes::add(double ms) {
+    window_[count_++ % window_.size()] = static_cast<float>(ms);
+}
+
+double FrameTimes::quantile(double share) {
+    const std::size_t count = std::min(count_, window_.size());
+    if (count == 0) {
+        return 0.0;
+    }
+    std::copy_n(window_.begin(), count, sorted_.begin());
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
+    const auto nth =
+        sorted_.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, count) - 1);
+    std::nth_element(sorted_.begin(), nth, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
+    return static_cast<double>(*nth);
+}
+
+std::string status_json(const RunStatus& status) {
+    const auto rounded = [](double value) { return std::round(value * 1000.0) / 1000.0; };
+    const nlohmann::ordered_json json = {
+        {"artifact", status.artifact},
+        {"level", status.technique},
+        {"language", status.language},
+        {"estimated_error_mm", rounded(status.estimated_error_mm)},
+        {"frame_ms", {{"median", rounded(status.median_ms)}, {"p99", rounded(status.p99_ms)}}},
+        {"frames", status.frames},
+        {"drawn", status.drawn},
+        {"unchanged", status.unchanged},
+        {"skipped", status.late},
+        {"device_errors", status.bad_samples},
+        {"prop_known", status.prop_known},
+        {"head_known", status.head_known},
+        {"uptime_s", rounded(status.uptime_s)},
+        {"resident_mib", rounded(status.resident_mib)}};
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+double resident_mib() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t size = 0;
+    std::uint64_t resident = 0;
+    statm >> size >> resident;
+    return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+StatusFile::StatusFile(std::filesystem::path file) : file_(std::move(file)) {
+    if (!file_.empty()) {
+        writer_ = std::jthread([this] { work(); });
+    }
+}
+
+StatusFile::~StatusFile() {
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = true;
+    }
+    changed_.notify_one();
+}
+
+void StatusFile::post(const RunStatus& status) {
+    if (file_.empty()) {
+        return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        latest_ = status;
+        pending_ = true;
+    }
+    changed_.notify_one();
+}
+
+void StatusFile::work() {
+    bool complained = false;
+    std::unique_lock lock(mutex_);
+    while (true) {
+        changed_.wait(lock, [this] { return pending_ || closing_; });
+        if (!pending_) {
+            return;
+        }
+        RunStatus status = latest_;
+        pending_ = false;
+        lock.unlock();
+        status.resident_mib = resident_mib();
+        const Result<void> written = write_file(file_, as_bytes(status_json(status)));
+        if (!written && !complained) {
+            fmt::print(stderr, "frustumscreen: {}\n", written.error().message);
+            complained = true;
+        }
+        lock.lock();
+    }
+}
+
+} // namespace frustumscreen

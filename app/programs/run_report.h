@@ -1,0 +1,92 @@
+/// What a run says about itself: frame times, the status file, the list of frames.
+///
+/// Units    milliseconds of wall time from the tracker's poll to the picture's end; no pacing, no writing of
+/// files. Threads  the render thread, but for the status file: its own thread writes, so that a slow disk
+/// costs no frame.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/base/time.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace frustumscreen {
+
+struct FrameRow {
+    std::int64_t t_us = 0;
+    float ms = 0.0F;
+    float estimated_error_mm = 0.0F;
+    bool drawn = false;
+    std::string_view artifact;
+    std::string_view technique;
+};
+
+/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact.
+[[nodiscard]] std::string frames_csv(const std::vector<FrameRow>& rows);
+
+/// The latest frames' times, in memory taken at the start.
+class FrameTimes {
+public:
+    explicit FrameTimes(std::size_t window);
+    void add(double ms);
+    /// Of the window: the value below which `share` of the frames lie; 0 if there is none.
+    [[nodiscard]] double quantile(double share);
+
+private:
+    std::vector<float> window_;
+    std::vector<float> sorted_;
+    std::size_t count_ = 0;
+};
+
+struct RunStatus {
+    std::string_view artifact;
+    std::string_view technique;
+    std::string_view language;
+    double estimated_error_mm = 0.0;
+    double median_ms = 0.0; ///< of the frames that were drawn
+    double p99_ms = 0.0;
+    std::uint64_t frames = 0;
+    std::uint64_t drawn = 0;
+    std::uint64_t unchanged = 0;   ///< nothing had changed: nothing was drawn
+    std::uint64_t late = 0;        ///< display times that passed without a new frame
+    std::uint64_t bad_samples = 0; ///< polls that the tracker or the panel answered with an error
+    double uptime_s = 0.0;
+    double resident_mib = 0.0;
+    bool prop_known = false;
+    bool head_known = false;
+};
+[[nodiscard]] std::string status_json(const RunStatus& status);
+
+/// Of this process; 0 where the system does not say.
+[[nodiscard]] double resident_mib();
+
+/// Writes the latest status posted, by rename.
+class StatusFile {
+public:
+    explicit StatusFile(std::filesystem::path file); ///< an empty path: posts go nowhere
+    ~StatusFile();                                   ///< writes what is still to be written
+    StatusFile(const StatusFile&) = delete;
+    StatusFile& operator=(const StatusFile&) = delete;
+    void post(const RunStatus& status);
+
+private:
+    void work();
+
+    std::filesystem::path file_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    RunStatus latest_;
+    bool pending_ = false;
+    bool closing_ = false;
+    std::jthread writer_;
+};
+
+} // namespace frustumscreen

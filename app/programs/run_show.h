@@ -1,0 +1,34 @@
+/// Something that the run loop can put on the display: the exhibit, or the alignment pattern.
+///
+/// Threads  the render thread.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/render/renderer.h"
+#include "app/tracking/situation.h"
+#include "firmware_host/base/time.h"
+
+#include <string_view>
+
+namespace frustumscreen {
+
+/// What a frame shows, for the status and the report. The texts live as long as the show.
+struct ShowState {
+    std::string_view artifact;  ///< title; empty for the pattern
+    std::string_view technique; ///< level of the pack
+    std::string_view language;
+    double estimated_error_mm = 0.0;
+    bool settled = true; ///< no fade: a good moment for a picture
+};
+
+class Show {
+public:
+    virtual ~Show() = default;
+    virtual void wish(Wish wish, MonotonicTime now) = 0;
+    /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
+    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& situation,
+                                          const RenderTarget& target, Redraw redraw) = 0;
+    [[nodiscard]] virtual ShowState state(MonotonicTime now) const = 0;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,79 @@
+#include "app/programs/wiring.h"
+
+#include "app/settings/lit_zone.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "firmware_host/panel/scripted_panel.h"
+#include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/replay_tracker.h"
+#include "firmware_host/tracker/simulated_tracker.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int next_artifact_button = 1;
+/// Of the zone in which every face is lit: at its edge the light only grazes one.
+constexpr double used_share_of_zone = 0.75;
+
+Nanoseconds nanoseconds(double seconds) {
+    return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
+}
+
+Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start) {
+    if (settings.tracker.kind == TrackerKind::Replay) {
+        const Result<Bytes> bytes = read_file(settings.tracker.poses);
+        if (!bytes) {
+            return tl::unexpected<Error>(bytes.error());
+        }
+        Result<std::vector<PoseSample>> samples =
+            parse_poses(as_text(*bytes), settings.tracker.poses.string());
+        if (!samples) {
+            return tl::unexpected<Error>(samples.error());
+        }
+        return std::make_unique<ReplayTracker>(std::move(*samples), start, true);
+    }
+    const Rectangle places = lit_zone(settings).any_eye_rectangle;
+    SimulatedVisitor visitor;
+    visitor.seed = settings.tracker.seed;
+    visitor.centre_m = places.centre_m;
+    visitor.half_extent_m = used_share_of_zone * places.half_m;
+    visitor.eye_m = settings.eye.default_m;
+    return std::make_unique<SimulatedTracker>(visitor, start);
+}
+
+std::unique_ptr<Panel> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
+                                  MonotonicTime start) {
+    if (press_every) {
+        return std::make_unique<ScriptedPanel>(
+            std::vector<PanelPress>{{*press_every / 2, next_artifact_button}}, *press_every, start);
+    }
+    std::vector<PanelPress> script;
+    for (const ScriptedPress& press : settings.panel.script) {
+        script.push_back({nanoseconds(press.at_s), press.button});
+    }
+    return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
+}
+
+} // namespace
+
+Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
+    if (!headless) {
+        return fail(ErrorKind::BadConfiguration,
+                    "display: this version has no screen output yet; use --headless --out DIR");
+    }
+    return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
+}
+
+Result<Inputs> make_inputs(const Settings& settings, std::optional<Nanoseconds> press_every,
+                           MonotonicTime start) {
+    Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start);
+    if (!tracker) {
+        return tl::unexpected<Error>(tracker.error());
+    }
+    return Inputs{std::move(*tracker), make_panel(settings, press_every, start)};
+}
+
+} // namespace frustumscreen

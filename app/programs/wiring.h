@@ -1,0 +1,29 @@
+/// The one place that names concrete devices.
+///
+/// Threads  the render thread: the display's context becomes current on it.
+/// Errors   a pose file that cannot be read, no OpenGL ES, a display that this build does not have.
+#pragma once
+
+#include "app/settings/settings.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/display/display.h"
+#include "firmware_host/panel/panel.h"
+#include "firmware_host/tracker/tracker.h"
+
+#include <memory>
+#include <optional>
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless);
+
+/// What the exhibit listens to.
+struct Inputs {
+    std::unique_ptr<Tracker> tracker;
+    std::unique_ptr<Panel> panel;
+};
+/// `press_every`: press 'next artifact' evenly in place of the panel's script.
+[[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, std::optional<Nanoseconds> press_every,
+                                         MonotonicTime start);
+
+} // namespace frustumscreen

@@ -1,0 +1,223 @@
+#include "app/exhibit/caption_image.h"
+#include "app/exhibit/captions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+const glm::dvec3 lens(0.0, 0.0, 1.2);
+const glm::dvec3 eye(0.0, -0.55, 0.5);
+const std::vector<glm::dvec2> shipped_table{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+const std::vector<glm::dvec2> near_table{{-0.2, -0.126}, {0.2, -0.126}, {0.2, 0.126}, {-0.2, 0.126}};
+
+RigidTransform standing(double x, double y, double yaw) {
+    return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x, y, 0.0}};
+}
+
+struct Table {
+    PropShape prop = make_prop({});
+    CaptionPlacer placer;
+    glm::dvec3 lens_m = lens;
+
+    explicit Table(const std::vector<glm::dvec2>& room) : placer(room) {}
+    CaptionPlace step(MonotonicTime now, const RigidTransform& pose) {
+        placer.update(now, hidden_by_prop(prop, pose, lens_m), hidden_by_prop(prop, pose, eye),
+                      glm::dvec2(pose.translation));
+        return placer.at(now);
+    }
+};
+
+/// Whether the projector's ray to a table point meets the prop: brute force over the solid's planes.
+bool lands_on_prop(const PropShape& prop, const RigidTransform& pose, const glm::dvec3& from,
+                   const glm::dvec2& p) {
+    const glm::dvec3 a = pose.inverse().point(from);
+    const glm::dvec3 b = pose.inverse().point({p, 0.0});
+    for (int k = 0; k <= 400; ++k) {
+        const glm::dvec3 point = a + (b - a) * (k / 400.0);
+        bool inside = true;
+        for (const Plane& bound : prop.bounds) {
+            inside = inside && bound.distance(point) < -1e-9;
+        }
+        if (inside) {
+            return true;
+        }
+    }
+    return false;
+}
+
+TEST(Captions, TheShadowHoldsExactlyTheTablePointsWhoseRayMeetsTheProp) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> x(-0.3, 0.3);
+    std::uniform_real_distribution<double> turn(-3.2, 3.2);
+    const PropShape prop = make_prop({});
+    for (int k = 0; k < 200; ++k) {
+        const RigidTransform pose = standing(x(random), x(random), turn(random));
+        const auto shadow = hidden_by_prop(prop, pose, lens);
+        ASSERT_TRUE(shadow);
+        for (int n = 0; n < 20; ++n) {
+            const glm::dvec2 p = glm::dvec2(pose.translation) + 0.6 * glm::dvec2(x(random), x(random));
+            const std::array<glm::dvec2, 3> spot{p, p + glm::dvec2(1e-4, 0.0), p + glm::dvec2(0.0, 1e-4)};
+            const bool clear = clearance(spot, shadow->corners()) > 0.004;
+            if (lands_on_prop(prop, pose, lens, p)) {
+                EXPECT_EQ(clearance(spot, shadow->corners()), 0.0);
+            } else if (!clear && clearance(spot, shadow->corners()) == 0.0) {
+                // Inside the hull, the coarse march may miss a sliver at the border only.
+                const std::array<glm::dvec2, 3> inner{p + glm::dvec2(4e-3, 4e-3), p + glm::dvec2(-4e-3, 4e-3),
+                                                      p + glm::dvec2(0.0, -4e-3)};
+                bool border = false;
+                for (const glm::dvec2& q : inner) {
+                    border = border || !lands_on_prop(prop, pose, lens, q);
+                }
+                EXPECT_TRUE(border);
+            }
+        }
+    }
+}
+
+TEST(Captions, AShownCaptionNeverOverlapsThePropHoweverItJumps) {
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> x(-0.32, 0.32);
+    std::uniform_real_distribution<double> y(-0.17, 0.17);
+    std::uniform_real_distribution<double> turn(-3.2, 3.2);
+    std::uniform_int_distribution<int> pause(1, 900);
+    Table table(shipped_table);
+    const std::array<glm::dvec2, 2> sizes{glm::dvec2(0.30, 0.05), glm::dvec2(0.12, 0.11)};
+    table.placer.set_shapes(sizes);
+    MonotonicTime now{};
+    int shown = 0;
+    for (int k = 0; k < 3000; ++k) {
+        now += milliseconds(pause(random));
+        const RigidTransform pose = standing(x(random), y(random), turn(random));
+        const CaptionPlace place = table.step(now, pose);
+        if (place.opacity <= 0.0) {
+            continue;
+        }
+        ++shown;
+        for (int n = 0; n < 25; ++n) {
+            const glm::dvec2 part((n % 5) / 4.0 - 0.5, (n / 5) / 4.0 - 0.5);
+            EXPECT_FALSE(lands_on_prop(table.prop, pose, lens,
+                                       place.rectangle.centre_m + part * place.rectangle.size_m));
+        }
+        for (const glm::dvec2& corner : place.rectangle.corners()) {
+            EXPECT_LE(std::abs(corner.x), 0.4);
+            EXPECT_LE(std::abs(corner.y), 0.25);
+        }
+    }
+    EXPECT_GT(shown, 300);
+}
+
+TEST(Captions, AtRestACaptionIsShownInFrontOfTheVisitorOnBothSetUps) {
+    for (const auto& [room, height] : {std::pair{shipped_table, 1.2}, std::pair{near_table, 0.9}}) {
+        Table table(room);
+        table.lens_m.z = height;
+        const std::array<glm::dvec2, 2> sizes{glm::dvec2(0.30, 0.05), glm::dvec2(0.07, 0.15)};
+        table.placer.set_shapes(sizes);
+        (void)table.step(MonotonicTime{}, standing(0.0, 0.0, 0.3));
+        const CaptionPlace place = table.step(MonotonicTime{} + milliseconds(500), standing(0.0, 0.0, 0.3));
+        EXPECT_EQ(place.opacity, 1.0) << height;
+        if (height > 1.0) {
+            EXPECT_LT(place.rectangle.centre_m.y, -0.1);
+            EXPECT_NEAR(place.rectangle.centre_m.x, 0.0, 0.011);
+        }
+    }
+}
+
+TEST(Captions, ItStaysPutWhileThePropMovesElsewhere) {
+    Table table(shipped_table);
+    const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.20, 0.05)};
+    table.placer.set_shapes(sizes);
+    (void)table.step(MonotonicTime{}, standing(0.0, 0.05, 0.0));
+    const glm::dvec2 centre = table.placer.at(MonotonicTime{}).rectangle.centre_m;
+    for (int k = 1; k < 600; ++k) {
+        const double phase = 0.01 * k;
+        const CaptionPlace place =
+            table.step(MonotonicTime{} + milliseconds(16 * k),
+                       standing(0.1 * std::sin(phase), 0.08 + 0.03 * std::cos(phase), phase));
+        EXPECT_EQ(place.rectangle.centre_m, centre);
+    }
+}
+
+TEST(Captions, ItLeavesBeforeAHandMovesThePropOverItAndComesBackElsewhere) {
+    Table table(shipped_table);
+    const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.20, 0.05)};
+    table.placer.set_shapes(sizes);
+    MonotonicTime now{};
+    double before = 0.0;
+    double largest_step = 0.0;
+    glm::dvec2 first(0.0);
+    for (int k = 0; k < 300; ++k) {
+        now += milliseconds(16);
+        // From the far side over the caption at 0.1 m/s.
+        const double y = std::max(-0.14, 0.10 - 0.0016 * std::max(0, k - 60));
+        const CaptionPlace place = table.step(now, standing(0.0, y, 0.0));
+        largest_step = std::max(largest_step, std::abs(place.opacity - before));
+        before = place.opacity;
+        if (k == 50) {
+            first = place.rectangle.centre_m;
+        }
+    }
+    EXPECT_EQ(before, 1.0);
+    EXPECT_GT(glm::distance(first, table.placer.at(now).rectangle.centre_m), 0.05);
+    EXPECT_LT(largest_step, 0.35); // eased, not switched
+}
+
+TEST(Captions, WithoutRoomOrUnderALowLensNothingIsShown) {
+    Table table(near_table);
+    const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.5, 0.05)};
+    table.placer.set_shapes(sizes);
+    EXPECT_EQ(table.step(MonotonicTime{} + milliseconds(900), standing(0, 0, 0)).opacity, 0.0);
+    EXPECT_FALSE(hidden_by_prop(table.prop, standing(0, 0, 0), {0.0, 0.0, 0.1}));
+}
+
+TEST(Captions, TheDistanceBetweenShapesIsTheLeastBetweenTheirPoints) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> x(-1.0, 1.0);
+    for (int k = 0; k < 300; ++k) {
+        const TableRectangle a{{x(random), x(random)},
+                               {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
+        const TableRectangle b{{x(random), x(random)},
+                               {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
+        const glm::dvec2 gap =
+            glm::max(glm::abs(a.centre_m - b.centre_m) - (a.size_m + b.size_m) / 2.0, glm::dvec2(0.0));
+        EXPECT_NEAR(clearance(a.corners(), b.corners()), glm::length(gap), 1e-12);
+    }
+}
+
+TEST(Captions, TypeIsNeverSmallerThanTwentyFourPoint) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter) << typesetter.error().message;
+    constexpr double texels_per_m = 8000.0;
+    // A capital of DejaVu Sans is 0.729 em high; 'H' has neither overshoot nor descender.
+    const CaptionImage caption = make_caption(*typesetter, "", "HHH", 0.002, 0.2, texels_per_m);
+    int rows = 0;
+    for (int y = 0; y < caption.coverage.height; ++y) {
+        bool ink = false;
+        for (int x = 0; x < caption.coverage.width; ++x) {
+            ink = ink || caption.coverage.at(x, y) > 128;
+        }
+        rows += ink ? 1 : 0;
+    }
+    EXPECT_NEAR(rows / texels_per_m, 0.729 * 0.0254 / 3.0, 2.0 / texels_per_m);
+    EXPECT_NEAR(caption.size_m.y * texels_per_m, caption.coverage.height, 1e-9);
+}
+
+TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    const std::string text =
+        "Wine was carried and poured from vessels like this one in every house of the town";
+    const CaptionImage wide = make_caption(*typesetter, "Amphora", text, 0.010, 0.30, 2000.0);
+    const CaptionImage narrow = make_caption(*typesetter, "Amphora", text, 0.010, 0.12, 2000.0);
+    EXPECT_LE(wide.size_m.x, 0.302);
+    EXPECT_LE(narrow.size_m.x, 0.122);
+    EXPECT_GT(narrow.size_m.y, 1.5 * wide.size_m.y);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,127 @@
+// Seeded mutants of a pack: each is refused in one line, or is a pack that a renderer can use unasked.
+#include "tests/pack/samples.h"
+
+#include <set>
+
+using namespace frustumscreen;
+
+namespace {
+
+/// One of the damages that fuzzers find most with.
+void mutate(Bytes& bytes, std::mt19937& random) {
+    if (bytes.empty()) {
+        return;
+    }
+    const std::size_t at = random() % bytes.size();
+    const std::size_t count = std::min<std::size_t>(1 + random() % 16, bytes.size() - at);
+    static constexpr std::array<std::uint8_t, 6> interesting{0x00, 0xFF, 0x7F, 0x80, 0x01, 0x20};
+    const auto place = [&](std::size_t k) { return bytes.begin() + static_cast<std::ptrdiff_t>(k); };
+    switch (random() % 6) {
+    case 0:
+        bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
+        break;
+    case 1:
+        std::fill(place(at), place(at + count), std::byte{interesting[random() % interesting.size()]});
+        break;
+    case 2:
+        bytes.erase(place(at), place(at + count));
+        break;
+    case 3:
+        bytes.insert(place(at), count, static_cast<std::byte>(random()));
+        break;
+    case 4: {
+        const Bytes run(place(at), place(at + count));
+        std::copy(run.begin(), run.end(), place(random() % (bytes.size() - count + 1)));
+        break;
+    }
+    default:
+        bytes.resize(at);
+    }
+}
+
+/// What the renderer relies on, asked again and differently.
+void expect_usable(const Pack& pack) {
+    ASSERT_FALSE(pack.levels.empty());
+    ASSERT_LT(pack.default_level, pack.levels.size());
+    const Placement placement = place(pack, make_prop({}));
+    ASSERT_TRUE(placement.metres_per_box > 0.05 && placement.metres_per_box < 0.3)
+        << placement.metres_per_box;
+    for (const PackLevel& level : pack.levels) {
+        ASSERT_LT(level.texture, pack.textures.size());
+        const Image8& texture = pack.textures[level.texture];
+        ASSERT_EQ(texture.texels.size(),
+                  static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height));
+        ASSERT_FALSE(texture.texels.empty());
+        const std::set<std::uint32_t> used(level.indices.begin(), level.indices.end());
+        ASSERT_LT(*used.rbegin(), level.vertices.size());
+        std::size_t next = 0;
+        for (const PackCluster& cluster : level.clusters) {
+            ASSERT_EQ(cluster.first_index, next);
+            next += cluster.index_count;
+            ASSERT_EQ(next % 3, 0U);
+            ASSERT_TRUE(cluster.radius >= 0.0F && cluster.radius < INFINITY);
+        }
+        ASSERT_EQ(next, level.indices.size());
+    }
+    ASSERT_TRUE(write_pack(pack)) << "what was read can be written";
+}
+
+struct Count {
+    int mutants = 0;
+    int refused = 0;
+};
+
+void judge(const Bytes& bytes, Count& count) {
+    ++count.mutants;
+    const Result<VerifiedPack> pack = verify_pack(bytes);
+    if (!pack) {
+        ++count.refused;
+        ASSERT_TRUE(samples::is_one_line(pack.error().message)) << pack.error().message;
+        return;
+    }
+    expect_usable(**pack);
+}
+
+} // namespace
+
+TEST(Mutants, of_the_file_are_refused_or_usable) {
+    const Bytes bytes = samples::bytes_of(samples::pack());
+    std::mt19937 random(101);
+    Count count;
+    while (count.mutants < 3000 && !HasFatalFailure()) {
+        Bytes mutant = bytes;
+        for (unsigned k = 0; k < 1 + random() % 3; ++k) {
+            mutate(mutant, random);
+        }
+        judge(mutant, count);
+    }
+    EXPECT_GT(count.refused, count.mutants * 3 / 4);
+}
+
+TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    std::mt19937 random(102);
+    Count count;
+    while (count.mutants < 3000 && !HasFatalFailure()) {
+        samples::Entries mutant = entries;
+        mutate(mutant.parts[random() % mutant.parts.size()].second, random);
+        samples::right_hashes(mutant);
+        judge(samples::put_together(mutant), count);
+    }
+    EXPECT_GT(count.refused, count.mutants / 4);
+    EXPECT_LT(count.refused, count.mutants) << "some mutants reach the last check";
+}
+
+TEST(Mutants, of_the_manifest_are_refused_or_usable) {
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    const std::string manifest = entries.manifest.dump();
+    const auto manifest_bytes = as_bytes(manifest);
+    std::mt19937 random(103);
+    Count count;
+    while (count.mutants < 2000 && !HasFatalFailure()) {
+        Bytes mutant(manifest_bytes.begin(), manifest_bytes.end());
+        mutate(mutant, random);
+        judge(samples::put_together(std::string(as_text(mutant)), entries.parts), count);
+    }
+    EXPECT_LT(count.refused, count.mutants);
+}

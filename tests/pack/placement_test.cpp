@@ -1,0 +1,107 @@
+#include "tests/pack/samples.h"
+
+#include <algorithm>
+
+using namespace frustumscreen;
+
+namespace {
+
+/// Box-frame points of a cloud that reaches just to the sides of its box.
+struct Cloud {
+    std::vector<glm::dvec3> points;
+    glm::dvec3 size{1.0};
+};
+
+Cloud random_cloud(std::mt19937& random) {
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    Cloud cloud;
+    for (int k = 0; k < 200; ++k) {
+        cloud.points.push_back({u(random) * u(random), u(random), u(random) * (1.0 - u(random))});
+    }
+    glm::dvec3 low(1e9);
+    glm::dvec3 high(-1e9);
+    for (const glm::dvec3& p : cloud.points) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::dvec3 extent = high - low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    for (glm::dvec3& p : cloud.points) {
+        p = (p - glm::dvec3((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z)) / longest;
+    }
+    cloud.size = extent / longest;
+    return cloud;
+}
+
+/// How far a point is outside the prop, by similar triangles, without the planes of its shape.
+double outside_by(const PropSize& prop, const glm::dvec3& p) {
+    const double top = prop.kind == PropKind::Cube ? prop.base_m : prop.top_m;
+    const double half = (prop.base_m + (top - prop.base_m) * p.z / prop.height_m) / 2.0;
+    return std::max({std::abs(p.x) - half, std::abs(p.y) - half, p.z - prop.height_m, -p.z});
+}
+
+} // namespace
+
+TEST(Placement, keeps_every_vertex_inside_and_touches_a_side) {
+    std::mt19937 random(11);
+    for (int k = 0; k < 300; ++k) {
+        const Cloud cloud = random_cloud(random);
+        Pack pack;
+        pack.extremes = cloud.points;
+        pack.box_size = cloud.size;
+        const glm::dvec3 offset(random() % 100, random() % 100, random() % 100);
+        pack.box_from_file = glm::translate(glm::scale(glm::dmat4(1.0), glm::dvec3(0.5)), -offset);
+        const PropSize prop = k % 2 == 0 ? PropSize{} : PropSize{PropKind::Cube, 0.1, 0.1, 0.1};
+        const Placement placement = place(pack, make_prop(prop));
+        double most = -1.0;
+        for (const glm::dvec3& box_point : cloud.points) {
+            const glm::dvec3 file_point = box_point * 2.0 + offset;
+            const glm::dvec3 p(placement.prop_from_artifact * glm::dvec4(file_point, 1.0));
+            // The bottom is touched by construction; which of the other sides stops it is the question.
+            EXPECT_GE(p.z, -1e-12);
+            most = std::max(most, outside_by(prop, p + glm::dvec3(0.0, 0.0, 1e-15)));
+        }
+        EXPECT_LE(most, 1e-12);
+        const Placement larger{placement.metres_per_box * 1.0001, {}};
+        const bool leaves = std::any_of(cloud.points.begin(), cloud.points.end(), [&](const glm::dvec3& p) {
+            return outside_by(prop, p * larger.metres_per_box) > 1e-9;
+        });
+        EXPECT_TRUE(leaves) << "a larger scale would have fitted";
+    }
+}
+
+TEST(Placement, of_a_cube_shaped_artifact_is_known_by_hand) {
+    // A unit cube in a frustum of base 16, top 9, height 12 cm: side s at height s, s = 16 - 7 s / 12 cm.
+    Pack pack;
+    pack.extremes.clear();
+    for (const double x : {-0.5, 0.5}) {
+        for (const double y : {-0.5, 0.5}) {
+            pack.extremes.insert(pack.extremes.end(), {{x, y, 0.0}, {x, y, 1.0}});
+        }
+    }
+    const Placement placement = place(pack, make_prop({}));
+    const double side_m = 0.16 * 12.0 / 19.0;
+    EXPECT_NEAR(placement.metres_per_box, side_m, 1e-15);
+    EXPECT_NEAR(placement.prop_from_artifact[1][1], side_m, 1e-15);
+}
+
+TEST(Placement, turns_moves_and_scales_in_that_order) {
+    Pack pack = samples::pack();
+    // The file's +Y up at scale 1/2 about (1, 2, 3): file (x, y, z) -> box ((x-1)/2, -(z-3)/2, (y-2)/2).
+    pack.box_from_file = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0, 0.5, 0),
+                                    glm::dvec4(0, -0.5, 0, 0), glm::dvec4(-0.5, 1.5, -1.0, 1));
+    const Placement placement = place(pack, make_prop({}));
+    const double s = placement.metres_per_box;
+    const glm::dvec4 p = placement.prop_from_artifact * glm::dvec4(5.0, 6.0, 7.0, 1.0);
+    EXPECT_NEAR(p.x, s * 2.0, 1e-15);
+    EXPECT_NEAR(p.y, s * -2.0, 1e-15);
+    EXPECT_NEAR(p.z, s * 2.0, 1e-15);
+    EXPECT_EQ(p.w, 1.0);
+}
+
+TEST(Placement, is_not_shrunk_by_a_lowest_point_that_rounding_put_below_the_bottom) {
+    Pack pack = samples::pack();
+    const double whole = place(pack, make_prop({})).metres_per_box;
+    pack.extremes[0].z = -1e-12;
+    EXPECT_NEAR(place(pack, make_prop({})).metres_per_box, whole, 1e-12);
+}

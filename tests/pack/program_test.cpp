@@ -1,0 +1,106 @@
+// frustumscreen-pack from outside: what it prints and how it ends.
+#include "tests/pack/samples.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace frustumscreen;
+
+namespace {
+
+std::string text_of(const std::string& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+struct Outcome {
+    int status = -1;
+    std::string out;
+    std::string error;
+};
+
+Outcome pack_program(const std::string& arguments) {
+    const std::string command = std::string(FRUSTUMSCREEN_BIN_DIR) + "/frustumscreen-pack " + arguments +
+                                " > program_out.txt 2> program_error.txt";
+    const int ended = std::system(command.c_str());
+    return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text_of("program_out.txt"),
+            text_of("program_error.txt")};
+}
+
+class Program : public testing::Test {
+protected:
+    void SetUp() override {
+        ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::pack())));
+        ASSERT_TRUE(write_file("bad.fspack", as_bytes("PK\x03\x04 and no more")));
+    }
+    void TearDown() override {
+        for (const char* file :
+             {"good.fspack", "bad.fspack", "program_out.txt", "program_error.txt", "cube.toml"}) {
+            std::filesystem::remove(file);
+        }
+    }
+};
+
+} // namespace
+
+TEST_F(Program, verify_tells_sound_packs_from_others) {
+    const Outcome good = pack_program("verify good.fspack");
+    EXPECT_EQ(good.status, 0);
+    EXPECT_EQ(good.out.find("good.fspack: sound, unsigned"), 0U) << good.out;
+    EXPECT_EQ(good.error, "");
+    const Outcome both = pack_program("verify bad.fspack good.fspack");
+    EXPECT_EQ(both.status, 1);
+    EXPECT_NE(both.out.find("good.fspack: sound"), std::string::npos);
+    EXPECT_EQ(both.error.find("frustumscreen-pack: bad.fspack: "), 0U) << both.error;
+    EXPECT_EQ(std::count(both.error.begin(), both.error.end(), '\n'), 1);
+}
+
+TEST_F(Program, wrong_use_ends_with_status_2) {
+    EXPECT_EQ(pack_program("").status, 2);
+    EXPECT_EQ(pack_program("verify").status, 2);
+    EXPECT_EQ(pack_program("shake good.fspack").status, 2);
+    EXPECT_EQ(pack_program("--help").status, 0);
+    EXPECT_EQ(pack_program("--version").status, 0);
+}
+
+TEST_F(Program, list_and_explain_refuse_what_is_not_sound) {
+    EXPECT_EQ(pack_program("list bad.fspack").status, 1);
+    EXPECT_EQ(pack_program("explain bad.fspack --json").status, 1);
+    EXPECT_EQ(pack_program("explain nowhere.fspack").status, 1);
+    EXPECT_EQ(pack_program("explain good.fspack --config nowhere.toml").status, 1);
+}
+
+TEST_F(Program, list_gives_errors_in_millimetres_on_the_default_prop) {
+    const Outcome outcome = pack_program("list good.fspack --json");
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["languages"], nlohmann::json({"en", "pt-BR"}));
+    EXPECT_EQ(json["levels"][0]["triangles"], 3);
+    EXPECT_EQ(json["parts"].size(), 7U);
+    const double mm_per_box = place(samples::pack(), make_prop({})).metres_per_box * 1000.0;
+    EXPECT_NEAR(json["levels"][1]["error"]["p95_mm"].get<double>(), 0.002 * mm_per_box, 1e-6);
+}
+
+TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
+    const Pack pack = samples::pack();
+    const auto expect_matrix = [&](const std::string& options, const PropSize& prop) {
+        const Outcome outcome = pack_program("explain good.fspack --json " + options);
+        ASSERT_EQ(outcome.status, 0) << outcome.error;
+        const auto json = nlohmann::json::parse(outcome.out);
+        const auto matrix = json["prop_from_artifact"].get<std::vector<double>>();
+        ASSERT_EQ(matrix.size(), 16U);
+        const glm::dmat4 expected = place(pack, make_prop(prop)).prop_from_artifact;
+        for (int k = 0; k < 16; ++k) {
+            EXPECT_EQ(matrix[static_cast<std::size_t>(k)], expected[k / 4][k % 4]) << k;
+        }
+    };
+    expect_matrix("", PropSize{});
+    ASSERT_TRUE(write_file("cube.toml", as_bytes("[prop]\nkind = \"cube\"\nbase_m = 0.1\nheight_m = 0.1\n")));
+    expect_matrix("--config cube.toml", PropSize{PropKind::Cube, 0.1, 0.1, 0.1});
+}

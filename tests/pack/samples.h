@@ -1,0 +1,202 @@
+/// Small packs made in memory, and packs taken apart and put together again with the right hashes.
+#pragma once
+
+#include "app/pack/manifest.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/sha256.h"
+#include "app/pack/zip_archive.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+
+namespace frustumscreen::samples {
+
+/// One quad in the plane z = 1/4 of the box and one upright, in two clusters.
+inline PackLevel mesh_level() {
+    PackLevel level;
+    level.technique = LevelTechnique::Mesh;
+    level.error = {0.0001F, 0.0004F, 0.02F, 3.5F};
+    level.vertices = {{{0, 0, 16384}, 0, {0, 0}},
+                      {{65535, 0, 16384}, 0, {65535, 0}},
+                      {{65535, 65535, 16384}, 0, {65535, 65535}},
+                      {{0, 65535, 65535}, 0, {0, 65535}}};
+    level.indices = {0, 1, 2, 0, 2, 3, 2, 1, 3};
+    PackCluster first{0, 6, {0.0F, 0.0F, 0.2F}, 0.75F, {0.1F, -0.2F, 0.3F}, {0.0F, 0.6F, 0.8F}, 0.25F};
+    PackCluster second{6, 3, {0.25F, 0.0F, 0.5F}, 0.5F, {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 2.0F};
+    level.clusters = {first, second};
+    return level;
+}
+
+/// Two charts, one seen from above and one from the front, with an empty texel in each.
+inline ReliefAtlas relief_atlas() {
+    ReliefAtlas atlas;
+    atlas.texel_box = 0.125F;
+    atlas.charts = {{ReliefDirection::PlusZ, 1, 1, 5, 4, -0.4375F, -0.1875F},
+                    {ReliefDirection::MinusY, 8, 2, 3, 3, -0.25F, 0.0625F}};
+    atlas.relief = Image16(13, 7, 65535);
+    for (const ReliefChart& chart : atlas.charts) {
+        for (int y = chart.y; y < chart.y + chart.height; ++y) {
+            for (int x = chart.x; x < chart.x + chart.width; ++x) {
+                atlas.relief.at(x, y) = static_cast<std::uint16_t>((x * 9001 + y * 17011) % 65535);
+            }
+        }
+    }
+    atlas.relief.at(1, 1) = 65535;
+    atlas.relief.at(10, 4) = 65535;
+    return atlas;
+}
+
+/// Where pack.h says that a texel lies, spelt out for the two directions used here.
+inline PackVertex vertex_at(const ReliefAtlas& atlas, const ReliefChart& chart, int x, int y,
+                            const glm::dvec3& box) {
+    const double u = static_cast<double>(chart.u0_box) + 0.125 * (x - chart.x);
+    const double v = static_cast<double>(chart.v0_box) + 0.125 * (y - chart.y);
+    const double along = atlas.relief.at(x, y) / 65534.0;
+    const glm::dvec3 unit = chart.direction == ReliefDirection::PlusZ
+                                ? glm::dvec3(u / box.x + 0.5, v / box.y + 0.5, along)
+                                : glm::dvec3(u / box.x + 0.5, along, v / box.z);
+    const auto code = [](double value) { return static_cast<std::uint16_t>(std::lround(value * 65535.0)); };
+    return {{code(unit.x), code(unit.y), code(unit.z)}, 0, {code((x + 0.5) / 13.0), code((y + 0.5) / 7.0)}};
+}
+
+/// A triangle for every texel whose right and lower neighbours are filled too.
+inline PackLevel relief_level(const ReliefAtlas& atlas, const glm::dvec3& box) {
+    PackLevel level;
+    level.technique = LevelTechnique::Relief;
+    level.error = {0.001F, 0.002F, 0.003F, 12.25F};
+    level.texture = 1;
+    for (const ReliefChart& chart : atlas.charts) {
+        const auto first = static_cast<std::uint32_t>(level.indices.size());
+        for (int y = chart.y; y + 1 < chart.y + chart.height; ++y) {
+            for (int x = chart.x; x + 1 < chart.x + chart.width; ++x) {
+                if (atlas.relief.at(x, y) == 65535 || atlas.relief.at(x + 1, y) == 65535 ||
+                    atlas.relief.at(x, y + 1) == 65535) {
+                    continue;
+                }
+                for (const auto& [i, j] : {std::pair(x, y), std::pair(x + 1, y), std::pair(x, y + 1)}) {
+                    level.indices.push_back(static_cast<std::uint32_t>(level.vertices.size()));
+                    level.vertices.push_back(vertex_at(atlas, chart, i, j, box));
+                }
+            }
+        }
+        PackCluster cluster;
+        cluster.first_index = first;
+        cluster.index_count = static_cast<std::uint32_t>(level.indices.size()) - first;
+        cluster.radius = 1.5F;
+        level.clusters.push_back(cluster);
+    }
+    return level;
+}
+
+inline Image8 texture(int width, int height, unsigned seed, bool opaque) {
+    std::mt19937 random(seed);
+    Image8 image(width, height);
+    for (glm::u8vec4& texel : image.texels) {
+        const auto code = static_cast<std::uint32_t>(random());
+        texel = {code & 255U, (code >> 8) & 255U, (code >> 16) & 255U, opaque ? 255U : code >> 24};
+    }
+    return image;
+}
+
+/// Everything that a pack can hold, on few bytes.
+inline Pack pack() {
+    Pack pack;
+    pack.title = "Amphora \xC3\xA0 colonnettes";
+    pack.languages = {"en", "pt-BR"};
+    pack.captions = {{"en", "Amphora", "Clay, wheel-made.\nAbout 540 BC."}, {"pt-BR", "\xC3\x82nfora", ""}};
+    pack.provenance = {"amphora.glb", std::string(64, 'a'), "CC0-1.0", 123456789012ULL};
+    pack.prop_kind = "frustum";
+    pack.unlit = true;
+    pack.relief_size = 512;
+    pack.box_size = {1.0, 0.5, 0.8};
+    pack.box_from_file = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, -1.0 / 3.0, 0.7)) *
+                         glm::rotate(glm::dmat4(1.0), 0.3, glm::normalize(glm::dvec3(1.0, 2.0, -0.5))) *
+                         glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / 7.0));
+    pack.extremes = {{-0.5, 0.1, 0.0}, {0.5, -0.25, 0.3}, {0.1, 0.25, 0.8}, {1.0 / 3.0, 0.0, 0.5}};
+    pack.textures = {texture(9, 5, 1, true), texture(13, 7, 2, false)};
+    pack.relief = relief_atlas();
+    pack.levels = {mesh_level(), relief_level(pack.relief, pack.box_size)};
+    pack.default_level = 1;
+    return pack;
+}
+
+inline Bytes bytes_of(const Pack& pack) {
+    Result<Bytes> bytes = write_pack(pack);
+    EXPECT_TRUE(bytes) << (bytes ? "" : bytes.error().message);
+    return bytes ? *bytes : Bytes{};
+}
+
+/// A pack's entries, to be altered and put together again.
+struct Entries {
+    nlohmann::ordered_json manifest;
+    std::vector<std::pair<std::string, Bytes>> parts;
+
+    Bytes& part(const std::string& name) {
+        for (auto& [part_name, bytes] : parts) {
+            if (part_name == name) {
+                return bytes;
+            }
+        }
+        throw std::out_of_range(name);
+    }
+};
+
+inline Entries take_apart(const Bytes& bytes) {
+    auto zip = pack_format::ZipReader::open(bytes);
+    Entries entries;
+    for (const pack_format::ZipEntry& entry : zip.value().entries()) {
+        const Bytes part = zip->read(entry).value();
+        if (entry.name == pack_format::manifest_name) {
+            entries.manifest = nlohmann::ordered_json::parse(as_text(part));
+        } else {
+            entries.parts.push_back({entry.name, part});
+        }
+    }
+    return entries;
+}
+
+/// As they are, around this text as the manifest.
+inline Bytes put_together(const std::string& manifest,
+                          const std::vector<std::pair<std::string, Bytes>>& parts) {
+    pack_format::ZipWriter zip;
+    zip.add("manifest.json", as_bytes(manifest), pack_format::Packing::Deflated);
+    for (const auto& [name, bytes] : parts) {
+        zip.add(name, bytes, pack_format::Packing::Stored);
+    }
+    return zip.finish().value();
+}
+inline Bytes put_together(const Entries& entries) {
+    return put_together(entries.manifest.dump(), entries.parts);
+}
+
+/// Makes the sizes and hashes in the manifest those of the parts.
+inline void right_hashes(Entries& entries) {
+    for (auto& record : entries.manifest["parts"]) {
+        for (const auto& [name, bytes] : entries.parts) {
+            if (record["name"] == name) {
+                record["bytes"] = bytes.size();
+                record["sha256"] = sha256_hex(bytes);
+            }
+        }
+    }
+}
+
+/// The message with which the bytes are refused; empty if they are not.
+inline std::string refusal_of(const Bytes& bytes) {
+    const Result<VerifiedPack> pack = verify_pack(bytes);
+    return pack ? std::string() : pack.error().message;
+}
+
+/// One line for a person: not empty, not broken, not endless, no control characters.
+inline bool is_one_line(const std::string& message) {
+    return !message.empty() && message.size() < 400 && message.find('\n') == std::string::npos &&
+           message.find('\x1b') == std::string::npos && message.find('\0') == std::string::npos;
+}
+
+} // namespace frustumscreen::samples
