@@ -1,0 +1,197 @@
+#include "app/render/face_pass.h"
+
+#include "app/render/gl_program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view outline_vertex = R"(
+uniform vec4 corners[4];
+void main() { gl_Position = corners[gl_VertexID]; }
+)";
+constexpr std::string_view outline_fragment = R"(
+void main() {}
+)";
+
+constexpr std::string_view artifact_vertex = R"(
+layout(location = 0) in vec3 position; // 0..1 over the artifact's box
+uniform mat4 clip_from_unit;
+#ifdef HIT_POINT
+uniform vec3 prop_from_unit[2]; // scale, offset
+out vec3 point;
+#else
+layout(location = 1) in vec2 uv;
+out vec2 texel;
+#endif
+void main() {
+    gl_Position = clip_from_unit * vec4(position, 1.0);
+#ifdef HIT_POINT
+    point = prop_from_unit[0] * position + prop_from_unit[1];
+#else
+    texel = uv;
+#endif
+}
+)";
+
+constexpr std::string_view artifact_fragment = R"(
+out vec4 result;
+#ifdef HIT_POINT
+in vec3 point;
+void main() { result = vec4(point, 1.0); }
+#else
+in vec2 texel;
+uniform sampler2D colour;
+uniform float level_bias;
+uniform float brightness;
+#ifdef COMPENSATED
+uniform vec2 pixel_per_fragment;
+uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
+uniform vec3 inverse_depth; // of the face's plane
+uniform vec2 gain;          // constant, times d^3
+float compensation() {
+    vec2 pixel = gl_FragCoord.xy * pixel_per_fragment;
+    vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
+    float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
+    float d2 = depth * depth * (1.0 + dot(ray, ray));
+    return min(1.0, gain.x + gain.y * d2 * sqrt(d2));
+}
+#endif
+void main() {
+    vec3 light = brightness * texture(colour, texel, level_bias).rgb;
+#ifdef COMPENSATED
+    light *= compensation();
+#endif
+    result = vec4(light, 1.0);
+}
+#endif
+)";
+
+GLuint stencil_value(std::size_t face) {
+    return static_cast<GLuint>(face) + 1U;
+}
+
+} // namespace
+
+Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_view defines) {
+    Result<GlProgram> program = make_program(defines, artifact_vertex, artifact_fragment);
+    if (!program) {
+        return tl::unexpected<Error>(program.error());
+    }
+    const GLuint name = program->get();
+    ArtifactProgram made{std::move(*program),
+                         glGetUniformLocation(name, "clip_from_unit"),
+                         glGetUniformLocation(name, "level_bias"),
+                         glGetUniformLocation(name, "brightness"),
+                         glGetUniformLocation(name, "pixel_per_fragment"),
+                         glGetUniformLocation(name, "pinhole"),
+                         glGetUniformLocation(name, "inverse_depth"),
+                         glGetUniformLocation(name, "gain"),
+                         glGetUniformLocation(name, "prop_from_unit")};
+    glUseProgram(name);
+    glUniform1i(glGetUniformLocation(name, "colour"), 0);
+    return made;
+}
+
+Result<FacePass> FacePass::create(FaceOutput output) {
+    FacePass pass;
+    const bool hit_point = output == FaceOutput::HitPoint;
+    Result<ArtifactProgram> plain = make_artifact_program(hit_point ? "#define HIT_POINT\n" : "");
+    Result<ArtifactProgram> compensated =
+        make_artifact_program(hit_point ? "#define HIT_POINT\n" : "#define COMPENSATED\n");
+    Result<GlProgram> outline = make_program("", outline_vertex, outline_fragment);
+    if (!plain || !compensated) {
+        return tl::unexpected<Error>(plain ? compensated.error() : plain.error());
+    }
+    if (!outline) {
+        return tl::unexpected<Error>(outline.error());
+    }
+    pass.plain_ = std::move(*plain);
+    pass.compensated_ = std::move(*compensated);
+    pass.outline_ = std::move(*outline);
+    pass.outline_corners_ = glGetUniformLocation(pass.outline_.get(), "corners");
+    pass.no_attributes_ = GlVertexArray::generate();
+    return pass;
+}
+
+int FacePass::draw(const FramePlan& plan, const ArtifactGpu* artifact, const glm::ivec2& fragments) const {
+    if (plan.faces.empty() || artifact == nullptr) {
+        return 0;
+    }
+    glEnable(GL_STENCIL_TEST);
+    mark_faces(plan);
+    const int calls = draw_artifact(plan, *artifact, fragments);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+    return calls + static_cast<int>(plan.faces.size());
+}
+
+void FacePass::mark_faces(const FramePlan& plan) const {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glStencilMask(0xFF);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glUseProgram(outline_.get());
+    glBindVertexArray(no_attributes_.get());
+    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
+        // The prop is convex: faces that the projector sees do not hide each other.
+        glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
+        glUniform4fv(outline_corners_, 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
+        glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+    }
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+}
+
+int FacePass::draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact,
+                            const glm::ivec2& fragments) const {
+    const ArtifactProgram& program = plan.compensate_light ? compensated_ : plain_;
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CW);
+    glUseProgram(program.program.get());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, artifact.texture());
+    glBindVertexArray(artifact.vertex_array());
+    glUniform1f(program.level_bias, artifact.level_bias());
+    glUniform1f(program.brightness, plan.brightness);
+    glUniform2f(program.pixel_per_fragment, 1.0F / static_cast<float>(fragments.x),
+                1.0F / static_cast<float>(fragments.y));
+    const Pinhole& pinhole = plan.projector;
+    glUniform4f(program.pinhole, static_cast<float>(pinhole.cx), static_cast<float>(pinhole.cy),
+                static_cast<float>(1.0 / pinhole.fx), static_cast<float>(1.0 / pinhole.fy));
+    const std::array<glm::vec3, 2> prop_from_unit{glm::vec3(plan.prop_from_unit_scale),
+                                                  glm::vec3(plan.prop_from_unit_offset)};
+    glUniform3fv(program.prop_from_unit, 2, glm::value_ptr(prop_from_unit[0]));
+    int calls = 0;
+    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
+        const FacePlan& face = plan.faces[k];
+        glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(k)), 0xFF);
+        glUniformMatrix4fv(program.clip_from_unit, 1, GL_FALSE, glm::value_ptr(face.clip_from_unit));
+        glUniform3fv(program.inverse_depth, 1, glm::value_ptr(face.light.inverse_depth));
+        glUniform2f(program.gain, face.light.constant, face.light.per_cubic_metre);
+        for (std::uint32_t r = face.first_range; r < face.first_range + face.range_count; ++r) {
+            const IndexRange& range = plan.ranges[r];
+            const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
+            glDrawElements(
+                GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                reinterpret_cast<const void*>(offset));
+            ++calls;
+        }
+    }
+    return calls;
+}
+
+} // namespace frustumscreen

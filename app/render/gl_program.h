@@ -1,0 +1,19 @@
+/// Shader programs.
+///
+/// Threads  the render thread.
+/// Errors   Internal: the driver refused one of our own shaders, with the first line of what it said.
+#pragma once
+
+#include "app/render/gl_handle.h"
+#include "firmware_host/base/result.h"
+
+#include <string_view>
+
+namespace frustumscreen {
+
+/// Both stages get '#version 300 es', highp for everything (ES's default lowp samplers change results) and
+/// `defines`.
+[[nodiscard]] Result<GlProgram> make_program(std::string_view defines, std::string_view vertex,
+                                             std::string_view fragment);
+
+} // namespace frustumscreen

@@ -1,0 +1,55 @@
+#include "app/render/hit_points.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace frustumscreen {
+
+Result<HitPointRenderer> HitPointRenderer::create(int width, int height) {
+    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint);
+    if (!pass) {
+        return tl::unexpected<Error>(pass.error());
+    }
+    HitPointRenderer renderer(std::move(*pass));
+    renderer.width_ = width;
+    renderer.height_ = height;
+    renderer.framebuffer_ = GlFramebuffer::generate();
+    renderer.points_ = GlRenderbuffer::generate();
+    renderer.depth_stencil_ = GlRenderbuffer::generate();
+    glBindFramebuffer(GL_FRAMEBUFFER, renderer.framebuffer_.get());
+    glBindRenderbuffer(GL_RENDERBUFFER, renderer.points_.get());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, renderer.points_.get());
+    glBindRenderbuffer(GL_RENDERBUFFER, renderer.depth_stencil_.get());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                              renderer.depth_stencil_.get());
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            "render: this driver cannot draw into float pictures (EXT_color_buffer_float); leave out --aov");
+    }
+    return renderer;
+}
+
+ImageFloat HitPointRenderer::draw(const FramePlan& plan, const ArtifactGpu* artifact) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glViewport(0, 0, width_, height_);
+    glDisable(GL_SCISSOR_TEST);
+    constexpr std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+    glStencilMask(0xFF);
+    glClearBufferfv(GL_COLOR, 0, nothing.data());
+    glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
+    pass_.draw(plan, artifact);
+    ImageFloat image(width_, height_);
+    std::vector<glm::vec4> read(image.texels.size());
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, read.data());
+    for (std::size_t k = 0; k < read.size(); ++k) {
+        image.texels[k] =
+            read[k].a > 0.5F ? glm::vec3(read[k]) : glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    }
+    return image;
+}
+
+} // namespace frustumscreen

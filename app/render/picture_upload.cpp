@@ -1,0 +1,23 @@
+#include "app/render/picture_upload.h"
+
+namespace frustumscreen {
+
+PictureUpload::PictureUpload(int width, int height)
+    : width_(width), height_(height), texture_(GlTexture::generate()), source_(GlFramebuffer::generate()) {
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, width, height);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source_.get());
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.get(), 0);
+}
+
+void PictureUpload::show(const Image8& picture, unsigned framebuffer) {
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
+                    picture.texels.data());
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source_.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,25 @@
+/// Puts a picture made on the CPU into a display's framebuffer as it is. For test pictures, not for the
+/// exhibit.
+///
+/// Threads  the render thread.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/render/gl_handle.h"
+
+namespace frustumscreen {
+
+class PictureUpload {
+public:
+    PictureUpload(int width, int height);
+    /// `picture` has the size given above; sRGB codes arrive unchanged, row 0 at the picture's top.
+    void show(const Image8& picture, unsigned framebuffer);
+
+private:
+    int width_;
+    int height_;
+    GlTexture texture_;
+    GlFramebuffer source_;
+};
+
+} // namespace frustumscreen

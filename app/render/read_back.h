@@ -1,0 +1,13 @@
+/// Pictures back from the GPU. For tests and the offline renderer; never in the exhibit's frame.
+#pragma once
+
+#include "app/image/image.h"
+
+namespace frustumscreen {
+
+/// Colour of a framebuffer as sRGB codes, alpha 255; row 0 at the picture's top.
+[[nodiscard]] Image8 read_colour(unsigned framebuffer, int width, int height);
+/// The same into an image of the framebuffer's size.
+void read_colour_into(unsigned framebuffer, Image8& image);
+
+} // namespace frustumscreen

@@ -1,0 +1,90 @@
+/// Draws a plan into a display's framebuffer: only what changed, and nothing if nothing changed.
+///
+/// Colour   the framebuffer is sRGB (display.h); shaders work in linear light.
+/// Threads  the render thread; `draw` allocates nothing and makes no GL object.
+/// Errors   at creation only: shaders or buffers that the driver refuses.
+#pragma once
+
+#include "app/render/artifact_gpu.h"
+#include "app/render/caption_pass.h"
+#include "app/render/face_pass.h"
+#include "app/render/gl_handle.h"
+#include "app/scene/frame_plan.h"
+#include "firmware_host/base/result.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+/// What pictures are drawn with unless someone asks for another number.
+inline constexpr int default_samples = 1;
+
+struct RendererOptions {
+    int width = 0;
+    int height = 0;
+    /// Samples a pixel, on a regular grid, averaged in linear light: 1, 2 or 4. More smooth the outlines and
+    /// the texture. The artifact's rectangle alone is drawn larger and averaged down: on llvmpipe that takes
+    /// half the time of the driver's own multisampling.
+    int samples = default_samples;
+};
+
+/// Display::framebuffer and Display::buffer_age.
+struct RenderTarget {
+    unsigned framebuffer = 0;
+    int buffer_age = 0;
+};
+
+struct DrawResult {
+    bool drawn = false;     ///< false: the picture on show is still right; do not present
+    PixelRectangle redrawn; ///< what was cleared and drawn
+    int draw_calls = 0;
+};
+
+enum class Redraw {
+    Changes,
+    Everything, ///< the whole picture, whether it changed or not
+};
+
+class Renderer {
+public:
+    [[nodiscard]] static Result<Renderer> create(const RendererOptions& options);
+
+    /// What the plan shows. Neither is touched if the plan has no need of it.
+    struct Shows {
+        const ArtifactGpu* artifact = nullptr;
+        const CaptionGpu* caption = nullptr;
+    };
+    /// Each drawn picture must be presented before the next call: the target's age counts presents.
+    DrawResult draw(const FramePlan& plan, const ArtifactGpu* artifact, const RenderTarget& target,
+                    Redraw redraw = Redraw::Changes) {
+        return draw(plan, Shows{artifact, nullptr}, target, redraw);
+    }
+    DrawResult draw(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
+                    Redraw redraw = Redraw::Changes);
+
+private:
+    struct Picture {
+        std::uint64_t hash = 0;
+        PixelRectangle bounds;
+    };
+    Renderer(FacePass pass, CaptionPass caption) : pass_(std::move(pass)), caption_(std::move(caption)) {}
+    void draw_smooth(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
+                     DrawResult& result) const;
+    [[nodiscard]] Result<void> make_enlarged();
+    [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
+                                           Redraw redraw) const;
+
+    RendererOptions options_;
+    FacePass pass_;
+    CaptionPass caption_;
+    glm::ivec2 grid_{1, 1}; ///< samples along a pixel's sides
+    GlFramebuffer enlarged_;
+    GlTexture enlarged_colour_;
+    GlRenderbuffer enlarged_depth_stencil_;
+    GlProgram average_;
+    GlVertexArray no_attributes_;
+    std::array<Picture, 4> history_{}; ///< [0] is the last picture presented
+    std::size_t pictures_ = 0;         ///< valid entries of history_
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,313 @@
+#include "app/scene/frame_plan.h"
+
+#include "app/geometry/collineation.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// More faces than any prop has; keeps the frame free of allocation.
+constexpr std::size_t most_faces = 16;
+
+/// FNV-1a over 64-bit words.
+class Hash {
+public:
+    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ULL; }
+    void add_float(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+void hash_corners(const std::array<glm::vec4, 4>& corners, Hash& hash) {
+    for (const glm::vec4& corner : corners) {
+        for (int k = 0; k < 4; ++k) {
+            hash.add_float(corner[k]);
+        }
+    }
+}
+
+void hash_caption(const CaptionPlan& caption, Hash& hash) {
+    if (caption.bounds.empty()) {
+        return;
+    }
+    hash_corners(caption.corners_clip, hash);
+    hash.add_float(caption.brightness);
+    for (const std::array<glm::vec4, 4>& face : caption.prop_clip) {
+        hash_corners(face, hash);
+    }
+}
+
+std::uint64_t hash_of(const FramePlan& plan, std::uint64_t artifact, std::uint64_t caption) {
+    Hash hash;
+    hash.add(artifact);
+    hash.add(plan.caption.bounds.empty() ? 0 : caption);
+    hash.add(static_cast<std::uint64_t>(plan.projector.width));
+    hash.add(static_cast<std::uint64_t>(plan.projector.height));
+    hash.add(static_cast<std::uint64_t>(plan.compensate_light));
+    hash.add_float(plan.brightness);
+    hash_caption(plan.caption, hash);
+    for (const FacePlan& face : plan.faces) {
+        hash.add(static_cast<std::uint64_t>(face.face));
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row) {
+                hash.add_float(face.clip_from_unit[column][row]);
+            }
+        }
+        hash_corners(face.corners_clip, hash);
+        hash.add_float(face.light.constant);
+        hash.add_float(face.light.per_cubic_metre);
+        for (std::uint32_t k = 0; k < face.range_count; ++k) {
+            hash.add(plan.ranges[face.first_range + k].first);
+            hash.add(plan.ranges[face.first_range + k].count);
+        }
+    }
+    return hash.value();
+}
+
+/// Everything of one frame that the faces share.
+struct Shared {
+    const PropShape& prop;
+    const PlacedLevel& artifact;
+    const PlanView& view;
+    glm::dmat4 projector_from_prop;
+    glm::dmat4 clip_from_prop;
+    glm::dvec3 projector_in_prop;
+    RigidTransform prop_from_table;
+    Box box; ///< the artifact's, prop frame
+
+    [[nodiscard]] glm::dvec3 eye(std::size_t face) const {
+        const std::size_t which = view.eyes_m.size() == 1 ? 0 : std::min(face, view.eyes_m.size() - 1);
+        return prop_from_table.point(view.eyes_m[which]);
+    }
+};
+
+Shared shared_by_faces(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view) {
+    const RigidTransform projector_from_prop = view.table_from_projector.inverse() * view.table_from_prop;
+    const glm::dvec3 extent = artifact.box_size * artifact.metres_per_box;
+    Shared shared{prop, artifact, view, projector_from_prop.matrix(), glm::dmat4(1.0), {}, {}, {}};
+    shared.clip_from_prop = view.projector.clip_from_point() * shared.projector_from_prop;
+    shared.projector_in_prop = projector_from_prop.inverse().translation;
+    shared.prop_from_table = view.table_from_prop.inverse();
+    shared.box = {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
+    return shared;
+}
+
+glm::dvec4 row(const glm::dmat4& m, int r) {
+    return {m[0][r], m[1][r], m[2][r], m[3][r]};
+}
+
+/// The pyramid eye -> face and the picture's edges seen through the face's collineation; box frame.
+FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
+                     const glm::dmat4& clip_from_box) {
+    FaceVolume volume;
+    volume.eye = eye_in_prop / metres_per_box;
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+        const glm::dvec3 a = face.corners[k] / metres_per_box - volume.eye;
+        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - volume.eye;
+        const glm::dvec3 inward = glm::cross(b, a);
+        volume.add(glm::dvec4(inward, -glm::dot(inward, volume.eye)));
+    }
+    const glm::dvec4 w = row(clip_from_box, 3);
+    volume.add(w);
+    for (int axis = 0; axis < 2; ++axis) {
+        volume.add(w + row(clip_from_box, axis));
+        volume.add(w - row(clip_from_box, axis));
+    }
+    return volume;
+}
+
+/// Pixels around points in clip coordinates; the whole picture if one is not in front. A pixel to spare each
+/// way.
+PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    const glm::dvec2 size(pinhole.width, pinhole.height);
+    for (const glm::dvec4& p : clip) {
+        if (!(p.w > 0.0)) {
+            return {0, 0, pinhole.width, pinhole.height};
+        }
+        const glm::dvec2 pixel = (glm::dvec2(p) / p.w * 0.5 + 0.5) * size;
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
+    high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
+    return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
+            static_cast<int>(high.y - low.y)};
+}
+
+PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b) {
+    const int x = std::max(a.x, b.x);
+    const int y = std::max(a.y, b.y);
+    return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
+}
+
+/// Where the artifact can show on the face: its box seen through the face, and the face itself.
+PixelRectangle face_bounds(const PropFace& face, const Shared& shared, const glm::dmat4& clip_from_frame) {
+    std::array<glm::dvec4, 4> outline;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        outline[k] = shared.clip_from_prop * glm::dvec4(face.corners[k], 1.0);
+    }
+    std::array<glm::dvec4, 8> box;
+    for (std::size_t k = 0; k < box.size(); ++k) {
+        const glm::dvec3 corner((k & 1U) != 0 ? shared.box.high.x : shared.box.low.x,
+                                (k & 2U) != 0 ? shared.box.high.y : shared.box.low.y,
+                                (k & 4U) != 0 ? shared.box.high.z : shared.box.low.z);
+        box[k] = clip_from_frame * glm::dvec4(corner, 1.0);
+    }
+    const Pinhole& pinhole = shared.view.projector;
+    return intersected(pixels_around(outline, pinhole), pixels_around(box, pinhole));
+}
+
+/// Depth 0 keeps what is in front of the projector (w > 0) and clips the rest.
+std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners, const glm::dmat4& clip) {
+    std::array<glm::vec4, 4> result{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const glm::dvec4 corner = clip * glm::dvec4(corners[k], 1.0);
+        result[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
+    }
+    return result;
+}
+
+/// Plans one face; false if nothing shows on it.
+bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePlan& face_plan) {
+    const PropFace& face = shared.prop.faces[index];
+    const glm::dvec3 eye = shared.eye(index);
+    if (!(face.plane.distance(shared.projector_in_prop) > 0.0)) {
+        return false;
+    }
+    const std::optional<glm::dmat4> clip = collineation(face.plane, eye, shared.clip_from_prop, shared.box);
+    if (!clip) {
+        return false;
+    }
+    const PixelRectangle bounds = face_bounds(face, shared, *clip);
+    if (bounds.empty()) {
+        return false;
+    }
+    const double scale = shared.artifact.metres_per_box;
+    glm::dmat4 clip_from_box = *clip;
+    glm::dmat4 clip_from_unit = *clip;
+    for (int axis = 0; axis < 3; ++axis) {
+        clip_from_box[axis] *= scale;
+        clip_from_unit[axis] *= plan.prop_from_unit_scale[axis];
+    }
+    clip_from_unit[3] = *clip * glm::dvec4(plan.prop_from_unit_offset, 1.0);
+
+    const std::size_t first = plan.ranges.size();
+    append_visible(volume_of(face, eye, scale, clip_from_box), shared.artifact.clusters, plan.ranges);
+    if (plan.ranges.size() == first) {
+        return false;
+    }
+    face_plan.face = static_cast<int>(index);
+    face_plan.clip_from_unit = glm::mat4(clip_from_unit);
+    face_plan.first_range = static_cast<std::uint32_t>(first);
+    face_plan.range_count = static_cast<std::uint32_t>(plan.ranges.size() - first);
+    face_plan.corners_clip = corners_in_clip(face.corners, shared.clip_from_prop);
+    plan.bounds = united(plan.bounds, bounds);
+    return true;
+}
+
+void plan_caption(const TablePicture& picture, const Shared& shared, CaptionPlan& caption) {
+    const glm::dmat4 clip_from_table =
+        shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
+    std::array<glm::dvec4, 4> corners;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        corners[k] = clip_from_table * glm::dvec4(picture.corners_m[k], 1.0);
+    }
+    caption.bounds = pixels_around(corners, shared.view.projector);
+    caption.corners_clip = corners_in_clip(picture.corners_m, clip_from_table);
+    caption.brightness = static_cast<float>(picture.brightness);
+    for (const PropFace& face : shared.prop.faces) {
+        if (face.plane.distance(shared.projector_in_prop) > 0.0) {
+            caption.prop_clip.push_back(corners_in_clip(face.corners, shared.clip_from_prop));
+        }
+    }
+}
+
+void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
+    std::array<SeenFace, most_faces> seen{};
+    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
+        const auto face = static_cast<std::size_t>(plan.faces[k].face);
+        seen[k] = {&shared.prop.faces[face], shared.eye(face)};
+    }
+    const double reference =
+        reference_light(std::span(seen).first(plan.faces.size()), shared.projector_in_prop, compensation);
+    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
+        plan.faces[k].light = face_light(seen[k].face->plane, shared.view.projector,
+                                         shared.projector_from_prop, reference, compensation);
+    }
+}
+
+} // namespace
+
+PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b) {
+    if (a.empty() || b.empty()) {
+        return a.empty() ? b : a;
+    }
+    const int x = std::min(a.x, b.x);
+    const int y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, std::uint64_t id) {
+    return {pack.levels[level].clusters, pack.box_size, metres_per_box, id};
+}
+
+FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
+    FramePlan plan;
+    plan.faces.reserve(prop.faces.size());
+    plan.caption.prop_clip.reserve(prop.faces.size());
+    // Runs of visible clusters are at most every other one.
+    plan.ranges.reserve(prop.faces.size() * (artifact.clusters.size() / 2 + 1));
+    return plan;
+}
+
+void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
+    const Shared shared = shared_by_faces(prop, artifact, view);
+    plan.projector = view.projector;
+    plan.compensate_light = view.light.has_value();
+    plan.brightness = static_cast<float>(view.brightness);
+    plan.faces.clear();
+    plan.ranges.clear();
+    plan.bounds = {};
+    plan.prop_from_unit_scale = shared.box.high - shared.box.low;
+    plan.prop_from_unit_offset = shared.box.low;
+    plan.caption.bounds = {};
+    plan.caption.prop_clip.clear();
+    if (!artifact.clusters.empty() && !view.eyes_m.empty() && view.brightness > 0.0) {
+        for (std::size_t face = 0; face < std::min(prop.faces.size(), most_faces); ++face) {
+            FacePlan face_plan;
+            if (plan_face(face, shared, plan, face_plan)) {
+                plan.faces.push_back(face_plan);
+            }
+        }
+    }
+    if (view.light) {
+        compensate(shared, *view.light, plan);
+    }
+    if (view.caption && view.caption->brightness > 0.0) {
+        plan_caption(*view.caption, shared, plan.caption);
+    }
+    plan.hash = hash_of(plan, artifact.id, view.caption ? view.caption->id : 0);
+}
+
+PixelRectangle lit_bounds(const FramePlan& plan) {
+    return united(plan.bounds, plan.caption.bounds);
+}
+
+std::uint64_t index_count(const FramePlan& plan) {
+    std::uint64_t total = 0;
+    for (const IndexRange& range : plan.ranges) {
+        total += range.count;
+    }
+    return total;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,33 @@
+// A frame after the first ones allocates nothing of ours. The driver's own malloc is its business.
+
+#include "tests/render/counted_new.h"
+#include "tests/render/rig.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+TEST(Frame, AllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    for (const int samples : {1, 4}) {
+        Rig rig(320, 200, samples);
+        Stage stage(320, 200);
+        std::mt19937 random(5);
+        long counted = 0;
+        for (int k = 0; k < 60; ++k) {
+            stage.shuffle(random);
+            const long before = allocations_so_far();
+            plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
+            counted += allocations_so_far() - before;
+            // llvmpipe compiles shaders in its first frames, in C++ of LLVM.
+            const long before_draw = allocations_so_far();
+            rig.draw();
+            counted += k < 20 ? 0 : allocations_so_far() - before_draw;
+        }
+        EXPECT_EQ(counted, 0) << samples;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,12 @@
+/// Counts every C++ allocation of the test program; not under the sanitizers, which bring their own.
+#pragma once
+
+namespace frustumscreen::synthetic {
+inline constexpr bool allocations_are_counted =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    false;
+#else
+    true;
+#endif
+[[nodiscard]] long allocations_so_far();
+} // namespace frustumscreen::synthetic

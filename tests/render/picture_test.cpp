@@ -1,0 +1,173 @@
+// The renderer's picture against a plain ray cast of the same triangles.
+
+#include "tests/render/reference_cast.h"
+#include "tests/render/rig.h"
+
+#include <algorithm>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+struct Comparison {
+    std::size_t both = 0;
+    std::size_t mismatched = 0; ///< hit in one alone
+    std::size_t unexcused = 0;  ///< of them, far from any outline
+    double worst_mm = 0.0;      ///< over pixels hit in both whose neighbourhood is smooth
+};
+
+/// A pixel is excused where rays a hair's breadth away disagree too: the rasterizer rounds to 1/256 pixel.
+bool grazes(const ReferenceCast& cast, const Stage& stage, const glm::dvec2& centre,
+            const ReferenceCast::Hit& truth) {
+    constexpr double hair = 1.0 / 64.0;
+    for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4.0;
+        const ReferenceCast::Hit near =
+            cast.through_pixel(stage, centre + hair * glm::dvec2(std::cos(angle), std::sin(angle)));
+        if (near.found != truth.found || (truth.found && glm::distance(near.point, truth.point) > 2e-3)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Comparison compare(const Stage& stage, const ReferenceCast& cast, const ImageFloat& drawn) {
+    Comparison result;
+    for (int y = 0; y < drawn.height; ++y) {
+        for (int x = 0; x < drawn.width; ++x) {
+            const glm::dvec2 centre(x + 0.5, y + 0.5);
+            const ReferenceCast::Hit truth = cast.through_pixel(stage, centre);
+            const glm::vec3& point = drawn.at(x, y);
+            const bool hit = !std::isnan(point.x);
+            if (hit != truth.found) {
+                ++result.mismatched;
+                result.unexcused += grazes(cast, stage, centre, truth) ? 0U : 1U;
+            } else if (hit) {
+                ++result.both;
+                const double mm = 1e3 * glm::distance(glm::dvec3(point), truth.point);
+                if (mm > result.worst_mm && !grazes(cast, stage, centre, truth)) {
+                    result.worst_mm = mm;
+                }
+            }
+        }
+    }
+    return result;
+}
+
+TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
+    Rig rig(256, 160);
+    Stage stage(256, 160);
+    const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
+    std::mt19937 random(7);
+    for (int pose = 0; pose < 8; ++pose) {
+        stage.shuffle(random);
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const Comparison c = compare(stage, cast, rig.hit_points->draw(rig.plan, &*rig.artifact));
+        EXPECT_GT(c.both, 600U) << pose;
+        EXPECT_LT(c.worst_mm, 0.02) << pose;
+        EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
+    }
+}
+
+TEST(Picture, HoldsForExtremeEyesAndProjectors) {
+    Rig rig(256, 160);
+    const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
+    Stage overhead(256, 160);
+    overhead.eye_m = {0.001, 0.002, 1.4};
+    Stage far(256, 160);
+    far.eye_m = {3.0, -40.0, 20.0};
+    Stage close(256, 160);
+    close.eye_m = {0.02, -0.13, 0.20};
+    Stage shifted(256, 160); // lens shift, other focal lengths, the prop partly off the picture
+    shifted.projector.cx = 60.0;
+    shifted.projector.fy *= 1.3;
+    shifted.table_from_prop.translation = {-0.05, 0.03, 0.0};
+    Stage oblique(256, 160); // the projector leans over from the visitor's side
+    const double lean = 0.6;
+    oblique.table_from_projector.rotation =
+        glm::angleAxis(lean, glm::dvec3(1, 0, 0)) * oblique.table_from_projector.rotation;
+    oblique.table_from_projector.translation = {0.0, -0.9 * std::sin(lean), 0.05 + 0.9 * std::cos(lean)};
+    for (const Stage& stage : {overhead, far, close, shifted, oblique}) {
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const Comparison c = compare(stage, cast, rig.hit_points->draw(rig.plan, &*rig.artifact));
+        const std::string which = ::testing::PrintToString(&stage - &overhead);
+        EXPECT_GT(c.both, 300U) << which;
+        EXPECT_LT(c.worst_mm, 0.02) << which;
+        EXPECT_EQ(c.unexcused, 0U) << which << ": of " << c.mismatched << " mismatched";
+    }
+}
+
+TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
+    Rig rig(128, 80);
+    Stage stage(128, 80);
+    for (int code = 0; code < 256; ++code) {
+        const auto c = static_cast<std::uint8_t>(code);
+        const auto inverse = static_cast<std::uint8_t>(255 - code);
+        std::fill(rig.pack.textures[0].texels.begin(), rig.pack.textures[0].texels.end(),
+                  glm::u8vec4(c, inverse, 128, 255));
+        rig.artifact = ArtifactGpu::upload(rig.pack, 0).value();
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        rig.draw(Redraw::Everything);
+        std::size_t shown = 0;
+        for (const glm::u8vec4& texel : rig.picture().texels) {
+            if (texel != glm::u8vec4(0, 0, 0, 255)) {
+                ++shown;
+                ASSERT_EQ(texel, glm::u8vec4(c, inverse, 128, 255)) << code;
+            }
+        }
+        ASSERT_GT(shown, 100U);
+    }
+}
+
+TEST(Picture, CullingTakesNothingAway) {
+    Rig rig(320, 200);
+    Stage stage(320, 200);
+    PackLevel everything = rig.pack.levels[0];
+    PackCluster all;
+    all.index_count = static_cast<std::uint32_t>(everything.indices.size());
+    all.radius = 10.0F; // in every pyramid, never back-facing
+    everything.clusters = {all};
+    const PlacedLevel unculled{everything.clusters, rig.level.box_size, rig.level.metres_per_box, 2};
+    std::mt19937 random(11);
+    std::uint64_t drawn = 0;
+    std::uint64_t possible = 0;
+    for (int pose = 0; pose < 40; ++pose) {
+        stage.shuffle(random);
+        if (pose % 4 == 3) { // at the picture's edge
+            stage.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
+        }
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        drawn += index_count(rig.plan);
+        rig.draw(Redraw::Everything);
+        const Image8 culled_picture = rig.picture();
+        plan_frame(stage.prop, unculled, stage.view(), rig.plan);
+        possible += index_count(rig.plan);
+        rig.draw(Redraw::Everything);
+        ASSERT_EQ(rig.picture().texels, culled_picture.texels) << pose;
+    }
+    EXPECT_LT(drawn * 10, possible * 6) << "culling leaves out less than 40 % of the triangles";
+}
+
+TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
+    Rig sharp(256, 160, 1);
+    Stage stage(256, 160);
+    plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
+    sharp.draw();
+    const Image8 one = sharp.picture();
+    Rig smooth(256, 160, 4);
+    plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
+    smooth.draw();
+    const Image8 four = smooth.picture();
+    std::size_t same = 0;
+    std::size_t between = 0;
+    for (std::size_t k = 0; k < one.texels.size(); ++k) {
+        if (one.texels[k].g > 0) {
+            same += glm::distance(glm::vec4(one.texels[k]), glm::vec4(four.texels[k])) < 12.0F ? 1U : 0U;
+            between += four.texels[k].g > 0 && four.texels[k].g + 20 < one.texels[k].g ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(same * 10, lit_pixels(one) * 7);
+    EXPECT_GT(between, lit_pixels(one) / 50);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,89 @@
+// Only what changes is drawn again.
+
+#include "tests/render/rig.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+class Redrawing : public ::testing::TestWithParam<int> {};
+
+TEST_P(Redrawing, PartialRedrawEqualsFullRedrawOverARandomWalk) {
+    std::vector<Image8> shown;
+    for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
+        Rig rig(320, 200, GetParam());
+        Stage stage(320, 200, false);
+        std::mt19937 random(3);
+        std::normal_distribution<double> step(0.0, 0.02);
+        for (std::size_t k = 0; k < 40; ++k) {
+            if (k % 10 == 9) {
+                stage.shuffle(random);
+            }
+            stage.table_from_prop.translation += glm::dvec3(step(random), step(random), 0.0);
+            plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
+            const DrawResult result = rig.draw(redraw);
+            if (redraw == Redraw::Everything) {
+                shown.push_back(rig.picture());
+                continue;
+            }
+            if (k > 0) {
+                EXPECT_LT(result.redrawn.width * result.redrawn.height, 320 * 200 / 2);
+            }
+            ASSERT_EQ(rig.picture().texels, shown[k].texels) << k;
+        }
+    }
+}
+
+TEST_P(Redrawing, NothingIsDrawnWhenNothingChanged) {
+    Rig rig(320, 200, GetParam());
+    Stage stage(320, 200);
+    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    EXPECT_TRUE(rig.draw().drawn);
+    for (int k = 0; k < 3; ++k) {
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const DrawResult result = rig.draw();
+        EXPECT_FALSE(result.drawn);
+        EXPECT_EQ(result.draw_calls, 0);
+    }
+    stage.eye_m.x += 1e-4;
+    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    EXPECT_TRUE(rig.draw().drawn);
+    rig.level.id = 9; // another artifact
+    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    EXPECT_TRUE(rig.draw().drawn);
+}
+
+TEST_P(Redrawing, NothingIsLeftOfAnArtifactThatIsPutAway) {
+    Rig rig(320, 200, GetParam());
+    Stage stage(320, 200);
+    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    rig.draw();
+    EXPECT_GT(lit_pixels(rig.picture()), 1000U);
+    plan_frame(stage.prop, PlacedLevel{}, stage.view(), rig.plan);
+    EXPECT_TRUE(rig.draw().drawn);
+    EXPECT_EQ(lit_pixels(rig.picture()), 0U);
+    EXPECT_FALSE(rig.draw().drawn);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, Redrawing, ::testing::Values(1, 2, 4));
+
+TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
+    // Two buffers in turn, as a page-flipping display has: each holds the picture before the last.
+    Rig rig(320, 200);
+    Stage stage(320, 200, false);
+    PixelRectangle before_last;
+    PixelRectangle last;
+    for (int k = 0; k < 6; ++k) {
+        stage.table_from_prop.translation = {0.03 * k - 0.1, 0.0, 0.0};
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const DrawResult result =
+            rig.renderer->draw(rig.plan, &*rig.artifact, {rig.display->framebuffer(), k < 2 ? 0 : 2});
+        if (k >= 2) {
+            EXPECT_EQ(result.redrawn, united(before_last, rig.plan.bounds));
+        }
+        before_last = last;
+        last = rig.plan.bounds;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

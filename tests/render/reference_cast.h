@@ -1,0 +1,77 @@
+/// Plain ray casting of a level in 64-bit, all triangles for every ray: what the renderer must agree with.
+#pragma once
+
+#include "tests/render/synthetic_pack.h"
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace frustumscreen::synthetic {
+
+class ReferenceCast {
+public:
+    ReferenceCast(const Pack& pack, double metres) : level_(pack.levels[0]) {
+        for (const PackVertex& v : level_.vertices) {
+            const glm::dvec3 box =
+                glm::dvec3(v.position[0], v.position[1], v.position[2]) / 65535.0 * pack.box_size -
+                glm::dvec3(0.5 * pack.box_size.x, 0.5 * pack.box_size.y, 0.0);
+            points_.push_back(box * metres);
+        }
+    }
+
+    struct Hit {
+        bool found = false;
+        glm::dvec3 point{0.0};
+        double edge = 1.0; ///< least barycentric coordinate of the hit
+    };
+
+    /// Möller and Trumbore 1997.
+    [[nodiscard]] Hit first_hit(const glm::dvec3& origin, const glm::dvec3& direction) const {
+        Hit hit;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < level_.indices.size(); k += 3) {
+            const glm::dvec3& a = points_[level_.indices[k]];
+            const glm::dvec3 ab = points_[level_.indices[k + 1]] - a;
+            const glm::dvec3 ac = points_[level_.indices[k + 2]] - a;
+            const glm::dvec3 p = glm::cross(direction, ac);
+            const double determinant = glm::dot(ab, p);
+            if (determinant == 0.0) {
+                continue;
+            }
+            const glm::dvec3 s = origin - a;
+            const double u = glm::dot(s, p) / determinant;
+            const glm::dvec3 q = glm::cross(s, ab);
+            const double v = glm::dot(direction, q) / determinant;
+            const double t = glm::dot(ac, q) / determinant;
+            if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < nearest) {
+                nearest = t;
+                hit = {true, origin + t * direction, std::min(u, std::min(v, 1.0 - u - v))};
+            }
+        }
+        return hit;
+    }
+
+    /// What the pixel (u, v) shows, prop frame.
+    [[nodiscard]] Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
+        const RigidTransform prop_from_projector =
+            stage.table_from_prop.inverse() * stage.table_from_projector;
+        const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
+        PropHit lit;
+        if (!intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+            return {};
+        }
+        const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
+        if (!(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
+            return {};
+        }
+        const glm::dvec3 s = prop_from_projector.translation + lit.t * ray;
+        return first_hit(eye, s - eye);
+    }
+
+private:
+    const PackLevel& level_;
+    std::vector<glm::dvec3> points_;
+};
+
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,125 @@
+// `frustumscreen render` end to end, on a pack made in memory.
+
+#include "app/pack/pack_file.h"
+#include "tests/render/rig.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RenderCommand : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::current_path() / "render_command_test";
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        Pack pack = rings();
+        pack.title = "Rings";
+        pack.languages = {"en"};
+        pack.captions = {{"en", "Rings", ""}};
+        pack.provenance.source_name = "rings.glb";
+        pack.provenance.source_sha256 = std::string(64, 'a');
+        pack.relief_size = 512;
+        pack.levels[0].error.mean_box = 0.001F;
+        for (unsigned k = 0; k < 8; ++k) {
+            pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                       ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                       (k & 4U) != 0 ? pack.box_size.z : 0.0);
+        }
+        const Result<Bytes> bytes = write_pack(pack);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
+        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                                                              "3000,1,0.02,0,0,1,0,0,0,1\n"
+                                                              "1000,1,0,0,0,1,0,0,0,1\n"
+                                                              "1000,2,0.3,-0.4,0.5,1,0,0,0,1\n"
+                                                              "2000,1,0,0,0,1,0,0,0,0\n"
+                                                              "3000,1,0.5,0,0,1,0,0,0,1\n")));
+    }
+    int run(const std::string& arguments) const {
+        const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' {} >out.txt 2>err.txt",
+                                                folder.string(), FRUSTUMSCREEN_BIN_DIR, arguments);
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string text(const std::string& name) const {
+        const Result<Bytes> bytes = read_file(folder / name);
+        return bytes ? std::string(as_text(*bytes)) : std::string();
+    }
+    Image8 picture(const std::string& name) const {
+        return decode_png8(read_file(folder / name).value()).value();
+    }
+    std::string usual(const std::string& out) const {
+        return fmt::format(
+            "render --config '{}/config/near.toml' --pack rings.fspack --poses poses.csv --out {} ",
+            FRUSTUMSCREEN_SOURCE_DIR, out);
+    }
+    fs::path folder;
+};
+
+TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
+    ASSERT_EQ(run(usual("a") + "--width 320 --height 200 --aov --no-light"), 0) << text("err.txt");
+    EXPECT_TRUE(fs::exists(folder / "a/frame_00001.png"));
+    EXPECT_TRUE(fs::exists(folder / "a/frame_00001.pfm"));
+    EXPECT_FALSE(fs::exists(folder / "a/frame_00002.png"));
+    const Image8 image = picture("a/frame_00000.png");
+    EXPECT_EQ(image.width, 320);
+    EXPECT_EQ(image.height, 200);
+    EXPECT_GT(lit_pixels(image), 1000U);
+    const std::string csv = text("a/frames.csv");
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "frame,t_us,ms,technique,estimated_error_mm");
+    EXPECT_NE(csv.find("\n0,1000,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("\n1,3000,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",level0,"), std::string::npos) << csv;
+    EXPECT_TRUE(text("out.txt").empty());
+    EXPECT_TRUE(text("err.txt").empty());
+}
+
+TEST_F(RenderCommand, TheSameInputGivesTheSameBytes) {
+    ASSERT_EQ(run(usual("a") + "--width 320 --height 200"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("b") + "--width 320 --height 200 --technique level0"), 0) << text("err.txt");
+    EXPECT_EQ(text("a/frame_00000.png"), text("b/frame_00000.png"));
+    EXPECT_EQ(text("a/frame_00001.png"), text("b/frame_00001.png"));
+}
+
+TEST_F(RenderCommand, ShowsTheVisitorsView) {
+    ASSERT_EQ(run(usual("v") + "--width 320 --height 200 --view visitor"), 0) << text("err.txt");
+    EXPECT_GT(lit_pixels(picture("v/frame_00000.png")), 1000U);
+    EXPECT_NE(text("v/visitor_cameras.json").find("table_from_camera"), std::string::npos);
+}
+
+TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
+    struct Case {
+        std::string arguments;
+        int status;
+    };
+    for (const Case& c :
+         {Case{usual("x") + "--technique level7", 1}, Case{usual("x") + "--pack missing.fspack", 2},
+          Case{usual("x") + "--width 100", 2}, Case{"render", 2}, Case{"wobble", 2}, Case{"", 2},
+          Case{"render --config none.toml --pack rings.fspack --poses poses.csv --out x", 1},
+          Case{usual("poses.csv/x"), 1}}) {
+        EXPECT_EQ(run(c.arguments), c.status) << c.arguments;
+        if (c.status == 1) {
+            const std::string error = text("err.txt");
+            EXPECT_EQ(error.rfind("frustumscreen: ", 0), 0U) << error;
+            EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+        }
+    }
+}
+
+TEST_F(RenderCommand, HelpIsNoFailure) {
+    EXPECT_EQ(run("render --help"), 0);
+    EXPECT_NE(text("out.txt").find("--poses"), std::string::npos);
+    EXPECT_EQ(run("--version"), 0);
+    EXPECT_EQ(run("--help"), 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,53 @@
+/// A display, an uploaded synthetic pack and the two renderers.
+#pragma once
+
+#include "app/render/hit_points.h"
+#include "app/render/read_back.h"
+#include "app/render/renderer.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/render/synthetic_pack.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen::synthetic {
+
+struct Rig {
+    Pack pack;
+    PropShape prop = make_prop({});
+    std::unique_ptr<SurfacelessDisplay> display;
+    std::optional<ArtifactGpu> artifact;
+    std::optional<Renderer> renderer;
+    std::optional<HitPointRenderer> hit_points;
+    PlacedLevel level;
+    FramePlan plan;
+
+    Rig(int width, int height, int samples = 1, Pack shown = rings()) : pack(std::move(shown)) {
+        display = SurfacelessDisplay::create(width, height).value();
+        artifact = ArtifactGpu::upload(pack, 0).value();
+        renderer = Renderer::create({width, height, samples}).value();
+        hit_points = HitPointRenderer::create(width, height).value();
+        level = placed(pack, 0, metres_per_box(pack, prop), 1);
+        plan = make_plan(prop, level);
+    }
+    DrawResult draw(Redraw redraw = Redraw::Changes) {
+        const DrawResult result =
+            renderer->draw(plan, &*artifact, {display->framebuffer(), display->buffer_age()}, redraw);
+        if (result.drawn) {
+            EXPECT_TRUE(display->present(MonotonicTime{}));
+        }
+        return result;
+    }
+    [[nodiscard]] Image8 picture() const {
+        return read_colour(display->framebuffer(), display->width(), display->height());
+    }
+};
+
+[[nodiscard]] inline std::size_t lit_pixels(const Image8& image) {
+    std::size_t lit = 0;
+    for (const glm::u8vec4& texel : image.texels) {
+        lit += texel.r + texel.g + texel.b > 0 ? 1U : 0U;
+    }
+    return lit;
+}
+
+} // namespace frustumscreen::synthetic

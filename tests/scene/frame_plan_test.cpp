@@ -1,0 +1,172 @@
+#include "app/scene/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+/// A ball of one cluster that fills the pack's box, and a kiosk that looks straight down.
+struct Kiosk {
+    PropShape prop = make_prop({});
+    std::vector<PackCluster> clusters;
+    PlacedLevel artifact;
+    glm::dvec3 eye{0.05, -0.5, 0.45};
+    PlanView view{
+        {1280, 800, 1872.0, 1872.0, 640.0, 400.0}, {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.2}}, {}, {}, {}};
+
+    Kiosk() {
+        PackCluster ball;
+        ball.index_count = 300;
+        ball.centre = {0.0F, 0.0F, 0.5F};
+        ball.radius = 0.87F;
+        clusters = {ball};
+        artifact = {clusters, glm::dvec3(1.0), 0.16, 1}; // larger than the prop: seen through every face
+    }
+    FramePlan plan() {
+        view.eyes_m = std::span(&eye, 1);
+        FramePlan result = make_plan(prop, artifact);
+        plan_frame(prop, artifact, view, result);
+        return result;
+    }
+    std::vector<int> faces() {
+        std::vector<int> result;
+        for (const FacePlan& face : plan().faces) {
+            result.push_back(face.face);
+        }
+        return result;
+    }
+};
+
+TEST(FramePlan, HoldsTheFacesThatTheEyeSeesAndTheProjectorLights) {
+    Kiosk kiosk;
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 1, 3, 4})); // the sides lean back: all but the far one
+    kiosk.eye = {0.5, 0.5, 0.4};
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 2, 4}));
+    kiosk.eye = {0.0, 0.0, 2.0};
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
+    Kiosk kiosk;
+    // The front leans back by 35 / 120: at 1.2 m its plane is over y = -0.08 + 0.35 = 0.27 of the prop.
+    kiosk.view.projector.cy = -100.0; // shifted, so that the prop stays in the picture
+    kiosk.eye = {0.0, -0.9, 0.2};
+    kiosk.view.table_from_prop.translation = {0.0, -0.26, 0.0};
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{3, 4}));
+    kiosk.view.table_from_prop.translation = {0.0, -0.28, 0.0};
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{4}));
+}
+
+TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
+    Kiosk kiosk;
+    kiosk.eye = {0.0, 0.0, 0.05}; // inside the prop
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+    EXPECT_TRUE(kiosk.plan().bounds.empty());
+    kiosk = Kiosk();
+    kiosk.eye = {0.0, 0.0, -1.0}; // under the table
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+    kiosk = Kiosk();
+    kiosk.view.table_from_prop.translation = {5.0, 0.0, 0.0}; // off the picture
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+    kiosk = Kiosk();
+    kiosk.view.table_from_prop.translation = {0.0, 0.0, 3.0}; // above the projector
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+    kiosk = Kiosk();
+    kiosk.view.brightness = 0.0;
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+    kiosk = Kiosk();
+    kiosk.clusters.clear();
+    kiosk.artifact.clusters = {};
+    EXPECT_TRUE(kiosk.plan().faces.empty());
+}
+
+TEST(FramePlan, EveryNumberIsFiniteForAnyPose) {
+    Kiosk kiosk;
+    std::mt19937 random(4);
+    std::normal_distribution<double> n(0.0, 1.0);
+    for (int k = 0; k < 5000; ++k) {
+        kiosk.eye = glm::dvec3(n(random), n(random), n(random)) * std::exp(2.0 * n(random));
+        kiosk.view.table_from_prop = {glm::normalize(glm::dquat(n(random), n(random), n(random), n(random))),
+                                      0.3 * glm::dvec3(n(random), n(random), n(random))};
+        kiosk.view.light = LightCompensation{};
+        const FramePlan plan = kiosk.plan();
+        for (const FacePlan& face : plan.faces) {
+            for (int column = 0; column < 4; ++column) {
+                for (int row = 0; row < 4; ++row) {
+                    ASSERT_TRUE(std::isfinite(face.clip_from_unit[column][row]));
+                }
+            }
+            ASSERT_TRUE(std::isfinite(face.light.per_cubic_metre));
+            ASSERT_GE(plan.bounds.x, 0);
+            ASSERT_GE(plan.bounds.y, 0);
+            ASSERT_LE(plan.bounds.x + plan.bounds.width, 1280);
+            ASSERT_LE(plan.bounds.y + plan.bounds.height, 800);
+        }
+    }
+}
+
+TEST(FramePlan, PutsPointsWhereTheEyesRayMeetsTheFace) {
+    Kiosk kiosk;
+    const FramePlan plan = kiosk.plan();
+    ASSERT_EQ(plan.faces.size(), 4U);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    for (const FacePlan& face : plan.faces) {
+        const Plane& plane = kiosk.prop.faces[static_cast<std::size_t>(face.face)].plane;
+        for (int k = 0; k < 500; ++k) {
+            const glm::dvec3 unit(u(random), u(random), u(random));
+            const glm::dvec3 x = 0.16 * (unit - glm::dvec3(0.5, 0.5, 0.0)); // table and prop frame coincide
+            const glm::dvec3 ray = x - kiosk.eye;
+            const double t = -plane.distance(kiosk.eye) / glm::dot(plane.normal, ray);
+            const glm::dvec3 s = kiosk.eye + t * ray;
+            const glm::dvec2 pixel(640.0 + 1872.0 * s.x / (1.2 - s.z), 400.0 - 1872.0 * s.y / (1.2 - s.z));
+            const glm::vec4 clip = face.clip_from_unit * glm::vec4(glm::vec3(unit), 1.0F);
+            if (glm::length(pixel) > 1500.0) {
+                continue; // far off the picture single precision shows
+            }
+            constexpr double close = 5e-3;
+            ASSERT_NEAR((clip.x / clip.w + 1.0F) * 640.0F, pixel.x, close);
+            ASSERT_NEAR((clip.y / clip.w + 1.0F) * 400.0F, pixel.y, close);
+        }
+    }
+}
+
+TEST(FramePlan, EachFaceHasItsOwnEye) {
+    Kiosk kiosk;
+    const std::array<glm::dvec3, 5> eyes{glm::dvec3(0.6, 0, 0.3), glm::dvec3(-0.6, 0, 0.3),
+                                         glm::dvec3(0, 0.6, 0.3), glm::dvec3(0, -0.6, 0.3),
+                                         glm::dvec3(0, 0, -1)};
+    FramePlan plan = make_plan(kiosk.prop, kiosk.artifact);
+    kiosk.view.eyes_m = eyes;
+    plan_frame(kiosk.prop, kiosk.artifact, kiosk.view, plan);
+    EXPECT_EQ(plan.faces.size(), 4U); // every side for its own visitor, the top for nobody
+}
+
+TEST(FramePlan, TheHashTellsPicturesApart) {
+    Kiosk kiosk;
+    const std::uint64_t hash = kiosk.plan().hash;
+    EXPECT_EQ(kiosk.plan().hash, hash);
+    kiosk.eye.x += 1e-5;
+    EXPECT_NE(kiosk.plan().hash, hash);
+    kiosk = Kiosk();
+    kiosk.artifact.id = 2;
+    EXPECT_NE(kiosk.plan().hash, hash);
+    kiosk = Kiosk();
+    kiosk.view.brightness = 0.5;
+    EXPECT_NE(kiosk.plan().hash, hash);
+    kiosk = Kiosk();
+    kiosk.view.caption = TablePicture{
+        {glm::dvec3(0.1, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.1, -0.1, 0)},
+        1.0,
+        7};
+    const std::uint64_t captioned = kiosk.plan().hash;
+    EXPECT_NE(captioned, hash);
+    kiosk.view.caption->id = 8;
+    EXPECT_NE(kiosk.plan().hash, captioned);
+}
+
+} // namespace
+} // namespace frustumscreen
