@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace frustumscreen {
 
 namespace {
@@ -52,7 +54,11 @@ Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, Tec
     return {};
 }
 
-Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& options) {
+Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& usual) {
+    PictureOptions options = usual;
+    if (level + 1 == pack.levels.size()) {
+        options.samples = std::max(options.samples, finest_samples); // as `render --technique finest` draws it
+    }
     return add(
         make_pack_level(stage_, pack, level, options, level_name(pack, level)),
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));

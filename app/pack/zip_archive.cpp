@@ -232,7 +232,7 @@ Result<void> ZipReader::read_directory() {
         if (!names.insert(entry.name).second) {
             return bad_input(fmt::format("two entries are called {}; the pack is altered", entry.name));
         }
-        if (const Result<void> sound = check_entry(entry, info); !sound) {
+        if (auto sound = check_entry(entry, info); !sound) {
             return sound;
         }
         entries_.push_back(std::move(entry));

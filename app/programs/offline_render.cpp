@@ -34,7 +34,6 @@ Result<std::uint32_t> level_of(const Pack& pack, std::string_view technique) {
 namespace {
 /// The finest level is for those who do not count the cost: it gets the smoothest outlines too.
 int samples_of(const OfflineOptions& options) {
-    constexpr int finest_samples = 4;
     const int usual = options.technique == "finest" ? finest_samples : default_samples;
     return options.samples > 0 ? options.samples : usual;
 }

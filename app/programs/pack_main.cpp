@@ -116,5 +116,10 @@ int run(int argc, char** argv) {
 } // namespace frustumscreen
 
 int main(int argc, char** argv) {
-    return frustumscreen::run(argc, argv);
+    try {
+        return frustumscreen::run(argc, argv);
+    } catch (...) { // no memory left, or a mistake in the command line's own definition
+        std::fputs("frustumscreen-pack: out of memory\n", stderr);
+        return 1;
+    }
 }

@@ -14,7 +14,8 @@ void set_scissor(const PixelRectangle& r, const glm::ivec2& grid = {1, 1}) {
     glScissor(r.x * grid.x, r.y * grid.y, r.width * grid.x, r.height * grid.y);
 }
 
-// A bilinear fetch where the texels of a pixel meet is their average; the sampler decodes sRGB before it.
+// A bilinear fetch where four texels meet is their average; the sampler decodes sRGB before it. A pixel of
+// more than 2 x 2 samples takes one fetch for each 2 x 2.
 constexpr std::string_view average_vertex = R"(
 out vec2 at;
 void main() {
@@ -25,9 +26,38 @@ void main() {
 constexpr std::string_view average_fragment = R"(
 in vec2 at;
 uniform sampler2D enlarged;
+uniform ivec2 fetches;
 out vec4 result;
-void main() { result = textureLod(enlarged, at, 0.0); }
+void main() {
+    vec2 step_between = 2.0 / vec2(textureSize(enlarged, 0));
+    vec2 first = at - 0.5 * vec2(fetches - 1) * step_between;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < fetches.y; ++y) {
+        for (int x = 0; x < fetches.x; ++x) {
+            sum += textureLod(enlarged, first + vec2(x, y) * step_between, 0.0);
+        }
+    }
+    result = sum / float(fetches.x * fetches.y);
+}
 )";
+
+/// Samples along a pixel's sides; zero for a number that has no grid.
+glm::ivec2 grid_of(int samples) {
+    switch (samples) {
+    case 1:
+        return {1, 1};
+    case 2:
+        return {1, 2};
+    case 4:
+        return {2, 2};
+    case 8:
+        return {2, 4};
+    case 16:
+        return {4, 4};
+    default:
+        return {0, 0};
+    }
+}
 
 void clear(GLbitfield what) {
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
@@ -61,11 +91,12 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
 }
 
 Result<void> Renderer::make_enlarged() {
-    if (options_.samples != 2 && options_.samples != 4) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: {} samples a pixel; allowed are 1, 2 and 4", options_.samples));
+    grid_ = grid_of(options_.samples);
+    if (grid_.x == 0) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", options_.samples));
     }
-    grid_ = {options_.samples / 2, 2};
     const glm::ivec2 size = grid_ * glm::ivec2(options_.width, options_.height);
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
@@ -82,6 +113,9 @@ Result<void> Renderer::make_enlarged() {
         return tl::unexpected<Error>(average.error());
     }
     average_ = std::move(*average);
+    glUseProgram(average_.get());
+    const glm::ivec2 fetches = glm::max(grid_ / 2, glm::ivec2(1));
+    glUniform2i(glGetUniformLocation(average_.get(), "fetches"), fetches.x, fetches.y);
     no_attributes_ = GlVertexArray::generate();
     enlarged_ = GlFramebuffer::generate();
     enlarged_colour_ = GlTexture::generate();
@@ -126,7 +160,8 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     if (!result.redrawn.empty()) {
         set_scissor(result.redrawn);
-        clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        const GLbitfield masks = options_.samples > 1 ? 0 : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
+        clear(GL_COLOR_BUFFER_BIT | masks);
     }
     if (!plan.caption.bounds.empty()) {
         set_scissor(plan.caption.bounds);

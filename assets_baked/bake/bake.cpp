@@ -1,5 +1,6 @@
 #include "assets_baked/bake/bake.h"
 
+#include "app/pack/pack_file.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief.h"
@@ -35,6 +36,7 @@ public:
 
     [[nodiscard]] bool has_surface() const { return !welded_.indices.empty(); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
+    [[nodiscard]] const SourceScene& source() const { return source_; }
 
     std::vector<Candidate> mesh_levels() {
         std::vector<Candidate> candidates;
@@ -145,17 +147,21 @@ private:
     ImageFloat light_;
 };
 
-/// Cheapest level that is good enough by default. In a picture at a grazing pose the mean error is two to
-/// four times that of the surface: 16 um on an artifact of 0.1 m keep it well below a fifth of a millimetre.
-std::uint32_t choose_default(const std::vector<PackLevel>& levels) {
-    constexpr float good_mean_box = 1.6e-4F;
-    constexpr float good_p95_box = 6e-4F;
-    for (std::uint32_t k = 0; k < levels.size(); ++k) {
-        if (levels[k].error.mean_box <= good_mean_box && levels[k].error.p95_box <= good_p95_box) {
+/// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
+std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
+    constexpr double good_mean_mm =
+        0.08; // the worst eye of many poses sees about twice the worst of these few
+    constexpr double good_silhouette = 0.01;
+    PropSize size;
+    size.kind = kind;
+    const double mm_per_box = place(pack, make_prop(size)).metres_per_box * 1e3;
+    for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
+        const SeenError error = seen_error(pack.levels[k], pack.box_size, bakery.source());
+        if (error.mean_box * mm_per_box <= good_mean_mm && error.silhouette <= good_silhouette) {
             return k;
         }
     }
-    return static_cast<std::uint32_t>(levels.size()) - 1;
+    return static_cast<std::uint32_t>(pack.levels.size()) - 1;
 }
 
 /// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.
@@ -247,7 +253,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     }
     pack.extremes = profile_extremes(used);
     keep(pack, candidates, atlas);
-    pack.default_level = choose_default(pack.levels);
+    pack.default_level = choose_default(pack, bakery, options.prop);
     options.progress("done", 1.0);
     return pack;
 }

@@ -37,4 +37,14 @@ struct SourceSamples {
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
 
+/// What a visitor would notice, from several eyes of the viewing zone: the worst eye's mean distance between
+/// what it sees on the level and on the source (box units), and the share of the artifact's rays that hit one
+/// of them alone.
+struct SeenError {
+    double mean_box = 0.0;
+    double silhouette = 0.0;
+};
+[[nodiscard]] SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size,
+                                   const SourceScene& source);
+
 } // namespace frustumscreen

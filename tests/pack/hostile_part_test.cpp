@@ -93,7 +93,7 @@ TEST(HostilePart, clusters_cover_the_indices_in_order) {
 TEST(HostilePart, indices_and_vertices_are_held_against_each_other) {
     const char* level = "levels/0.bin";
     const std::size_t indices = header + 2 * cluster;
-    const std::size_t vertices = indices + 9 * 4;
+    const std::size_t vertices = indices + 36;
     expect_refused({{level, "index", [=](Bytes& b) { set(b, indices, 4U); }},
                     {level, "index", [=](Bytes& b) { set(b, indices + 32, 0xFFFFFFFFU); }},
                     {level, "reserved", [=](Bytes& b) { set(b, vertices + 6, u16(1)); }}});

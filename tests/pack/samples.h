@@ -134,6 +134,13 @@ inline Bytes bytes_of(const Pack& pack) {
 
 /// A pack's entries, to be altered and put together again.
 struct Entries {
+    // A JSON document's own constructors may throw.
+    Entries() noexcept(false) = default;
+    Entries(Entries&&) noexcept(false) = default;
+    Entries(const Entries&) = default;
+    Entries& operator=(const Entries&) = default;
+    ~Entries() = default;
+
     nlohmann::ordered_json manifest;
     std::vector<std::pair<std::string, Bytes>> parts;
 

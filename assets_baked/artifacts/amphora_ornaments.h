@@ -1,0 +1,29 @@
+/// Repeating ornaments of Greek pottery.
+///
+/// Units    mm unless said; x runs around the vessel, y up; `edge` is the width of a texel.
+/// Threads  pure; any.
+#pragma once
+
+#include "assets_baked/artifacts/ink.h"
+
+namespace frustumscreen {
+
+/// Square-cornered key pattern, one unit each `unit` in x; y in 0..height.
+void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge);
+/// Rays that stand on y = 0.
+void paint_rays(Ink& ink, glm::vec2 p, float unit, float height, float edge);
+/// Tongues that hang from y = height, black and red by turns.
+void paint_tongues(Ink& ink, glm::vec2 p, float unit, float height, float edge);
+/// Palmettes and lotus flowers by turns on a chain, as necks of amphorae have it.
+void paint_lotus_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);
+/// Buds on crossing arcs.
+void paint_bud_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);
+/// A fan of leaves, root at the origin, upright, `height` high; any units.
+void paint_palmette(Ink& ink, glm::vec2 p, float height, float edge);
+/// A horizontal line.
+void paint_line(Ink& ink, float y, float at, float width, Pigment pigment, float edge);
+
+/// Distance to a spiral around the origin that ends at radius `outer` on its lower side; any units.
+[[nodiscard]] float spiral(glm::vec2 p, float outer, float turns);
+
+} // namespace frustumscreen

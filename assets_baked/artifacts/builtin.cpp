@@ -1,0 +1,37 @@
+#include "assets_baked/artifacts/builtin.h"
+
+#include "assets_baked/artifacts/amphora.h"
+#include "assets_baked/artifacts/nautilus_cup.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+constexpr std::int64_t fewest_triangles = 1'000;
+constexpr std::int64_t most_triangles = 20'000'000;
+
+} // namespace
+
+std::vector<std::string_view> builtin_names() {
+    return {"amphora", "nautilus-cup"};
+}
+
+Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
+    if (triangles < fewest_triangles || triangles > most_triangles) {
+        return bad_input(fmt::format("{} triangles asked for, {} to {} are possible", triangles,
+                                     fewest_triangles, most_triangles));
+    }
+    if (name == "amphora") {
+        return make_amphora(triangles);
+    }
+    if (name == "nautilus-cup") {
+        return make_nautilus_cup(triangles);
+    }
+    return bad_input(
+        fmt::format("no built-in artifact is named '{}'; there are amphora and nautilus-cup", name));
+}
+
+} // namespace frustumscreen

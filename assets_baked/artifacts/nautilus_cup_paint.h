@@ -1,0 +1,28 @@
+/// The nautilus cup's texture, and the chasing of its gilded foot.
+///
+/// Frame    strips of rows: shell outside and inside (u from the coil to the lip, v once around the whorl),
+///          foot and stem (u around, v upwards), straps and other gilded parts.
+/// Threads  uses all cores; the result does not depend on how many.
+#pragma once
+
+#include "app/image/image.h"
+#include "assets_baked/artifacts/atlas.h"
+
+namespace frustumscreen {
+
+namespace cup_atlas {
+inline constexpr int size = 2048;
+inline constexpr AtlasStrip outside{0, 1024};
+inline constexpr AtlasStrip inside{1032, 440};
+inline constexpr AtlasStrip stem{1480, 400};
+inline constexpr AtlasStrip straps{1888, 160};
+} // namespace cup_atlas
+
+/// Height of the foot's and stem's chasing in mm: `angle` radians, `length` mm along the profile. 0 where
+/// plain.
+[[nodiscard]] double chasing_mm(double angle, double length);
+
+/// `stem_length_mm`: of the profile whose chasing is painted.
+[[nodiscard]] Image8 paint_nautilus_cup(double stem_length_mm);
+
+} // namespace frustumscreen

@@ -1,0 +1,37 @@
+/// A mesh from curved patches: each is a function of (u, v), all share one budget of triangles.
+///
+/// Frame    millimetres, +Y up; dP/du x dP/dv points outward.
+/// Threads  pure; `make_mesh` uses all cores, its result does not depend on how many.
+#pragma once
+
+#include "app/image/image.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct SurfacePoint {
+    glm::dvec3 position{0.0};
+    glm::vec2 uv{0.0F};
+};
+
+struct Patch {
+    std::function<SurfacePoint(double u, double v)> at; ///< u and v in 0..1
+    double length_u_mm = 1.0;                           ///< size, for an even spread of triangles
+    double length_v_mm = 1.0;
+    int least_u = 4; ///< fewest cells
+    int least_v = 2;
+    bool pole_at_start = false; ///< all of v = 0 is one point
+    bool pole_at_end = false;
+    int columns_of = -1; ///< index of an earlier patch that has the same columns: they share an edge
+};
+
+/// One material with `texture`. The number of triangles is within 5 % of `triangles` from 1000 on.
+[[nodiscard]] SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, Image8 texture);
+
+} // namespace frustumscreen

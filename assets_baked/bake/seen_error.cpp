@@ -1,0 +1,102 @@
+#include "assets_baked/bake/level.h"
+#include "firmware_host/base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Tally {
+    double distance = 0.0;
+    std::size_t both = 0;
+    std::size_t one = 0;
+    std::size_t source = 0;
+};
+
+/// Rays from one eye over the sphere around the box, one each step of a square grid.
+class EyeRays {
+public:
+    EyeRays(const glm::vec3& eye, const glm::vec3& centre, float radius)
+        : eye_(eye), forward_(glm::normalize(centre - eye)),
+          right_(glm::normalize(glm::cross(forward_, glm::vec3(0, 0, 1)))), up_(glm::cross(right_, forward_)),
+          extent_(radius / glm::distance(eye, centre) * 1.02F) {}
+
+    [[nodiscard]] const glm::vec3& eye() const { return eye_; }
+    [[nodiscard]] glm::vec3 direction(int x, int y, int side) const {
+        const float u = (2.0F * (static_cast<float>(x) + 0.5F) / static_cast<float>(side) - 1.0F) * extent_;
+        const float v = (2.0F * (static_cast<float>(y) + 0.5F) / static_cast<float>(side) - 1.0F) * extent_;
+        return glm::normalize(forward_ + right_ * u + up_ * v);
+    }
+
+private:
+    glm::vec3 eye_, forward_, right_, up_;
+    float extent_;
+};
+
+Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& source) {
+    constexpr int side = 320;
+    std::vector<Tally> rows(side);
+    parallel_for(side, 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const glm::vec3 direction = rays.direction(x, static_cast<int>(y), side);
+                const SurfaceHit true_hit = source.trace(rays.eye(), direction);
+                const SurfaceHit level_hit = level.trace(rays.eye(), direction);
+                Tally& row = rows[y];
+                row.source += true_hit.hit ? 1 : 0;
+                row.one += true_hit.hit != level_hit.hit ? 1 : 0;
+                if (true_hit.hit && level_hit.hit) {
+                    row.both += 1;
+                    row.distance += std::abs(static_cast<double>(true_hit.distance) - level_hit.distance);
+                }
+            }
+        }
+    });
+    Tally sum;
+    for (const Tally& row : rows) {
+        sum.distance += row.distance;
+        sum.both += row.both;
+        sum.one += row.one;
+        sum.source += row.source;
+    }
+    return sum;
+}
+
+} // namespace
+
+SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size, const SourceScene& source) {
+    constexpr int eyes = 10;
+    constexpr double golden_angle = 2.399963229728653;
+    constexpr double eye_distance_box = 6.0;
+    constexpr double lowest_deg = 12.0;
+    constexpr double highest_deg = 80.0;
+    const TriangleMesh surface = surface_of(level, box_size);
+    const SourceMesh level_mesh = as_source(surface);
+    const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
+    const SourceScene level_scene(level_mesh, level_points);
+    const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
+    const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
+    SeenError worst;
+    for (int k = 0; k < eyes; ++k) {
+        const double elevation =
+            (lowest_deg + (highest_deg - lowest_deg) * k / (eyes - 1)) * std::numbers::pi / 180.0;
+        const glm::dvec3 away(std::cos(elevation) * std::cos(k * golden_angle),
+                              std::cos(elevation) * std::sin(k * golden_angle), std::sin(elevation));
+        const EyeRays rays(centre + glm::vec3(away * eye_distance_box), centre, radius);
+        const Tally tally = compare(rays, level_scene, source);
+        if (tally.both > 0) {
+            worst.mean_box = std::max(worst.mean_box, tally.distance / static_cast<double>(tally.both));
+        }
+        if (tally.source > 0) {
+            worst.silhouette = std::max(worst.silhouette,
+                                        static_cast<double>(tally.one) / static_cast<double>(tally.source));
+        }
+    }
+    return worst;
+}
+
+} // namespace frustumscreen

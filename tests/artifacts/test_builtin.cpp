@@ -1,0 +1,228 @@
+#include "assets_baked/artifacts/builtin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace frustumscreen {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Each is built once for all tests.
+const SourceMesh& built(std::string_view name, std::int64_t triangles) {
+    static std::map<std::pair<std::string_view, std::int64_t>, SourceMesh> meshes;
+    auto& mesh = meshes[{name, triangles}];
+    if (mesh.triangles.empty()) {
+        mesh = make_builtin(name, triangles).value();
+    }
+    return mesh;
+}
+
+/// Vertices at one place become one number: seams of the texture do not count.
+std::vector<std::uint32_t> places_of(const SourceMesh& mesh) {
+    std::map<std::tuple<double, double, double>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> places;
+    for (const glm::dvec3& p : mesh.positions) {
+        places.push_back(
+            numbers.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
+    }
+    return places;
+}
+
+/// Where the ray from `origin` along `direction` first meets the mesh: which side it sees. Plain arithmetic.
+struct Sight {
+    double t = 1e30;
+    bool front = false;
+    glm::vec2 uv{0.0F};
+};
+Sight look(const SourceMesh& mesh, const glm::dvec3& origin, const glm::dvec3& direction) {
+    Sight sight;
+    for (const auto& triangle : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[triangle[0]];
+        const glm::dvec3 ab = mesh.positions[triangle[1]] - a;
+        const glm::dvec3 ac = mesh.positions[triangle[2]] - a;
+        const glm::dvec3 normal = glm::cross(ab, ac);
+        const double slope = glm::dot(normal, direction);
+        if (slope == 0.0) {
+            continue;
+        }
+        const double t = glm::dot(normal, a - origin) / slope;
+        const glm::dvec3 offset = origin + t * direction - a;
+        const double u = glm::dot(normal, glm::cross(offset, ac)) / glm::dot(normal, normal);
+        const double v = glm::dot(normal, glm::cross(ab, offset)) / glm::dot(normal, normal);
+        if (t > 0.0 && t < sight.t && u >= 0.0 && v >= 0.0 && u + v <= 1.0) {
+            sight = {t, slope < 0.0, mesh.uvs[triangle[0]]};
+        }
+    }
+    return sight;
+}
+
+class EveryBuiltin : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(EveryBuiltin, HasTheNumberOfTrianglesAskedFor) {
+    for (const std::int64_t triangles : {1'000, 8'000, 400'000}) {
+        const SourceMesh& mesh = built(GetParam(), triangles);
+        EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(triangles),
+                    0.05 * static_cast<double>(triangles));
+    }
+}
+
+TEST_P(EveryBuiltin, IsTheSameEveryTime) {
+    const SourceMesh& a = built(GetParam(), 8'000);
+    const SourceMesh b = make_builtin(GetParam(), 8'000).value();
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.uvs, b.uvs);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.textures[0].image->texels, b.textures[0].image->texels);
+}
+
+TEST_P(EveryBuiltin, IsASoundMesh) {
+    const SourceMesh& mesh = built(GetParam(), 8'000);
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.triangle_materials.size(), mesh.triangles.size());
+    ASSERT_EQ(mesh.materials.size(), 1U);
+    ASSERT_EQ(mesh.textures.size(), 1U);
+    EXPECT_LE(mesh.textures[0].image->width, 2048);
+    EXPECT_EQ(mesh.default_up, 'y');
+    for (const glm::dvec3& position : mesh.positions) {
+        ASSERT_TRUE(std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z));
+        ASSERT_EQ(position, glm::dvec3(glm::vec3(position))) << "a 32-bit file could not hold it";
+        ASSERT_GE(position.y, -1e-3) << "it stands on y = 0";
+    }
+    for (const glm::vec2& uv : mesh.uvs) {
+        ASSERT_TRUE(uv.x >= 0.0F && uv.x <= 4.0F && uv.y >= 0.0F && uv.y <= 1.0F);
+    }
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t corner : triangle) {
+            ASSERT_LT(corner, mesh.positions.size());
+        }
+    }
+}
+
+TEST_P(EveryBuiltin, HasNeighboursThatAgreeWhichSideIsOut) {
+    const SourceMesh& mesh = built(GetParam(), 8'000);
+    const std::vector<std::uint32_t> places = places_of(mesh);
+    std::set<Edge> edges;
+    for (const auto& triangle : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Edge edge = {places[triangle[i]], places[triangle[(i + 1) % 3]]};
+            if (edge.first != edge.second) {
+                EXPECT_TRUE(edges.insert(edge).second)
+                    << "two triangles run along an edge in the same direction";
+            }
+        }
+    }
+}
+
+TEST_P(EveryBuiltin, ShowsItsFrontFromAllAround) {
+    const SourceMesh& mesh = built(GetParam(), 8'000);
+    int seen = 0;
+    for (int azimuth = 0; azimuth < 360; azimuth += 20) {
+        for (int height = 10; height < 320; height += 15) {
+            const double angle = (azimuth + 7.3) * 0.017453292519943295;
+            const glm::dvec3 away = {std::cos(angle), 0.35, std::sin(angle)};
+            const Sight sight = look(mesh, glm::dvec3(0.0, height, 0.0) + 500.0 * away, -away);
+            if (sight.t < 1e29) {
+                ++seen;
+                EXPECT_TRUE(sight.front) << "a back at azimuth " << azimuth << ", height " << height;
+            }
+        }
+    }
+    EXPECT_GT(seen, 100);
+}
+
+TEST_P(EveryBuiltin, HasItsTextsInFiveLanguages) {
+    std::set<std::string_view> texts;
+    for (const char* language : {"en", "de", "fr", "es", "el"}) {
+        const BuiltinText text = builtin_text(GetParam(), language);
+        EXPECT_FALSE(text.title.empty());
+        EXPECT_TRUE(texts.insert(text.text).second) << language;
+        EXPECT_EQ(text.text.find('\t'), std::string_view::npos);
+    }
+    EXPECT_EQ(builtin_text(GetParam(), "tlh").title, builtin_text(GetParam(), "en").title);
+}
+
+INSTANTIATE_TEST_SUITE_P(Artifacts, EveryBuiltin, testing::ValuesIn(builtin_names()), [](const auto& test) {
+    return test.param == "amphora" ? "Amphora" : "NautilusCup";
+});
+
+TEST(Amphora, IsClosedButForItsTextureSeams) {
+    const SourceMesh& mesh = built("amphora", 8'000);
+    const std::vector<std::uint32_t> places = places_of(mesh);
+    std::map<Edge, int> balance;
+    for (const auto& triangle : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = places[triangle[i]];
+            const std::uint32_t b = places[triangle[(i + 1) % 3]];
+            balance[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    // The handles' ends are open, inside the wall.
+    for (const auto& [edge, sum] : balance) {
+        if (sum != 0) {
+            std::size_t vertex = 0;
+            while (places[vertex] != edge.first) {
+                ++vertex;
+            }
+            EXPECT_GT(mesh.positions[vertex].y, 200.0);
+        }
+    }
+}
+
+TEST(Amphora, IsHollowAndItsHandlesLetTheLightThrough) {
+    const SourceMesh& mesh = built("amphora", 8'000);
+    const Sight into_the_mouth = look(mesh, {0.5, 600.0, 0.5}, {0.0, -1.0, 0.0});
+    EXPECT_GT(into_the_mouth.t, 400.0) << "deeper than the neck";
+    EXPECT_TRUE(into_the_mouth.front);
+    for (const double x : {-60.0, 60.0}) {
+        EXPECT_GT(look(mesh, {x, 272.0, 500.0}, {0.0, 0.0, -1.0}).t, 1e29) << "between neck and handle";
+    }
+    EXPECT_LT(look(mesh, {84.0, 272.0, 500.0}, {0.0, 0.0, -1.0}).t, 1e29) << "on the handle";
+}
+
+TEST(Amphora, CarriesReliefThatMoreTrianglesShow) {
+    // Radii around one height in the frieze: a plain turned body would have one.
+    const SourceMesh& mesh = built("amphora", 400'000);
+    double least = 1e9;
+    double most = 0.0;
+    for (const glm::dvec3& p : mesh.positions) {
+        const double radius = std::hypot(p.x, p.z);
+        if (std::abs(p.y - 178.0) < 0.5 && radius > 90.0) {
+            least = std::min(least, radius);
+            most = std::max(most, radius);
+        }
+    }
+    EXPECT_GT(most - least, 0.4);
+    EXPECT_LT(most - least, 2.0);
+}
+
+TEST(NautilusCup, IsThinAndConcave) {
+    const SourceMesh& mesh = built("nautilus-cup", 8'000);
+    const Sight from_above = look(mesh, {35.0, 600.0, 0.5}, {0.0, -1.0, 0.0});
+    const double inner_floor = 600.0 - from_above.t;
+    const Sight from_below = look(mesh, {35.0, 5.0 + 30.0, 0.5}, {0.0, 1.0, 0.0});
+    const double outer_floor = 35.0 + from_below.t;
+    EXPECT_LT(inner_floor, 150.0);
+    EXPECT_GT(inner_floor - outer_floor, 0.5);
+    EXPECT_LT(inner_floor - outer_floor, 4.0);
+}
+
+TEST(Builtin, UnknownNamesAndCountsAreRefusedInOneLine) {
+    for (const auto& mesh :
+         {make_builtin("vase", 5'000), make_builtin("amphora", 999), make_builtin("amphora", 20'000'001)}) {
+        ASSERT_FALSE(mesh.has_value());
+        EXPECT_EQ(mesh.error().message.find('\n'), std::string::npos);
+        EXPECT_FALSE(mesh.error().message.empty());
+    }
+    EXPECT_TRUE(builtin_text("vase", "en").title.empty());
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,88 @@
+// What holds for every file of the house.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_lines = 600;
+
+/// The house's own files with one of these endings, relative to the root.
+std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
+    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    std::vector<fs::path> files;
+    for (const char* folder : {"app", "firmware_host", "assets_baked", "tests", "cmake", "config"}) {
+        if (!fs::exists(root / folder)) {
+            continue;
+        }
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string ending = entry.path().extension();
+            for (const std::string& wanted : endings) {
+                if (entry.is_regular_file() && ending == wanted) {
+                    files.push_back(fs::relative(entry.path(), root));
+                }
+            }
+        }
+    }
+    return files;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+    std::ifstream stream(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+} // namespace
+
+TEST(House, NoFileIsTooLongToRead) {
+    for (const fs::path& file : files_ending({".h", ".cpp", ".cmake", ".sh"})) {
+        EXPECT_LE(lines_of(file).size(), static_cast<std::size_t>(most_lines)) << file;
+    }
+}
+
+TEST(House, NothingIsLeftForLater) {
+    const std::vector<std::string> marks = {std::string("TO") + "DO", std::string("FIX") + "ME",
+                                            std::string("XX") + "X:"};
+    for (const fs::path& file : files_ending({".h", ".cpp", ".cmake", ".sh", ".txt", ".md", ".toml"})) {
+        int number = 0;
+        for (const std::string& line : lines_of(file)) {
+            ++number;
+            for (const std::string& mark : marks) {
+                EXPECT_EQ(line.find(mark), std::string::npos) << file << ":" << number;
+            }
+        }
+    }
+}
+
+TEST(House, EveryHeaderSaysWhatItIs) {
+    for (const fs::path& file : files_ending({".h"})) {
+        if (file.begin()->string() == "tests") {
+            continue;
+        }
+        const std::vector<std::string> lines = lines_of(file);
+        ASSERT_FALSE(lines.empty()) << file;
+        EXPECT_EQ(lines.front().rfind("/// ", 0), 0U) << file << " does not begin with a /// comment";
+    }
+}
+
+TEST(House, EveryFileIsFormatted) {
+    if (std::system("command -v clang-format >/dev/null") != 0) {
+        GTEST_SKIP() << "clang-format is not installed";
+    }
+    std::string command =
+        "cd '" FRUSTUMSCREEN_SOURCE_DIR "' && clang-format --dry-run -Werror --ferror-limit=1";
+    for (const fs::path& file : files_ending({".h", ".cpp"})) {
+        command += " '" + file.string() + "'";
+    }
+    EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
+}

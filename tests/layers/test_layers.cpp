@@ -1,0 +1,228 @@
+// Holds every #include of the house against the table of rooms in cmake/rooms.cmake's terms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Rooms = std::set<std::string>;
+
+struct Include {
+    std::string file; ///< relative to the root
+    int line = 0;
+    std::string header;
+    bool quoted = false;
+};
+
+struct Table {
+    std::map<std::string, std::string> room_of_place; ///< folder or file -> room
+    std::map<std::string, Rooms> uses;                ///< closed transitively
+
+    /// The room with the longest place that `path` lies in; empty if none.
+    [[nodiscard]] std::string room_of(const std::string& path) const {
+        std::string room;
+        std::size_t longest = 0;
+        for (const auto& [place, owner] : room_of_place) {
+            const bool inside = path == place || path.compare(0, place.size() + 1, place + "/") == 0;
+            if (inside && place.size() >= longest) {
+                longest = place.size();
+                room = owner;
+            }
+        }
+        return room;
+    }
+};
+
+void close(std::map<std::string, Rooms>& uses) {
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (auto& [room, used] : uses) {
+            Rooms more = used;
+            for (const std::string& other : used) {
+                more.insert(uses[other].begin(), uses[other].end());
+            }
+            changed = changed || more.size() != used.size();
+            used = more;
+        }
+    }
+}
+
+Table read_table() {
+    Table table;
+    std::ifstream file(FRUSTUMSCREEN_LAYERS_FILE);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        std::string room;
+        words >> kind >> room;
+        if (kind == "place") {
+            std::string place;
+            words >> place;
+            table.room_of_place[place] = room;
+        }
+        if (kind == "uses") {
+            table.uses[room].insert(std::istream_iterator<std::string>(words),
+                                    std::istream_iterator<std::string>());
+        }
+    }
+    close(table.uses);
+    return table;
+}
+
+std::vector<Include> includes_below(const std::string& folder) {
+    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    std::vector<Include> includes;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        const std::string extension = entry.path().extension();
+        if (extension != ".h" && extension != ".cpp") {
+            continue;
+        }
+        std::ifstream file(entry.path());
+        int number = 0;
+        for (std::string line; std::getline(file, line);) {
+            ++number;
+            const std::size_t start = line.find_first_of("<\"");
+            if (line.rfind("#include", 0) == 0 && start != std::string::npos) {
+                const std::size_t end = line.find_first_of(">\"", start + 1);
+                includes.push_back({fs::relative(entry.path(), root).string(), number,
+                                    line.substr(start + 1, end - start - 1), line[start] == '"'});
+            }
+        }
+    }
+    return includes;
+}
+
+std::vector<Include> includes_of_the_house() {
+    std::vector<Include> all;
+    for (const std::string folder : {"app", "firmware_host", "assets_baked"}) {
+        const std::vector<Include> some = includes_below(folder);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+    return text.rfind(start, 0) == 0;
+}
+
+/// A library's headers, and the only rooms (or files) that may include them.
+struct Guard {
+    std::string header; ///< beginning of its name
+    std::vector<std::string> places;
+};
+
+const std::vector<Guard> guards = {
+    {"GLES", {"app/render/", "app/bench/", "firmware_host/display/"}},
+    {"EGL/", {"firmware_host/display/"}},
+    {"GL/", {}},
+    {"gbm.h", {"firmware_host/display/"}},
+    {"xf86drm", {"firmware_host/display/"}},
+    {"libusb", {"firmware_host/tracker/"}},
+    {"hidapi", {"firmware_host/panel/"}},
+    {"gpiod", {"firmware_host/panel/"}},
+    {"systemd/", {"firmware_host/service/"}},
+    {"alsa/", {"firmware_host/sound/"}},
+    {"embree", {"assets_baked/bake/", "app/bench/"}},
+    {"draco/", {"assets_baked/bake/"}},
+    {"tiny_obj_loader", {"assets_baked/bake/"}},
+    {"meshoptimizer", {"assets_baked/bake/", "app/bench/"}},
+    {"toml++", {"app/settings/"}},
+    {"unzip.h", {"app/pack/"}},
+    {"zip.h", {"app/pack/"}},
+    {"minizip/", {"app/pack/"}},
+    {"sodium", {"app/pack/", "app/programs/"}},
+    {"CLI/", {"app/programs/"}},
+};
+
+} // namespace
+
+TEST(Layers, TheTableKnowsTheRooms) {
+    const Table table = read_table();
+    for (const std::string room : {"base", "geometry", "pack", "settings", "render", "bake", "artifacts"}) {
+        EXPECT_TRUE(table.uses.contains(room)) << room;
+    }
+    EXPECT_EQ(table.room_of("assets_baked/bake/loaders/text.h"), "loaders");
+    EXPECT_EQ(table.room_of("assets_baked/bake/source_mesh.h"), "source_mesh");
+    EXPECT_EQ(table.room_of("assets_baked/bake/bake.h"), "bake");
+}
+
+TEST(Layers, EveryIncludeIsAllowedByTheTable) {
+    const Table table = read_table();
+    for (const Include& include : includes_of_the_house()) {
+        if (!include.quoted || starts_with(include.file, "app/programs/")) {
+            continue; // programs may use every room
+        }
+        const std::string from = table.room_of(include.file);
+        const std::string to = table.room_of(include.header);
+        ASSERT_FALSE(from.empty()) << include.file << " lies in no room";
+        if (from != to && !table.uses.at(from).contains(to)) {
+            ADD_FAILURE() << include.file << ":" << include.line << ": room '" << from
+                          << "' may not include \"" << include.header << "\" of room '" << to << "'";
+        }
+    }
+}
+
+TEST(Layers, QuotedIncludesAreNamedFromTheRoot) {
+    for (const Include& include : includes_of_the_house()) {
+        if (include.quoted) {
+            EXPECT_TRUE(fs::exists(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / include.header))
+                << include.file << ":" << include.line << ": " << include.header;
+        }
+    }
+}
+
+TEST(Layers, NothingOfTheHostIncludesTheExhibit) {
+    for (const Include& include : includes_below("firmware_host")) {
+        EXPECT_FALSE(starts_with(include.header, "app/") || starts_with(include.header, "assets_baked/"))
+            << include.file << ":" << include.line;
+    }
+}
+
+TEST(Layers, NothingOfTheKioskUsesTheBake) {
+    const Table table = read_table();
+    for (const std::string room :
+         {"geometry", "tracking", "pack", "settings", "scene", "exhibit", "render", "image"}) {
+        const auto found = table.uses.find(room);
+        if (found == table.uses.end()) {
+            continue;
+        }
+        for (const std::string below : {"bake", "loaders", "artifacts", "source_mesh", "bench"}) {
+            EXPECT_FALSE(found->second.contains(below)) << room << " uses " << below;
+        }
+    }
+}
+
+TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
+    std::ifstream file(std::string(FRUSTUMSCREEN_BIN_DIR) + "/frustumscreen", std::ios::binary);
+    if (!file) {
+        GTEST_SKIP() << "the program frustumscreen is not built";
+    }
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    for (const std::string library :
+         {"libembree3.so", "libdraco.so", "libmeshoptimizer.so", "libturbojpeg.so"}) {
+        EXPECT_EQ(bytes.find(library), std::string::npos) << library;
+    }
+}
+
+TEST(Layers, LibrariesStayInTheirAdapters) {
+    for (const Include& include : includes_of_the_house()) {
+        for (const Guard& guard : guards) {
+            if (include.quoted || !starts_with(include.header, guard.header)) {
+                continue;
+            }
+            const bool allowed =
+                std::any_of(guard.places.begin(), guard.places.end(),
+                            [&](const std::string& place) { return starts_with(include.file, place); });
+            EXPECT_TRUE(allowed) << include.file << ":" << include.line << ": <" << include.header << ">";
+        }
+    }
+}

@@ -1,0 +1,70 @@
+/// Helpers of the loaders' tests: files made on the spot, plain measures of a mesh, the index of the shared models.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
+
+namespace frustumscreen::testing {
+
+/// A folder of its own for each test program's run; removed at the end.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder();
+
+    std::filesystem::path write(const std::string& name, std::string_view text) const;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Loads `text` as a file of that name; nothing lies beside it.
+Result<SourceMesh> load_text(const std::string& name, std::string_view text);
+/// The error of a load that must fail; "" and a test failure if it does not.
+std::string error_of(const Result<SourceMesh>& mesh);
+
+std::string base64(std::string_view bytes);
+template <typename T> std::string bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+/// A glTF text with one buffer of `bytes` (a data URI) put before `members`.
+std::string gltf_text(std::string_view bytes, std::string_view members);
+/// Header and chunks around a JSON text.
+std::string glb_bytes(std::string json, std::string binary);
+
+struct Extent {
+    glm::dvec3 low{1e300};
+    glm::dvec3 high{-1e300};
+};
+Extent extent_of(const SourceMesh& mesh);
+double area_of(const SourceMesh& mesh);
+/// Positive for a closed surface whose triangles run counter-clockwise seen from outside.
+double volume_of(const SourceMesh& mesh);
+/// What load_mesh promises.
+void expect_sound(const SourceMesh& mesh);
+
+struct IndexRow {
+    std::string path;
+    std::string format;
+    std::string triangles;
+    std::string notes;
+};
+std::filesystem::path shared_data();
+bool has_shared_data();
+std::vector<IndexRow> shared_index();
+
+} // namespace frustumscreen::testing
+
+#define FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA()                                                                  \
+    if (!::frustumscreen::testing::has_shared_data()) {                                                           \
+        GTEST_SKIP() << "skipped: the folder of real models is not here: "                                        \
+                     << ::frustumscreen::testing::shared_data();                                                  \
+    }

@@ -1,0 +1,130 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "app/image/image.h"
+#include "tests/loaders/loaders_testing.h"
+
+namespace frustumscreen::testing {
+namespace {
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+SourceMesh mesh_of(const std::string& text) {
+    Result<SourceMesh> mesh = load_text("model.obj", text);
+    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
+    if (!mesh) {
+        return {};
+    }
+    expect_sound(*mesh);
+    return *std::move(mesh);
+}
+
+TEST(Obj, NegativeIndicesCountBackFromTheLastVertex) {
+    const SourceMesh forward = mesh_of(square + "f 1 2 3 4\n");
+    const SourceMesh backward = mesh_of(square + "f -4 -3 -2 -1\n");
+    EXPECT_EQ(forward.positions, backward.positions);
+    EXPECT_EQ(forward.triangles, backward.triangles);
+    EXPECT_NEAR(area_of(backward), 1.0, 1e-12);
+}
+
+TEST(Obj, EveryFormOfACornerIsRead) {
+    const std::string extra = "vt 0.25 0.25\nvn 0 0 1\n";
+    for (const char* face : {"f 1 2 3\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1\n",
+                             "f 1// 2// 3//\n", "f 1 2 3 # with a remark\n", "f 1 2 \\\n 3\n", "f 1 2 3\r\n"}) {
+        SCOPED_TRACE(face);
+        EXPECT_EQ(mesh_of(square + extra + face).triangles.size(), 1U);
+    }
+}
+
+TEST(Obj, VerticesAreSplitWhereTextureCoordinatesDiffer) {
+    const SourceMesh mesh = mesh_of(square + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
+    EXPECT_EQ(mesh.positions.size(), 5U); // corner 1 twice
+    EXPECT_EQ(mesh.uvs[0], glm::vec2(0.0F, 1.0F)) << "v = 0 is the picture's top row";
+}
+
+TEST(Obj, ColoursAfterTheCoordinatesAreSrgb) {
+    const SourceMesh mesh = mesh_of("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
+    EXPECT_NEAR(mesh.colours[0].r, 0.2140411, 1e-6);
+    EXPECT_EQ(mesh.colours[0].b, 1.0F);
+    EXPECT_EQ(mesh.colours[1], glm::vec4(1.0F));
+}
+
+TEST(Obj, CoordinatesKeepSixtyFourBits) {
+    const SourceMesh mesh = mesh_of("v 4500000.125 0 0\nv 4500001.25 0 0\nv 4500000 1 0\nf 1 2 3\n");
+    EXPECT_EQ(mesh.positions[0].x, 4500000.125);
+    EXPECT_EQ(mesh.positions[1].x, 4500001.25);
+}
+
+TEST(Obj, APolygonMayHaveMoreThan255Corners) {
+    std::string text;
+    std::string face = "f";
+    for (int i = 0; i < 300; ++i) {
+        const double angle = i * std::acos(-1.0) / 150.0;
+        text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+        face += " " + std::to_string(i + 1);
+    }
+    EXPECT_EQ(mesh_of(text + face + "\n").triangles.size(), 298U);
+}
+
+TEST(Obj, AMissingMaterialFileLeavesWhite) {
+    const SourceMesh mesh = mesh_of("mtllib nowhere.mtl\n" + square + "usemtl gold\nf 1 2 3\n");
+    EXPECT_EQ(mesh.materials[mesh.triangle_materials[0]].base_colour, glm::vec4(1.0F));
+}
+
+TEST(Obj, MaterialsBringColourAndPicture) {
+    const TemporaryFolder folder;
+    Image8 picture(2, 1, glm::u8vec4(10, 20, 30, 255));
+    const Bytes png = encode_png(picture);
+    folder.write("maps/my wood.png", as_text(png));
+    folder.write("model.mtl", "newmtl red\nKd 1 0.5 0\nnewmtl wood\nKd 1 1 1\nmap_Kd maps\\my wood.png\n");
+    const Result<SourceMesh> mesh = load_mesh(folder.write(
+        "model.obj", "mtllib model.mtl\n" + square + "vt 0 0\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1 3/1 4/1\n"));
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+    expect_sound(*mesh);
+    EXPECT_EQ(mesh->materials[mesh->triangle_materials[0]].base_colour, glm::vec4(1.0F, 0.5F, 0.0F, 1.0F));
+    const SourceMaterial& wood = mesh->materials[mesh->triangle_materials[1]];
+    ASSERT_EQ(wood.texture, 0);
+    EXPECT_EQ(mesh->textures[0].image->at(1, 0), glm::u8vec4(10, 20, 30, 255));
+}
+
+TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
+    const std::string text = "mtllib model.mtl\n" + square + "usemtl wood\nf 1 2 3\n";
+    for (const auto& [map, expected] : std::vector<std::pair<std::string, std::string>>{
+             {"gone.png", "no such file"},
+             {"bad.png", "PNG picture is damaged"},
+             {"model.mtl", "neither PNG"},
+             {"../outside.png", "outside the model's folder"},
+             {"maps/../../outside.png", "outside the model's folder"},
+             {"/etc/hostname", "outside the model's folder"},
+             {"C:\\pictures\\wood.png", "not a plain file name"},
+             {"http://example.org/wood.png", "not a plain file name"}}) {
+        const TemporaryFolder folder;
+        folder.write("bad.png", "\x89PNG\r\n\x1a\n and nothing more");
+        folder.write("model.mtl", "newmtl wood\nmap_Kd " + map + "\n");
+        const std::string error = error_of(load_mesh(folder.write("model.obj", text)));
+        EXPECT_NE(error.find(expected), std::string::npos) << error;
+    }
+}
+
+TEST(Obj, WrongLinesAreRefusedByNumber) {
+    for (const auto& [line, expected] : std::vector<std::pair<std::string, std::string>>{
+             {"f 1 2 5", "line 5: vertex 5 is out of range"},
+             {"f 0 1 2", "line 5: vertex 0 is out of range"},
+             {"f -5 1 2", "line 5: vertex -5 is out of range"},
+             {"f 1 2 x", "line 5: the number of a vertex is expected"},
+             {"f 1 2 99999999999999999999", "line 5"},
+             {"f 1/1 2/1 3/1", "line 5: texture coordinate 1 is out of range"},
+             {"v 1 2", "line 5: 3 numbers are expected"},
+             {"v 1 2 three", "line 5: a number is expected, not \"three\""},
+             {"v 1 2 nan", "line 5: vertex 5 is not a finite point"},
+             {"v 1 2 1e999", "line 5: vertex 5 is not a finite point"},
+             {"f 1 2", "no triangles"},
+             {"p 1\nl 1 2", "no triangles"}}) {
+        const std::string error = error_of(load_text("model.obj", square + line + "\n"));
+        EXPECT_NE(error.find(expected), std::string::npos) << error;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::testing

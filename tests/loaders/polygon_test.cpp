@@ -1,0 +1,73 @@
+#include "assets_baked/bake/loaders/polygon.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen::testing {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// Signed areas seen against +Z, each triangle's own.
+std::vector<double> signed_areas(const std::vector<glm::dvec3>& corners, const Triangles& triangles) {
+    std::vector<double> areas;
+    for (const auto& [a, b, c] : triangles) {
+        areas.push_back(0.5 * glm::cross(corners[b] - corners[a], corners[c] - corners[a]).z);
+    }
+    return areas;
+}
+
+void expect_covered(const std::vector<glm::dvec3>& corners, double area) {
+    Triangles triangles;
+    triangulate_polygon(corners, triangles);
+    ASSERT_EQ(triangles.size(), corners.size() - 2);
+    double sum = 0.0;
+    for (const double part : signed_areas(corners, triangles)) {
+        EXPECT_GE(part, 0.0) << "no triangle lies outside the polygon";
+        sum += part;
+    }
+    EXPECT_NEAR(sum, area, 1e-12);
+}
+
+TEST(Polygon, AConvexPolygonIsCovered) { expect_covered({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, 2.0); }
+
+TEST(Polygon, AConcaveQuadIsNotFoldedOver) {
+    // An arrowhead, its notch at every corner in turn.
+    const std::vector<glm::dvec3> arrow = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {1, 1, 0}};
+    for (std::size_t turn = 0; turn < 4; ++turn) {
+        std::vector<glm::dvec3> corners;
+        for (std::size_t i = 0; i < 4; ++i) {
+            corners.push_back(arrow[(i + turn) % 4]);
+        }
+        expect_covered(corners, 1.0);
+    }
+}
+
+TEST(Polygon, AStarOfTwentyCornersIsCovered) {
+    std::vector<glm::dvec3> corners;
+    for (int i = 0; i < 20; ++i) {
+        const double angle = i * std::acos(-1.0) / 10.0;
+        const double radius = i % 2 == 0 ? 2.0 : 1.0;
+        corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    }
+    expect_covered(corners, 20.0 * 0.5 * 2.0 * 1.0 * std::sin(std::acos(-1.0) / 10.0));
+}
+
+TEST(Polygon, APolygonThatCrossesItselfOrHasNoAreaStillGivesItsTriangles) {
+    for (const std::vector<glm::dvec3>& corners :
+         {std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<glm::dvec3>(6)}) {
+        Triangles triangles;
+        triangulate_polygon(corners, triangles);
+        EXPECT_EQ(triangles.size(), corners.size() - 2);
+    }
+}
+
+TEST(Polygon, FewerThanThreeCornersGiveNothing) {
+    Triangles triangles;
+    triangulate_polygon(std::vector<glm::dvec3>(2), triangles);
+    EXPECT_TRUE(triangles.empty());
+}
+
+} // namespace
+} // namespace frustumscreen::testing

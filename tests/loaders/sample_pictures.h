@@ -1,0 +1,18 @@
+/// Small pictures, written by the libraries' own encoders.
+#pragma once
+
+#include <string>
+
+#include "app/image/image.h"
+
+namespace frustumscreen::testing {
+
+/// Opaque, smooth ramps that JPEG keeps well.
+Image8 smooth_picture(int width, int height);
+std::string png_of(const Image8& image);
+std::string jpeg_of(const Image8& image);
+std::string webp_of(const Image8& image); ///< lossless
+/// One row of grey codes 0, 1, 2, ... (16 bits: 256 even steps), with a gAMA note of 1.0 if asked for.
+std::string grey_ramp_png(int depth, bool with_gamma);
+
+} // namespace frustumscreen::testing
