@@ -1,17 +1,17 @@
 /// Every file of the shared collection of bad models: what is said about it, or that it is usable.
-#include <map>
-#include <set>
+#include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
+#include <map>
+#include <set>
 
 namespace frustumscreen::testing {
 namespace {
 
 struct BadFile {
     const char* path;
-    const char* says;       ///< a part of the error's line; nullptr: usable all the same
+    const char* says; ///< a part of the error's line; nullptr: usable all the same
     std::size_t triangles = 0;
 };
 

@@ -1,13 +1,12 @@
 #include "assets_baked/bake/loaders/decode_image.h"
-
-#include <cstdlib>
+#include "firmware_host/base/file.h"
+#include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/sample_pictures.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "firmware_host/base/file.h"
-#include "tests/loaders/sample_pictures.h"
-#include "tests/loaders/loaders_testing.h"
+#include <cstdlib>
 
 namespace frustumscreen::testing {
 namespace {
@@ -44,7 +43,8 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
             const int codes = 1 << std::min(depth, 8);
             for (int x = 0; x < picture->width; ++x) {
                 const int expected = depth == 16 ? x * 255 / (picture->width - 1) : x * 255 / (codes - 1);
-                EXPECT_NEAR(picture->at(x, 0).r, expected, depth == 16 ? 1 : 0) << depth << " bits, x = " << x;
+                EXPECT_NEAR(picture->at(x, 0).r, expected, depth == 16 ? 1 : 0)
+                    << depth << " bits, x = " << x;
                 EXPECT_EQ(picture->at(x, 0).a, 255);
             }
         }
@@ -54,7 +54,8 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
 TEST(DecodeImage, TruncatedPicturesAreDamaged) {
     const Image8 truth = smooth_picture(64, 64);
     for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth)}) {
-        for (const std::size_t length : {std::size_t{12}, std::size_t{30}, whole.size() / 2, whole.size() - 20}) {
+        for (const std::size_t length :
+             {std::size_t{12}, std::size_t{30}, whole.size() / 2, whole.size() - 20}) {
             EXPECT_FALSE(decode_image(as_bytes(std::string_view(whole).substr(0, length))).has_value())
                 << length << " of " << whole.size();
         }

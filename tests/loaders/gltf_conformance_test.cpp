@@ -1,10 +1,10 @@
 /// Khronos' small conformance models, against arithmetic done here from what the models are known to show.
-#include <algorithm>
-#include <cmath>
+#include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
+#include <algorithm>
+#include <cmath>
 
 namespace frustumscreen::testing {
 namespace {
@@ -15,9 +15,11 @@ SourceMesh conformance_model(const std::string& name, const char* extension = ".
     return mesh ? *std::move(mesh) : SourceMesh{};
 }
 
-void expect_extent(const SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high, double tolerance = 1e-6) {
+void expect_extent(const SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high,
+                   double tolerance = 1e-6) {
     const Extent extent = extent_of(mesh);
-    EXPECT_LT(glm::length(extent.low - low), tolerance) << extent.low.x << " " << extent.low.y << " " << extent.low.z;
+    EXPECT_LT(glm::length(extent.low - low), tolerance)
+        << extent.low.x << " " << extent.low.y << " " << extent.low.z;
     EXPECT_LT(glm::length(extent.high - high), tolerance)
         << extent.high.x << " " << extent.high.y << " " << extent.high.z;
 }
@@ -49,7 +51,8 @@ TEST(GltfConformance, AStripOfFourVerticesIsTwoTrianglesOfOneOrientation) {
     EXPECT_NEAR(area_of(mesh), 1.0, 1e-12);
     std::vector<double> up;
     for (const auto& [a, b, c] : mesh.triangles) {
-        up.push_back(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z);
+        up.push_back(
+            glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z);
     }
     EXPECT_GT(up[0] * up[1], 0.0);
 }
@@ -77,8 +80,8 @@ TEST(GltfConformance, NestedNodesMultiply) {
     const glm::dvec3 t3(0, -1.7263891696929932, 0);
     Extent expected;
     double volume = 0.0;
-    for (const auto& [low, high] : {cube(s1, t1), cube(s1 * s2, t1 + s1 * t2),
-                                    cube(s1 * s2 * s3, t1 + s1 * (t2 + s2 * t3))}) {
+    for (const auto& [low, high] :
+         {cube(s1, t1), cube(s1 * s2, t1 + s1 * t2), cube(s1 * s2 * s3, t1 + s1 * (t2 + s2 * t3))}) {
         expected.low = glm::min(expected.low, low);
         expected.high = glm::max(expected.high, high);
         volume += (high.x - low.x) * (high.y - low.y) * (high.z - low.z);
@@ -90,9 +93,9 @@ TEST(GltfConformance, NestedNodesMultiply) {
 TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const SourceMesh mesh = conformance_model("TextureTransformTest");
-    // The model puts a marker where the arrow's tip must appear. Untransformed, the tip is at the "not supported"
-    // marker, at (0.2778, -0.2778) on a quad from -0.5 to 0.5 whose UVs are (x + 0.5, 0.5 - y); the transform must
-    // bring the "correct" marker's place to the same texel.
+    // The model puts a marker where the arrow's tip must appear. Untransformed, the tip is at the "not
+    // supported" marker, at (0.2778, -0.2778) on a quad from -0.5 to 0.5 whose UVs are (x + 0.5, 0.5 - y);
+    // the transform must bring the "correct" marker's place to the same texel.
     const double tip = 0.5 + 0.2778174593052023;
     struct Quad {
         std::size_t first_triangle;
@@ -105,10 +108,11 @@ TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
         // UV as an affine map of the position, from one triangle.
         const glm::dvec2 middle((extent_of(mesh).low.x, quad.first_triangle == 6 ? -1.1 : 0.0), -0.55);
         const glm::dvec2 pa = glm::dvec2(mesh.positions[a]) - middle;
-        const glm::dmat2 edges(glm::dvec2(mesh.positions[b]) - middle - pa, glm::dvec2(mesh.positions[c]) - middle - pa);
-        const glm::dmat2 uv_edges(glm::dvec2(mesh.uvs[b] - mesh.uvs[a]), glm::dvec2(mesh.uvs[c] - mesh.uvs[a]));
-        const glm::dvec2 uv =
-            glm::dvec2(mesh.uvs[a]) + uv_edges * (glm::inverse(edges) * (quad.marker - pa));
+        const glm::dmat2 edges(glm::dvec2(mesh.positions[b]) - middle - pa,
+                               glm::dvec2(mesh.positions[c]) - middle - pa);
+        const glm::dmat2 uv_edges(glm::dvec2(mesh.uvs[b] - mesh.uvs[a]),
+                                  glm::dvec2(mesh.uvs[c] - mesh.uvs[a]));
+        const glm::dvec2 uv = glm::dvec2(mesh.uvs[a]) + uv_edges * (glm::inverse(edges) * (quad.marker - pa));
         EXPECT_NEAR(uv.x, tip, 1e-3);
         EXPECT_NEAR(uv.y, tip, 1e-3);
     }

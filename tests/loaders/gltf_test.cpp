@@ -1,11 +1,11 @@
-#include <cmath>
+#include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/sample_models.h"
+#include "tests/loaders/sample_pictures.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
-#include "tests/loaders/sample_models.h"
-#include "tests/loaders/sample_pictures.h"
+#include <cmath>
 
 namespace frustumscreen::testing {
 namespace {
@@ -74,10 +74,12 @@ TEST(Gltf, TheDefaultSceneIsDrawnElseTheFirstElseEverything) {
 TEST(Gltf, FansAndStripsAreCutAsTheStandardSays) {
     const std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     const auto text = [&](int mode) {
-        return gltf_text(bytes, fmt::format(R"("bufferViews":[{{"buffer":0,"byteLength":48}}],)"
-                                            R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":4}}],)"
-                                            R"("meshes":[{{"primitives":[{{"mode":{},"attributes":{{"POSITION":0}}}}]}}])",
-                                            mode));
+        return gltf_text(
+            bytes,
+            fmt::format(R"("bufferViews":[{{"buffer":0,"byteLength":48}}],)"
+                        R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":4}}],)"
+                        R"("meshes":[{{"primitives":[{{"mode":{},"attributes":{{"POSITION":0}}}}]}}])",
+                        mode));
     };
     const SourceMesh fan = mesh_of(text(6));
     ASSERT_EQ(fan.triangles.size(), 2U);
@@ -96,14 +98,15 @@ TEST(Gltf, NormalisedIntegersAndStridesAreFollowed) {
     for (const std::array<std::int16_t, 4>& p :
          {std::array<std::int16_t, 4>{-32768, 0, 0, 0}, std::array<std::int16_t, 4>{32767, 0, 0, 0},
           std::array<std::int16_t, 4>{0, 16384, 0, 0}}) {
-        bytes += bytes_of(std::vector<std::int16_t>(p.begin(), p.end())) + std::string("\xff\x33\x00\x00", 4) +
-                 std::string(4, '\0');
+        bytes += bytes_of(std::vector<std::int16_t>(p.begin(), p.end())) +
+                 std::string("\xff\x33\x00\x00", 4) + std::string(4, '\0');
     }
     const std::string text = gltf_text(
-        bytes, R"("extensionsRequired":["KHR_mesh_quantization"],"bufferViews":[{"buffer":0,"byteLength":48,"byteStride":16}],)"
-               R"("accessors":[{"bufferView":0,"componentType":5122,"normalized":true,"type":"VEC3","count":3},)"
-               R"({"bufferView":0,"byteOffset":8,"componentType":5121,"normalized":true,"type":"VEC3","count":3}],)"
-               R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
+        bytes,
+        R"("extensionsRequired":["KHR_mesh_quantization"],"bufferViews":[{"buffer":0,"byteLength":48,"byteStride":16}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5122,"normalized":true,"type":"VEC3","count":3},)"
+        R"({"bufferView":0,"byteOffset":8,"componentType":5121,"normalized":true,"type":"VEC3","count":3}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
     const SourceMesh mesh = mesh_of(text);
     EXPECT_EQ(mesh.positions[0].x, -1.0) << "-32768 is -1 too";
     EXPECT_EQ(mesh.positions[1].x, 1.0);
@@ -126,24 +129,26 @@ TEST(Gltf, MorphWeightsOfTheNodeGoBeforeThoseOfTheMesh) {
 
 TEST(Gltf, ASkinMixesItsJoints) {
     std::string bytes = triangle_bytes;
-    bytes += bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}); // joints at 36
+    bytes += bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});        // joints at 36
     bytes += bytes_of(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0}); // weights at 48
     const SourceMesh mesh = mesh_of(gltf_text(
-        bytes, R"("bufferViews":[{"buffer":0,"byteLength":60}],"accessors":[)"
-               R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
-               R"({"bufferView":0,"byteOffset":36,"componentType":5121,"type":"VEC4","count":3},)"
-               R"({"bufferView":0,"byteOffset":48,"componentType":5121,"normalized":true,"type":"VEC4","count":3}],)"
-               R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],)"
-               R"("skins":[{"joints":[1,2]}],"nodes":[{"mesh":0,"skin":0,"translation":[99,0,0]},)"
-               R"({"translation":[0,0,1]},{"translation":[0,0,11]}],"scenes":[{"nodes":[0,1,2]}])"));
+        bytes,
+        R"("bufferViews":[{"buffer":0,"byteLength":60}],"accessors":[)"
+        R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
+        R"({"bufferView":0,"byteOffset":36,"componentType":5121,"type":"VEC4","count":3},)"
+        R"({"bufferView":0,"byteOffset":48,"componentType":5121,"normalized":true,"type":"VEC4","count":3}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],)"
+        R"("skins":[{"joints":[1,2]}],"nodes":[{"mesh":0,"skin":0,"translation":[99,0,0]},)"
+        R"({"translation":[0,0,1]},{"translation":[0,0,11]}],"scenes":[{"nodes":[0,1,2]}])"));
     EXPECT_EQ(mesh.positions[0], glm::dvec3(0, 0, 1)) << "the node's own transform does not count";
     EXPECT_EQ(mesh.positions[1], glm::dvec3(1, 0, 11));
     EXPECT_LT(glm::length(mesh.positions[2] - glm::dvec3(0, 1, 0.2 * 1 + 0.8 * 11)), 1e-12);
 }
 
 TEST(Gltf, DracoAndMeshoptGiveTheGridBack) {
-    for (const auto& [glb, tolerance] : {std::pair(draco_glb(9, true), 1.0 / 4096), std::pair(draco_glb(9, false), 1.0 / 4096),
-                                         std::pair(meshopt_glb(9), 1e-5)}) {
+    for (const auto& [glb, tolerance] :
+         {std::pair(draco_glb(9, true), 1.0 / 4096), std::pair(draco_glb(9, false), 1.0 / 4096),
+          std::pair(meshopt_glb(9), 1e-5)}) {
         const Result<SourceMesh> mesh = load_text("grid.glb", glb);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
@@ -182,14 +187,15 @@ TEST(Gltf, ATransformedTextureTurnsCounterClockwiseWithVDownwards) {
     const std::string picture = png_of(smooth_picture(2, 2));
     const SourceMesh mesh = mesh_of(gltf_text(
         bytes + picture,
-        fmt::format(R"("bufferViews":[{{"buffer":0,"byteLength":60}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
-                    R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}},)"
-                    R"({{"bufferView":0,"byteOffset":36,"componentType":5126,"type":"VEC2","count":3}}],)"
-                    R"("images":[{{"bufferView":1}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":)"
-                    R"({{"baseColorTexture":{{"index":0,"texCoord":7,"extensions":{{"KHR_texture_transform":)"
-                    R"({{"offset":[0,1],"rotation":1.5707963267948966,"scale":[0.5,0.5],"texCoord":1}}}}}}}}}}],)"
-                    R"("meshes":[{{"primitives":[{{"material":0,"attributes":{{"POSITION":0,"TEXCOORD_1":1}}}}]}}])",
-                    picture_at, picture.size())));
+        fmt::format(
+            R"("bufferViews":[{{"buffer":0,"byteLength":60}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
+            R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}},)"
+            R"({{"bufferView":0,"byteOffset":36,"componentType":5126,"type":"VEC2","count":3}}],)"
+            R"("images":[{{"bufferView":1}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":)"
+            R"({{"baseColorTexture":{{"index":0,"texCoord":7,"extensions":{{"KHR_texture_transform":)"
+            R"({{"offset":[0,1],"rotation":1.5707963267948966,"scale":[0.5,0.5],"texCoord":1}}}}}}}}}}],)"
+            R"("meshes":[{{"primitives":[{{"material":0,"attributes":{{"POSITION":0,"TEXCOORD_1":1}}}}]}}])",
+            picture_at, picture.size())));
     // The extension's own example: the lower left quadrant of the picture.
     EXPECT_LT(glm::length(mesh.uvs[0] - glm::vec2(0.0F, 1.0F)), 1e-6F);
     EXPECT_LT(glm::length(mesh.uvs[1] - glm::vec2(0.0F, 0.5F)), 1e-6F);
@@ -230,30 +236,38 @@ TEST(Gltf, SidecarsMustLieBesideTheModel) {
 TEST(Gltf, RefusalsNameThePlace) {
     const std::string text = triangle_with(R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}])");
     for (const auto& [from, to, expected] : std::vector<std::array<std::string, 3>>{
-             {R"("bufferView":0)", R"("bufferView":7)", "accessors[0].bufferView: 7 is out of range, the file has 1"},
+             {R"("bufferView":0)", R"("bufferView":7)",
+              "accessors[0].bufferView: 7 is out of range, the file has 1"},
              {R"("bufferView":0)", R"("bufferView":-1)", "accessors[0].bufferView: -1 is out of range"},
-             {R"("bufferView":0)", R"("bufferView":"0")", "accessors[0].bufferView: a whole number is expected, not \"0\""},
-             {R"("bufferView":0)", R"("bufferView":0.5)", "accessors[0].bufferView: a whole number is expected"},
+             {R"("bufferView":0)", R"("bufferView":"0")",
+              "accessors[0].bufferView: a whole number is expected, not \"0\""},
+             {R"("bufferView":0)", R"("bufferView":0.5)",
+              "accessors[0].bufferView: a whole number is expected"},
              {R"("count":3)", R"("count":4)", "accessors[0]: 4 elements of 12 bytes"},
              {R"("count":3)", R"("count":9007199254740991)", "accessors[0].count"},
              {R"("count":3)", R"("count":4294967296)", "accessors[0]: 4294967296 elements"},
              {R"("count":3)", R"("count":0)", "accessors[0].count: 0 is out of range"},
-             {R"("byteLength":36}])", R"("byteLength":37}])", "bufferViews[0]: bytes 0 to 37 are out of range"},
+             {R"("byteLength":36}])", R"("byteLength":37}])",
+              "bufferViews[0]: bytes 0 to 37 are out of range"},
              {R"("byteLength":36}])", R"("byteLength":36,"byteOffset":9007199254740992}])", "bufferViews[0]"},
              {R"("componentType":5126)", R"("componentType":5124)", "accessors[0].componentType"},
              {R"("VEC3")", R"("VEC5")", "accessors[0].type: \"VEC5\" is not known"},
              {R"("VEC3")", R"("VEC2")", "meshes[0].primitives[0].attributes.POSITION"},
              {R"("POSITION":0})", R"("POSITION":0},"indices":0)", "indices"},
              {R"("POSITION":0})", R"("POSITION":0},"mode":9)", "meshes[0].primitives[0].mode"},
-             {R"("POSITION":0})", R"("POSITION":0},"material":0)", "meshes[0].primitives[0].material: 0 is out of range, the file has 0"},
+             {R"("POSITION":0})", R"("POSITION":0},"material":0)",
+              "meshes[0].primitives[0].material: 0 is out of range, the file has 0"},
              {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"children":[0]}])", "own ancestor"},
-             {R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[2]},{"children":[2]},{"mesh":0}])", "one parent is allowed"},
+             {R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[2]},{"children":[2]},{"mesh":0}])",
+              "one parent is allowed"},
              {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"scale":[1e300,1e300,1e300]}])", "vertex 1"},
              {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"rotation":[0,0,0,0]}])", "nodes[0].rotation"},
-             {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"translation":[0,0]}])", "nodes[0].translation: 3 numbers"},
+             {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"translation":[0,0]}])",
+              "nodes[0].translation: 3 numbers"},
              {R"("nodes":[{"mesh":0}])", R"("nodes":{"mesh":0})", "nodes: an array is expected"},
              {R"("scenes":[{"nodes":[0]}])", R"("scenes":[{"nodes":[]}])", "no triangles"},
-             {R"("asset":)", R"("extensionsRequired":["NEW_magic"],"asset":)", "the extension NEW_magic is not supported"},
+             {R"("asset":)", R"("extensionsRequired":["NEW_magic"],"asset":)",
+              "the extension NEW_magic is not supported"},
              {R"({"version":"2.0"})", "{}", "asset: \"version\" is missing"},
              {R"("asset":)", R"("asset":[)", "the JSON is damaged: parse error at line 1"}}) {
         SCOPED_TRACE(to);
@@ -268,9 +282,10 @@ TEST(Gltf, AChainOfAHundredThousandNodesIsFollowedWithoutRecursion) {
     for (int i = 0; i + 1 < count; ++i) {
         nodes += fmt::format(R"({{"children":[{}]}},)", i + 1);
     }
-    EXPECT_EQ(mesh_of(triangle_with(fmt::format(R"(,"nodes":[{}{{"mesh":0}}],"scenes":[{{"nodes":[0]}}])", nodes)))
-                  .triangles.size(),
-              1U);
+    EXPECT_EQ(
+        mesh_of(triangle_with(fmt::format(R"(,"nodes":[{}{{"mesh":0}}],"scenes":[{{"nodes":[0]}}])", nodes)))
+            .triangles.size(),
+        1U);
 }
 
 TEST(Gltf, AnIndexBeyondTheVerticesIsRefused) {
@@ -280,8 +295,9 @@ TEST(Gltf, AnIndexBeyondTheVerticesIsRefused) {
                R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
                R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],)"
                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])");
-    EXPECT_NE(error_of(load_text("model.gltf", text)).find("indices: element 2 is 3, but POSITION has 3 vertices"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of(load_text("model.gltf", text)).find("indices: element 2 is 3, but POSITION has 3 vertices"),
+        std::string::npos);
 }
 
 TEST(Gltf, ADamagedOrMissingPictureIsRefusedByName) {
@@ -290,11 +306,14 @@ TEST(Gltf, ADamagedOrMissingPictureIsRefusedByName) {
     const std::string text = triangle_with(
         R"(,"images":[{"uri":"torn.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
     const std::string used = replaced(text, R"("POSITION":0})", R"("POSITION":0},"material":0)");
-    EXPECT_TRUE(load_mesh(folder.write("model.gltf", text)).has_value()) << "nothing shows it, so it is not read";
-    EXPECT_NE(error_of(load_mesh(folder.write("model.gltf", used))).find("images[0] (torn.png): the PNG picture is damaged"),
+    EXPECT_TRUE(load_mesh(folder.write("model.gltf", text)).has_value())
+        << "nothing shows it, so it is not read";
+    EXPECT_NE(error_of(load_mesh(folder.write("model.gltf", used)))
+                  .find("images[0] (torn.png): the PNG picture is damaged"),
               std::string::npos);
-    EXPECT_NE(error_of(load_mesh(folder.write("model.gltf", replaced(used, "torn", "gone")))).find("no such file"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of(load_mesh(folder.write("model.gltf", replaced(used, "torn", "gone")))).find("no such file"),
+        std::string::npos);
 }
 
 } // namespace

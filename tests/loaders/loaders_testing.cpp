@@ -2,14 +2,14 @@
 
 #include "assets_baked/bake/loaders/load_bytes.h"
 
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 namespace frustumscreen::testing {
 
@@ -40,7 +40,8 @@ std::string error_of(const Result<SourceMesh>& mesh) {
 }
 
 std::string base64(std::string_view bytes) {
-    static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
@@ -63,7 +64,9 @@ std::string gltf_text(std::string_view bytes, std::string_view members) {
 std::string glb_bytes(std::string json, std::string binary) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    const auto word = [](std::size_t value) { return bytes_of(std::vector{static_cast<std::uint32_t>(value)}); };
+    const auto word = [](std::size_t value) {
+        return bytes_of(std::vector{static_cast<std::uint32_t>(value)});
+    };
     std::string glb = "glTF" + word(2) + word(12 + 8 + json.size() + 8 + binary.size());
     glb += word(json.size()) + "JSON" + json;
     glb += word(binary.size()) + std::string("BIN\0", 4) + binary;
@@ -125,9 +128,13 @@ void expect_sound(const SourceMesh& mesh) {
     }
 }
 
-std::filesystem::path shared_data() { return std::filesystem::path(FRUSTUMSCREEN_SHARED_DIR) / "data"; }
+std::filesystem::path shared_data() {
+    return std::filesystem::path(FRUSTUMSCREEN_SHARED_DIR) / "data";
+}
 
-bool has_shared_data() { return std::filesystem::exists(shared_data() / "INDEX.tsv"); }
+bool has_shared_data() {
+    return std::filesystem::exists(shared_data() / "INDEX.tsv");
+}
 
 std::vector<IndexRow> shared_index() {
     std::vector<IndexRow> rows;

@@ -1,13 +1,14 @@
-/// Helpers of the loaders' tests: files made on the spot, plain measures of a mesh, the index of the shared models.
+/// Helpers of the loaders' tests: files made on the spot, plain measures of a mesh, the index of the shared
+/// models.
 #pragma once
+
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
 
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "assets_baked/bake/load_mesh.h"
-#include "firmware_host/base/file.h"
 
 namespace frustumscreen::testing {
 
@@ -63,8 +64,8 @@ std::vector<IndexRow> shared_index();
 
 } // namespace frustumscreen::testing
 
-#define FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA()                                                                  \
-    if (!::frustumscreen::testing::has_shared_data()) {                                                           \
-        GTEST_SKIP() << "skipped: the folder of real models is not here: "                                        \
-                     << ::frustumscreen::testing::shared_data();                                                  \
+#define FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA()                                                             \
+    if (!::frustumscreen::testing::has_shared_data()) {                                                      \
+        GTEST_SKIP() << "skipped: the folder of real models is not here: "                                   \
+                     << ::frustumscreen::testing::shared_data();                                             \
     }

@@ -1,12 +1,12 @@
 /// Thousands of damaged models: each is refused in one line or loads to a sound mesh; none crashes or hangs.
-#include <chrono>
-#include <fstream>
-#include <random>
+#include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/sample_models.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
-#include "tests/loaders/sample_models.h"
+#include <chrono>
+#include <fstream>
+#include <random>
 
 namespace frustumscreen::testing {
 namespace {
@@ -64,7 +64,7 @@ private:
     /// The digits around a random place, if there are any.
     void replace_number(std::string& bytes) {
         static constexpr std::array<std::string_view, 14> numbers = {
-            "0", "-1", "3", "255", "65536", "4294967295", "4294967296", "99999999999999999999",
+            "0",    "-1",    "3",    "255", "65536", "4294967295", "4294967296", "99999999999999999999",
             "1e30", "1e999", "-0.5", "nan", "\"x\"", "[]"};
         const std::string_view digits = "0123456789.+-e";
         const std::size_t some = bytes.find_first_of("0123456789", place(bytes));

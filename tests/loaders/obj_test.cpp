@@ -1,9 +1,9 @@
-#include <cmath>
+#include "app/image/image.h"
+#include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
 
-#include "app/image/image.h"
-#include "tests/loaders/loaders_testing.h"
+#include <cmath>
 
 namespace frustumscreen::testing {
 namespace {
@@ -30,8 +30,9 @@ TEST(Obj, NegativeIndicesCountBackFromTheLastVertex) {
 
 TEST(Obj, EveryFormOfACornerIsRead) {
     const std::string extra = "vt 0.25 0.25\nvn 0 0 1\n";
-    for (const char* face : {"f 1 2 3\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1\n",
-                             "f 1// 2// 3//\n", "f 1 2 3 # with a remark\n", "f 1 2 \\\n 3\n", "f 1 2 3\r\n"}) {
+    for (const char* face :
+         {"f 1 2 3\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1\n", "f 1// 2// 3//\n",
+          "f 1 2 3 # with a remark\n", "f 1 2 \\\n 3\n", "f 1 2 3\r\n"}) {
         SCOPED_TRACE(face);
         EXPECT_EQ(mesh_of(square + extra + face).triangles.size(), 1U);
     }
@@ -78,8 +79,9 @@ TEST(Obj, MaterialsBringColourAndPicture) {
     const Bytes png = encode_png(picture);
     folder.write("maps/my wood.png", as_text(png));
     folder.write("model.mtl", "newmtl red\nKd 1 0.5 0\nnewmtl wood\nKd 1 1 1\nmap_Kd maps\\my wood.png\n");
-    const Result<SourceMesh> mesh = load_mesh(folder.write(
-        "model.obj", "mtllib model.mtl\n" + square + "vt 0 0\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1 3/1 4/1\n"));
+    const Result<SourceMesh> mesh =
+        load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + square +
+                                                "vt 0 0\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1 3/1 4/1\n"));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     expect_sound(*mesh);
     EXPECT_EQ(mesh->materials[mesh->triangle_materials[0]].base_colour, glm::vec4(1.0F, 0.5F, 0.0F, 1.0F));

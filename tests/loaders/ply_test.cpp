@@ -1,9 +1,9 @@
-#include <algorithm>
+#include "tests/loaders/loaders_testing.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
+#include <algorithm>
 
 namespace frustumscreen::testing {
 namespace {
@@ -50,14 +50,15 @@ TEST(Ply, CarriageReturnsAndOtherLineEndsAreRead) {
 
 /// Doubles, unsigned short lengths, short indices, an unknown list before and an unknown element between.
 std::string awkward_binary(bool big) {
-    std::string file = fmt::format("ply\nformat binary_{}_endian 1.0\n"
-                                   "element face 1\nproperty uchar flags\n"
-                                   "property list ushort short vertex_index\n"
-                                   "element camera 2\nproperty list uint double view\nproperty char id\n"
-                                   "element vertex 3\nproperty list uchar float spare\n"
-                                   "property double z\nproperty double y\nproperty double x\n"
-                                   "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-                                   big ? "big" : "little");
+    std::string file =
+        fmt::format("ply\nformat binary_{}_endian 1.0\n"
+                    "element face 1\nproperty uchar flags\n"
+                    "property list ushort short vertex_index\n"
+                    "element camera 2\nproperty list uint double view\nproperty char id\n"
+                    "element vertex 3\nproperty list uchar float spare\n"
+                    "property double z\nproperty double y\nproperty double x\n"
+                    "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+                    big ? "big" : "little");
     file += binary(std::uint8_t{7}, big) + binary(std::uint16_t{3}, big);
     for (const std::int16_t index : {std::int16_t{0}, std::int16_t{1}, std::int16_t{2}}) {
         file += binary(index, big);
@@ -88,8 +89,9 @@ TEST(Ply, BothByteOrdersAndUnknownPartsAreRead) {
 }
 
 TEST(Ply, FloatColoursAreSrgbInZeroToOne) {
-    std::string text = replaced(square_header, "property float z\n",
-                                "property float z\nproperty float red\nproperty float green\nproperty float blue\n");
+    std::string text =
+        replaced(square_header, "property float z\n",
+                 "property float z\nproperty float red\nproperty float green\nproperty float blue\n");
     text += "0 0 0 0.5 1 0\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 2 nan -1\n4 0 1 2 3\n";
     const Result<SourceMesh> mesh = load_text("square.ply", text);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
@@ -104,8 +106,9 @@ TEST(Ply, TriangleStripsTurnEverySecondTriangleAndStartAfresh) {
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     ASSERT_EQ(mesh->triangles.size(), 3U);
     for (const auto& [a, b, c] : mesh->triangles) {
-        EXPECT_GT(glm::cross(mesh->positions[b] - mesh->positions[a], mesh->positions[c] - mesh->positions[a]).z,
-                  0.0);
+        EXPECT_GT(
+            glm::cross(mesh->positions[b] - mesh->positions[a], mesh->positions[c] - mesh->positions[a]).z,
+            0.0);
     }
 }
 
@@ -142,9 +145,9 @@ TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
 }
 
 TEST(Ply, AnElementWithoutPropertiesMayClaimAnyCount) {
-    const Result<SourceMesh> mesh =
-        load_text("square.ply", replaced(square_header, "element face", "element empty 9000000000000\nelement face") +
-                                    square_data);
+    const Result<SourceMesh> mesh = load_text(
+        "square.ply",
+        replaced(square_header, "element face", "element empty 9000000000000\nelement face") + square_data);
     EXPECT_TRUE(mesh.has_value());
 }
 

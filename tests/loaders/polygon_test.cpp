@@ -1,8 +1,8 @@
 #include "assets_baked/bake/loaders/polygon.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace frustumscreen::testing {
 namespace {
@@ -30,7 +30,9 @@ void expect_covered(const std::vector<glm::dvec3>& corners, double area) {
     EXPECT_NEAR(sum, area, 1e-12);
 }
 
-TEST(Polygon, AConvexPolygonIsCovered) { expect_covered({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, 2.0); }
+TEST(Polygon, AConvexPolygonIsCovered) {
+    expect_covered({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, 2.0);
+}
 
 TEST(Polygon, AConcaveQuadIsNotFoldedOver) {
     // An arrowhead, its notch at every corner in turn.

@@ -1,14 +1,14 @@
 #include "tests/loaders/sample_models.h"
 
-#include <cmath>
+#include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/sample_pictures.h"
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include "tests/loaders/loaders_testing.h"
-#include "tests/loaders/sample_pictures.h"
+#include <cmath>
 
 namespace frustumscreen::testing {
 
@@ -51,7 +51,8 @@ std::string draco_glb(int n, bool edge_breaker) {
     const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
     draco::Encoder encoder;
     encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 12);
-    encoder.SetEncodingMethod(edge_breaker ? draco::MESH_EDGEBREAKER_ENCODING : draco::MESH_SEQUENTIAL_ENCODING);
+    encoder.SetEncodingMethod(edge_breaker ? draco::MESH_EDGEBREAKER_ENCODING
+                                           : draco::MESH_SEQUENTIAL_ENCODING);
     draco::EncoderBuffer buffer;
     if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok()) {
         return {};
@@ -96,8 +97,8 @@ std::string meshopt_glb(int n) {
         R"({{"bufferView":1,"componentType":5125,"type":"SCALAR","count":{8}}}],)"
         R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],"nodes":[{{"mesh":0}}],)"
         R"("scenes":[{{"nodes":[0]}}]}})",
-        packed.size(), count * 12 + indices.size() * 4, count * 12, vertices.size(), count, indices.size() * 4,
-        second, triangles.size(), indices.size());
+        packed.size(), count * 12 + indices.size() * 4, count * 12, vertices.size(), count,
+        indices.size() * 4, second, triangles.size(), indices.size());
     return glb_bytes(json, packed);
 }
 
@@ -122,11 +123,11 @@ std::string grid_stl(int n) {
 std::string grid_ply(int n, bool text) {
     const std::vector<float> positions = grid_positions(n);
     const std::vector<unsigned int> indices = grid_indices(n);
-    std::string file = fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-                                   "property float z\nelement face {}\nproperty list uchar uint vertex_indices\n"
-                                   "end_header\n",
-                                   text ? "ascii" : "binary_little_endian", positions.size() / 3,
-                                   indices.size() / 3);
+    std::string file =
+        fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                    "property float z\nelement face {}\nproperty list uchar uint vertex_indices\n"
+                    "end_header\n",
+                    text ? "ascii" : "binary_little_endian", positions.size() / 3, indices.size() / 3);
     for (std::size_t i = 0; i < positions.size(); i += 3) {
         file += text ? fmt::format("{} {} {}\n", positions[i], positions[i + 1], positions[i + 2])
                      : bytes_of(std::vector{positions[i], positions[i + 1], positions[i + 2]});
@@ -156,21 +157,22 @@ std::string grid_obj(int n) {
 }
 
 std::string grid_stl_text() {
-    return "solid s\n facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1e-3 0\n endloop\n"
+    return "solid s\n facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1e-3 0\n "
+           "endloop\n"
            " endfacet\nendsolid s\n";
 }
 
-/// Everything that a glTF text can say about a triangle: two nested nodes, a skin, a morph, a sparse accessor,
-/// interleaved and normalised attributes, a texture with a transform.
+/// Everything that a glTF text can say about a triangle: two nested nodes, a skin, a morph, a sparse
+/// accessor, interleaved and normalised attributes, a texture with a transform.
 std::string rich_gltf(const std::string& picture) {
-    std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}); // 0: positions
-    bytes += bytes_of(std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535, 65535, 65535}); // 48: uvs
-    bytes += std::string("\xff\x80\x40\xff", 4) + std::string(12, '\x7f');                 // 64: colours
-    bytes += bytes_of(std::vector<std::uint16_t>{0, 1, 2, 3});                             // 80: indices
+    std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});     // 0: positions
+    bytes += bytes_of(std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535, 65535, 65535});    // 48: uvs
+    bytes += std::string("\xff\x80\x40\xff", 4) + std::string(12, '\x7f');                    // 64: colours
+    bytes += bytes_of(std::vector<std::uint16_t>{0, 1, 2, 3});                                // 80: indices
     bytes += bytes_of(std::vector<std::uint32_t>{3}) + bytes_of(std::vector<float>{2, 2, 0}); // 88: sparse
     bytes += std::string(16, '\0');                                                           // 104: joints
-    bytes += bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});     // 120: weights
-    bytes += bytes_of(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});     // 184: bind matrix
+    bytes += bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});    // 120: weights
+    bytes += bytes_of(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}); // 184: bind matrix
     const std::size_t picture_offset = bytes.size();
     bytes += picture;
     return gltf_text(

@@ -17,8 +17,8 @@ std::vector<unsigned int> grid_indices(int n);
 
 /// KHR_draco_mesh_compression of that grid, edge breaker or sequential.
 std::string draco_glb(int n, bool edge_breaker);
-/// EXT_meshopt_compression of that grid: a vertex view with the exponential filter, a triangle view, a fallback
-/// buffer without data.
+/// EXT_meshopt_compression of that grid: a vertex view with the exponential filter, a triangle view, a
+/// fallback buffer without data.
 std::string meshopt_glb(int n);
 
 /// At least one of each format and of each compression; all of them load.

@@ -1,12 +1,12 @@
 #include "tests/loaders/sample_pictures.h"
 
-#include <vector>
+#include "firmware_host/base/file.h"
 
 #include <png.h>
 #include <turbojpeg.h>
 #include <webp/encode.h>
 
-#include "firmware_host/base/file.h"
+#include <vector>
 
 namespace frustumscreen::testing {
 
@@ -51,7 +51,8 @@ std::string jpeg_of(const Image8& image) {
 
 std::string webp_of(const Image8& image) {
     std::uint8_t* out = nullptr;
-    const std::size_t size = WebPEncodeLosslessRGBA(raw(image), image.width, image.height, image.width * 4, &out);
+    const std::size_t size =
+        WebPEncodeLosslessRGBA(raw(image), image.width, image.height, image.width * 4, &out);
     std::string bytes(reinterpret_cast<const char*>(out), size);
     WebPFree(out);
     return bytes;
@@ -63,8 +64,8 @@ std::string grey_ramp_png(int depth, bool with_gamma) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_set_write_fn(png, &file, append, nullptr);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(width), 1, depth, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), 1, depth, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (with_gamma) {
         png_set_gAMA(png, info, 1.0);
     }

@@ -1,9 +1,9 @@
 /// Small pictures, written by the libraries' own encoders.
 #pragma once
 
-#include <string>
-
 #include "app/image/image.h"
+
+#include <string>
 
 namespace frustumscreen::testing {
 

@@ -1,10 +1,10 @@
-#include <chrono>
-#include <cmath>
-#include <map>
+#include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
+#include <chrono>
+#include <cmath>
+#include <map>
 
 namespace frustumscreen::testing {
 namespace {
@@ -105,8 +105,8 @@ glm::dvec3 mean_colour(const SourceMesh& mesh) {
         const glm::u8vec4 texel =
             image.at(std::min(static_cast<int>(wrapped.x * image.width), image.width - 1),
                      std::min(static_cast<int>(wrapped.y * image.height), image.height - 1));
-        const double area = glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
-                                                   mesh.positions[c] - mesh.positions[a]));
+        const double area = glm::length(
+            glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
         sum += area * glm::dvec3(texel);
         total += area;
     }

@@ -1,14 +1,15 @@
-#include <cstring>
-#include <limits>
+#include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/loaders_testing.h"
+#include <cstring>
+#include <limits>
 
 namespace frustumscreen::testing {
 namespace {
 
-std::string binary_stl(const std::vector<std::array<float, 9>>& facets, std::string header = "made for a test") {
+std::string binary_stl(const std::vector<std::array<float, 9>>& facets,
+                       std::string header = "made for a test") {
     header.resize(80, ' ');
     std::string file = header + bytes_of(std::vector{static_cast<std::uint32_t>(facets.size())});
     for (const std::array<float, 9>& facet : facets) {
@@ -79,7 +80,8 @@ TEST(Stl, APositionThatIsNoNumberIsRefusedByName) {
 
 TEST(Stl, NoTrianglesAreRefused) {
     EXPECT_NE(error_of(load_text("part.stl", binary_stl({}))).find("no triangles"), std::string::npos);
-    EXPECT_NE(error_of(load_text("part.stl", "solid x\nendsolid x\n")).find("no triangles"), std::string::npos);
+    EXPECT_NE(error_of(load_text("part.stl", "solid x\nendsolid x\n")).find("no triangles"),
+              std::string::npos);
 }
 
 TEST(Stl, AFacetWithFourVerticesIsRefused) {

@@ -149,11 +149,13 @@ TEST(Picture, CullingTakesNothingAway) {
 
 TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     Rig sharp(256, 160, 1);
+    sharp.artifact = ArtifactGpu::upload(sharp.pack, 0, {1.0F, 0.0F}).value(); // no sharper than a pixel
     Stage stage(256, 160);
     plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
     sharp.draw();
     const Image8 one = sharp.picture();
     Rig smooth(256, 160, 4);
+    smooth.artifact = ArtifactGpu::upload(smooth.pack, 0, {1.0F, 0.0F}).value();
     plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
     smooth.draw();
     const Image8 four = smooth.picture();

@@ -1,14 +1,14 @@
 /// Numbers out of raw bytes, bounds checked.
 #pragma once
 
+#include "assets_baked/bake/loaders/refusal.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
-
-#include "assets_baked/bake/loaders/refusal.h"
 
 namespace frustumscreen {
 

@@ -1,29 +1,36 @@
 #include "assets_baked/bake/loaders/decode_image.h"
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string_view>
+#include "firmware_host/base/file.h"
 
 #include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
 
-#include "firmware_host/base/file.h"
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
 
 namespace frustumscreen {
 
 namespace {
 
-const std::uint8_t* raw(ByteView bytes) { return reinterpret_cast<const std::uint8_t*>(bytes.data()); }
-std::uint8_t* raw(Image8& image) { return reinterpret_cast<std::uint8_t*>(image.texels.data()); }
+const std::uint8_t* raw(ByteView bytes) {
+    return reinterpret_cast<const std::uint8_t*>(bytes.data());
+}
+std::uint8_t* raw(Image8& image) {
+    return reinterpret_cast<std::uint8_t*>(image.texels.data());
+}
 
-bool begins_with(ByteView bytes, std::string_view magic) { return as_text(bytes).starts_with(magic); }
+bool begins_with(ByteView bytes, std::string_view magic) {
+    return as_text(bytes).starts_with(magic);
+}
 
 Result<Image8> blank_image(std::int64_t width, std::int64_t height, std::int64_t limit_texels) {
     if (width < 1 || height < 1 || width > limit_texels / height) {
-        return bad_input(fmt::format("the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
-                                     width, height, limit_texels));
+        return bad_input(fmt::format(
+            "the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
+            width, height, limit_texels));
     }
     return Image8(static_cast<int>(width), static_cast<int>(height));
 }

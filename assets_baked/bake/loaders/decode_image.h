@@ -1,15 +1,16 @@
-/// A texture's bytes into 8-bit sRGB with alpha. PNG (any depth), JPEG and WebP, told apart by their first bytes.
+/// A texture's bytes into 8-bit sRGB with alpha. PNG (any depth), JPEG and WebP, told apart by their first
+/// bytes.
 ///
 /// Colour   profiles and gamma notes inside the files are ignored, as glTF 2.0 (3.8.1) asks: texels are sRGB.
 /// Errors   not one of the three, damaged or truncated, animated, more than `limit_texels`.
 /// Threads  pure; any.
 #pragma once
 
-#include <cstdint>
-
 #include "app/image/image.h"
 #include "assets_baked/bake/loaders/bytes.h"
 #include "firmware_host/base/result.h"
+
+#include <cstdint>
 
 namespace frustumscreen {
 

@@ -6,8 +6,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// The best packing seen in practice is some 20 faces a byte (a flat, regular grid); far beyond that a count is
-/// made up.
+/// The best packing seen in practice is some 20 faces a byte (a flat, regular grid); far beyond that a count
+/// is made up.
 constexpr std::uint64_t most_faces_per_byte = 1024;
 constexpr int most_metadata_levels = 8;
 
@@ -51,7 +51,8 @@ private:
 
 void skip_metadata(Cursor& cursor, int level, const std::string& place) {
     if (level > most_metadata_levels) {
-        refuse("{}: the Draco stream's metadata are nested deeper than {} levels", place, most_metadata_levels);
+        refuse("{}: the Draco stream's metadata are nested deeper than {} levels", place,
+               most_metadata_levels);
     }
     for (std::uint64_t entries = cursor.take_variable(); entries > 0; --entries) {
         cursor.skip(cursor.take<std::uint8_t>());

@@ -5,10 +5,10 @@
 /// Source   Draco 3D Graphics, Bitstream Specification 2.2, "Header", "Metadata", "Connectivity".
 #pragma once
 
+#include "assets_baked/bake/loaders/bytes.h"
+
 #include <cstdint>
 #include <string>
-
-#include "assets_baked/bake/loaders/bytes.h"
 
 namespace frustumscreen {
 

@@ -1,9 +1,9 @@
 #include "assets_baked/bake/loaders/gltf_attribute.h"
 
+#include "assets_baked/bake/loaders/refusal.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "assets_baked/bake/loaders/refusal.h"
 
 namespace frustumscreen {
 
@@ -53,7 +53,9 @@ GltfAttribute::GltfAttribute(const GltfModel& model, std::size_t accessor,
       components_(components), type_(model.accessors[accessor].type),
       normalised_(model.accessors[accessor].normalised), numbers_(std::move(numbers)) {}
 
-void GltfAttribute::normalise() { normalised_ = true; }
+void GltfAttribute::normalise() {
+    normalised_ = true;
+}
 
 double GltfAttribute::raw(std::size_t element, std::size_t component) const {
     if (element >= count_ || component >= components_) {
@@ -81,7 +83,9 @@ double GltfAttribute::value(std::size_t element, std::size_t component) const {
     return normalised_ && type_ != ComponentType::F32 ? std::max(number / one_of(type_), -1.0) : number;
 }
 
-glm::dvec2 GltfAttribute::vec2(std::size_t element) const { return {value(element, 0), value(element, 1)}; }
+glm::dvec2 GltfAttribute::vec2(std::size_t element) const {
+    return {value(element, 0), value(element, 1)};
+}
 
 glm::dvec3 GltfAttribute::vec3(std::size_t element) const {
     return {value(element, 0), value(element, 1), value(element, 2)};

@@ -1,19 +1,19 @@
 /// One accessor, read element by element straight from its bytes: strides, normalised integers and sparse
-/// replacements as glTF 2.0, 3.6.2 has them. Nothing is unpacked that is not asked for, so a small file cannot make
-/// large arrays.
+/// replacements as glTF 2.0, 3.6.2 has them. Nothing is unpacked that is not asked for, so a small file
+/// cannot make large arrays.
 ///
 /// Lifetime  points into GltfBuffers.
 /// Errors    throws Refusal: an element that is not finite, sparse indices out of order.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
+#include "assets_baked/bake/loaders/gltf_buffers.h"
+#include "assets_baked/bake/loaders/gltf_model.h"
 
 #include <glm/glm.hpp>
 
-#include "assets_baked/bake/loaders/gltf_buffers.h"
-#include "assets_baked/bake/loaders/gltf_model.h"
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace frustumscreen {
 

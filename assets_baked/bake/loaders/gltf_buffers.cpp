@@ -1,8 +1,8 @@
 #include "assets_baked/bake/loaders/gltf_buffers.h"
 
-#include <meshoptimizer.h>
-
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <meshoptimizer.h>
 
 namespace frustumscreen {
 
@@ -44,9 +44,9 @@ Bytes base64_decoded(std::string_view text, std::string_view place) {
     return bytes;
 }
 
-/// The decoder needs its output allocated first, so a count must be one that the packed bytes can hold at all:
-/// a vertex block spends at least four header bytes on 256 vertices of each byte of a vertex; an index spends a
-/// byte on a triangle or on an index.
+/// The decoder needs its output allocated first, so a count must be one that the packed bytes can hold at
+/// all: a vertex block spends at least four header bytes on 256 vertices of each byte of a vertex; an index
+/// spends a byte on a triangle or on an index.
 bool is_plausible(const GltfMeshopt& meshopt) {
     const std::uint64_t packed = meshopt.byte_length;
     switch (meshopt.mode) {
@@ -76,7 +76,8 @@ void check_form(const GltfMeshopt& meshopt, const std::string& place) {
         refuse("{}.filter: does not go with a stride of {} in this mode", place, stride);
     }
     if (!is_plausible(meshopt)) {
-        refuse("{}.count: {} elements cannot be packed into {} bytes", place, meshopt.count, meshopt.byte_length);
+        refuse("{}.count: {} elements cannot be packed into {} bytes", place, meshopt.count,
+               meshopt.byte_length);
     }
 }
 
@@ -84,11 +85,13 @@ int decode(const GltfMeshopt& meshopt, ByteView packed, Bytes& out) {
     const auto* data = reinterpret_cast<const unsigned char*>(packed.data());
     switch (meshopt.mode) {
     case MeshoptMode::Attributes:
-        return meshopt_decodeVertexBuffer(out.data(), meshopt.count, meshopt.byte_stride, data, packed.size());
+        return meshopt_decodeVertexBuffer(out.data(), meshopt.count, meshopt.byte_stride, data,
+                                          packed.size());
     case MeshoptMode::Triangles:
         return meshopt_decodeIndexBuffer(out.data(), meshopt.count, meshopt.byte_stride, data, packed.size());
     default:
-        return meshopt_decodeIndexSequence(out.data(), meshopt.count, meshopt.byte_stride, data, packed.size());
+        return meshopt_decodeIndexSequence(out.data(), meshopt.count, meshopt.byte_stride, data,
+                                           packed.size());
     }
 }
 
@@ -202,8 +205,8 @@ const std::vector<std::uint32_t>& GltfBuffers::sparse_elements(std::size_t acces
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const double element = number_at(bytes, i * size_of(sparse.indices_type), sparse.indices_type);
         if (element >= static_cast<double>(count) || (i > 0 && element <= elements.back())) {
-            refuse("accessors[{}].sparse.indices: element {} is {}; ascending numbers below {} are allowed", accessor,
-                   i, element, count);
+            refuse("accessors[{}].sparse.indices: element {} is {}; ascending numbers below {} are allowed",
+                   accessor, i, element, count);
         }
         elements.push_back(static_cast<std::uint32_t>(element));
     }
@@ -218,7 +221,8 @@ Bytes GltfBuffers::unpacked(std::size_t view) {
     spend_packed(meshopt.byte_length, place);
     Bytes out(meshopt.count * meshopt.byte_stride);
     if (out.size() < model_.views[view].byte_length) {
-        refuse("{}: unpacks to {} bytes, but the view has {}", place, out.size(), model_.views[view].byte_length);
+        refuse("{}: unpacks to {} bytes, but the view has {}", place, out.size(),
+               model_.views[view].byte_length);
     }
     if (decode(meshopt, packed, out) != 0) {
         refuse("{}: the packed data are damaged", place);

@@ -5,14 +5,14 @@
 /// Errors    throws Refusal: missing or short data, a damaged stream.
 #pragma once
 
+#include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/loaders/gltf_model.h"
+#include "assets_baked/bake/loaders/sidecar.h"
+
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/loaders/gltf_model.h"
-#include "assets_baked/bake/loaders/sidecar.h"
 
 namespace frustumscreen {
 
@@ -24,8 +24,8 @@ public:
     [[nodiscard]] ByteView view(std::size_t index);
     /// Elements that a sparse accessor replaces, ascending.
     [[nodiscard]] const std::vector<std::uint32_t>& sparse_elements(std::size_t accessor);
-    /// To be called before `bytes` packed ones are unpacked. Every packed byte serves once, so that no file can have
-    /// the same ones unpacked over and over.
+    /// To be called before `bytes` packed ones are unpacked. Every packed byte serves once, so that no file
+    /// can have the same ones unpacked over and over.
     void spend_packed(std::uint64_t bytes, const std::string& place);
 
 private:

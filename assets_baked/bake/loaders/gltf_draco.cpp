@@ -1,9 +1,9 @@
 #include "assets_baked/bake/loaders/gltf_draco.h"
 
-#include <draco/compression/decode.h>
-
 #include "assets_baked/bake/loaders/draco_counts.h"
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <draco/compression/decode.h>
 
 namespace frustumscreen {
 
@@ -44,7 +44,8 @@ double number_at(ByteView bytes, std::size_t offset, draco::DataType type, const
     }
 }
 
-DracoNumbers numbers_of(const draco::PointAttribute& attribute, std::size_t points, const std::string& place) {
+DracoNumbers numbers_of(const draco::PointAttribute& attribute, std::size_t points,
+                        const std::string& place) {
     const auto components = static_cast<std::size_t>(attribute.num_components());
     const draco::DataType type = attribute.data_type();
     const std::size_t component_size = byte_size(type);
@@ -61,7 +62,8 @@ DracoNumbers numbers_of(const draco::PointAttribute& attribute, std::size_t poin
             attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(point)));
         const auto offset = static_cast<std::size_t>(attribute.GetBytePos(row));
         for (std::size_t component = 0; component < components; ++component) {
-            numbers.push_back(number_at(bytes, offset + component * component_size, type, place)); // checks range
+            numbers.push_back(
+                number_at(bytes, offset + component * component_size, type, place)); // checks range
         }
     }
     return {std::make_shared<const std::vector<double>>(std::move(numbers)), components};

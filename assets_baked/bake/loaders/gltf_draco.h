@@ -3,14 +3,14 @@
 /// Errors   throws Refusal. The library is handed streams whose counts were checked (draco_counts.h).
 #pragma once
 
+#include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/loaders/gltf_model.h"
+
 #include <array>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/loaders/gltf_model.h"
 
 namespace frustumscreen {
 

@@ -1,17 +1,17 @@
 #include "assets_baked/bake/loaders/gltf_model.h"
 
+#include "assets_baked/bake/loaders/refusal.h"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
-
-#include "assets_baked/bake/loaders/refusal.h"
 
 namespace frustumscreen {
 
 namespace {
 
-/// Extensions that are followed, and those that change neither shape nor base colour: a file that requires one of
-/// the latter is still shown rightly here.
+/// Extensions that are followed, and those that change neither shape nor base colour: a file that requires
+/// one of the latter is still shown rightly here.
 constexpr std::array known_extensions = {
     std::string_view("KHR_draco_mesh_compression"),
     std::string_view("EXT_meshopt_compression"),
@@ -37,8 +37,8 @@ void check_header(const JsonPlace& document) {
     for (std::size_t i = 0; required && i < required->size(); ++i) {
         const std::string name = (*required)[i].text();
         if (std::find(known_extensions.begin(), known_extensions.end(), name) == known_extensions.end()) {
-            refuse("extensionsRequired[{}]: the extension {} is not supported; export the model without it", i,
-                   name.substr(0, 80));
+            refuse("extensionsRequired[{}]: the extension {} is not supported; export the model without it",
+                   i, name.substr(0, 80));
         }
     }
 }
@@ -65,8 +65,8 @@ void check_range(const JsonPlace& place, const GltfModel& model, std::size_t buf
                  std::uint64_t length) {
     const std::uint64_t available = model.buffers[buffer].byte_length;
     if (offset > available || length > available - offset) {
-        refuse("{}: bytes {} to {} are out of range, buffers[{}] has {}", place.path(), offset, offset + length,
-               buffer, available);
+        refuse("{}: bytes {} to {} are out of range, buffers[{}] has {}", place.path(), offset,
+               offset + length, buffer, available);
     }
 }
 
@@ -152,8 +152,10 @@ GltfSparse sparse_from(const JsonPlace& place, const GltfModel& model, std::size
 void check_elements(const std::string& place, const GltfModel& model, std::size_t view, std::uint64_t offset,
                     std::uint64_t stride, std::uint64_t size, std::uint64_t count) {
     const std::uint64_t available = model.views[view].byte_length;
-    if (offset > available || size > available - offset || (count - 1) > (available - offset - size) / stride) {
-        refuse("{}: {} elements of {} bytes, {} apart, from byte {} do not fit into bufferViews[{}], which has {}",
+    if (offset > available || size > available - offset ||
+        (count - 1) > (available - offset - size) / stride) {
+        refuse("{}: {} elements of {} bytes, {} apart, from byte {} do not fit into bufferViews[{}], which "
+               "has {}",
                place, count, size, stride, offset, view, available);
     }
 }
@@ -178,11 +180,11 @@ GltfAccessor accessor_from(const JsonPlace& place, const GltfModel& model) {
     if (accessor.view) {
         accessor.byte_stride = model.views[*accessor.view].byte_stride.value_or(element);
         if (accessor.byte_stride < element) {
-            refuse("{}: its elements have {} bytes, but bufferViews[{}] puts them {} apart", place.path(), element,
-                   *accessor.view, accessor.byte_stride);
+            refuse("{}: its elements have {} bytes, but bufferViews[{}] puts them {} apart", place.path(),
+                   element, *accessor.view, accessor.byte_stride);
         }
-        check_elements(place.path(), model, *accessor.view, accessor.byte_offset, accessor.byte_stride, element,
-                       accessor.count);
+        check_elements(place.path(), model, *accessor.view, accessor.byte_offset, accessor.byte_stride,
+                       element, accessor.count);
     }
     if (const auto sparse = place.find("sparse")) {
         accessor.sparse = sparse_from(*sparse, model, accessor.count);
@@ -255,8 +257,8 @@ GltfBuffer buffer_from(const JsonPlace& place, const GltfModel&) {
 }
 
 template <typename Part, typename Reader>
-void read_all(const JsonPlace& document, std::string_view key, const GltfModel& model, std::vector<Part>& parts,
-              Reader reader) {
+void read_all(const JsonPlace& document, std::string_view key, const GltfModel& model,
+              std::vector<Part>& parts, Reader reader) {
     const std::optional<JsonPlace> list = document.find(key);
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         parts.push_back(reader((*list)[i], model));

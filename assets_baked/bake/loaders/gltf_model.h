@@ -1,21 +1,22 @@
-/// A glTF 2.0 document as typed values: every member's type, range and reference is checked here, once, so that
-/// what follows may index freely. Bytes are not touched.
+/// A glTF 2.0 document as typed values: every member's type, range and reference is checked here, once, so
+/// that what follows may index freely. Bytes are not touched.
 ///
 /// Frames   node transforms are parent_from_node.
 /// Errors   throws Refusal naming the JSON place.
-/// Source   Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022), and the extensions named beside the members.
+/// Source   Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022), and the extensions named beside the
+/// members.
 #pragma once
+
+#include "assets_baked/bake/loaders/json_place.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
-
-#include "assets_baked/bake/loaders/json_place.h"
-#include "assets_baked/bake/source_mesh.h"
 
 namespace frustumscreen {
 
@@ -47,7 +48,14 @@ struct GltfBufferView {
     std::optional<GltfMeshopt> meshopt;
 };
 
-enum class ComponentType : std::uint16_t { I8 = 5120, U8 = 5121, I16 = 5122, U16 = 5123, U32 = 5125, F32 = 5126 };
+enum class ComponentType : std::uint16_t {
+    I8 = 5120,
+    U8 = 5121,
+    I16 = 5122,
+    U16 = 5123,
+    U32 = 5125,
+    F32 = 5126
+};
 
 struct GltfSparse {
     std::size_t count = 0;

@@ -1,9 +1,8 @@
 #include "assets_baked/bake/loaders/gltf_model.h"
+#include "assets_baked/bake/loaders/refusal.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
-
-#include "assets_baked/bake/loaders/refusal.h"
 
 namespace frustumscreen {
 

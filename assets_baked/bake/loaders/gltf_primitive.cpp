@@ -1,8 +1,8 @@
 #include "assets_baked/bake/loaders/gltf_primitive.h"
 
-#include <algorithm>
-
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <algorithm>
 
 namespace frustumscreen {
 
@@ -14,8 +14,12 @@ constexpr std::uint64_t mode_fan = 6;
 /// A sparse accessor may stand on zeros; an honest one is not larger than this.
 constexpr std::size_t most_positions_without_data = std::size_t{1} << 20U;
 
-bool is_small_integer(ComponentType type) { return type != ComponentType::F32 && type != ComponentType::U32; }
-bool is_small_unsigned(ComponentType type) { return type == ComponentType::U8 || type == ComponentType::U16; }
+bool is_small_integer(ComponentType type) {
+    return type != ComponentType::F32 && type != ComponentType::U32;
+}
+bool is_small_unsigned(ComponentType type) {
+    return type == ComponentType::U8 || type == ComponentType::U16;
+}
 
 void expect(const GltfPrimitive& primitive, const char* name, const GltfAttribute& attribute, bool fits,
             const char* allowed) {
@@ -32,8 +36,8 @@ void check_position(const GltfPrimitive& primitive, const GltfAttribute& positio
            quantised ? "three floats or small integers"
                      : "three floats (integers need KHR_mesh_quantization in extensionsUsed)");
     if (!position.has_data() && position.count() > most_positions_without_data) {
-        refuse("{}.attributes.POSITION: {} declares {} positions without data", primitive.place, position.place(),
-               position.count());
+        refuse("{}.attributes.POSITION: {} declares {} positions without data", primitive.place,
+               position.place(), position.count());
     }
 }
 
@@ -82,7 +86,8 @@ struct GltfPrimitives::Streams {
     const DracoMesh* draco = nullptr;
 
     [[nodiscard]] std::size_t corner_count() const {
-        return draco != nullptr ? draco->triangles.size() * 3 : (indices ? indices->count() : position->count());
+        return draco != nullptr ? draco->triangles.size() * 3
+                                : (indices ? indices->count() : position->count());
     }
 };
 
@@ -102,8 +107,8 @@ const DracoMesh* GltfPrimitives::draco_mesh(const GltfPrimitive& primitive) {
     return &known->second;
 }
 
-std::optional<GltfAttribute> GltfPrimitives::attribute(const GltfPrimitive& primitive, const std::string& name,
-                                                       const Streams& streams) {
+std::optional<GltfAttribute> GltfPrimitives::attribute(const GltfPrimitive& primitive,
+                                                       const std::string& name, const Streams& streams) {
     const auto accessor = primitive.attributes.find(name);
     if (accessor == primitive.attributes.end()) {
         return std::nullopt;
@@ -122,7 +127,8 @@ std::optional<GltfAttribute> GltfPrimitives::attribute(const GltfPrimitive& prim
     return found;
 }
 
-GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitive, const GltfPlacement& placement) {
+GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitive,
+                                                   const GltfPlacement& placement) {
     Streams streams;
     streams.place = primitive.place;
     streams.draco = draco_mesh(primitive);
@@ -134,8 +140,9 @@ GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitiv
     check_position(primitive, *streams.position, model_.quantised);
     if (primitive.indices && streams.draco == nullptr) {
         streams.indices.emplace(model_, buffers_, *primitive.indices);
-        const bool fits = streams.indices->components() == 1 && (is_small_unsigned(streams.indices->type()) ||
-                                                                 streams.indices->type() == ComponentType::U32);
+        const bool fits =
+            streams.indices->components() == 1 &&
+            (is_small_unsigned(streams.indices->type()) || streams.indices->type() == ComponentType::U32);
         expect(primitive, "indices", *streams.indices, fits, "unsigned whole numbers");
     }
     if (primitive.material) {
@@ -159,7 +166,8 @@ GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitiv
     return streams;
 }
 
-void GltfPrimitives::add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement, Streams& streams) {
+void GltfPrimitives::add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement,
+                                Streams& streams) {
     const std::size_t count = std::min(primitive.targets.size(), placement.morph_weights.size());
     for (std::size_t i = 0; i < count; ++i) {
         const auto accessor = primitive.targets[i].find("POSITION");
@@ -269,10 +277,12 @@ std::uint32_t GltfPrimitives::vertex(const Streams& streams, const GltfPlacement
     return added;
 }
 
-void GltfPrimitives::draw_corners(const Streams& streams, const GltfPlacement& placement, std::uint32_t material) {
+void GltfPrimitives::draw_corners(const Streams& streams, const GltfPlacement& placement,
+                                  std::uint32_t material) {
     // A node that mirrors turns counter-clockwise into clockwise (glTF 2.0, 3.7.4).
-    const glm::dmat4& transform = streams.joints_and_weights.empty() ? placement.scene_from_mesh
-                                                                     : placement.scene_from_mesh_by_joint.front();
+    const glm::dmat4& transform = streams.joints_and_weights.empty()
+                                      ? placement.scene_from_mesh
+                                      : placement.scene_from_mesh_by_joint.front();
     const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
     const std::size_t triangles = triangles_in(streams.mode, streams.corner_count());
     for (std::size_t i = 0; i < triangles; ++i) {

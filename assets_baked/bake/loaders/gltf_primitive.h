@@ -1,19 +1,19 @@
-/// Draws glTF primitives into a MeshAssembly: triangles, strips and fans, morph targets at their given weights, skins
-/// in the pose that the file's nodes are in. Points and lines are left out.
+/// Draws glTF primitives into a MeshAssembly: triangles, strips and fans, morph targets at their given
+/// weights, skins in the pose that the file's nodes are in. Points and lines are left out.
 ///
 /// Frames   scene coordinates.
 /// Errors   throws Refusal naming the primitive or the accessor.
 #pragma once
+
+#include "assets_baked/bake/loaders/gltf_attribute.h"
+#include "assets_baked/bake/loaders/gltf_draco.h"
+#include "assets_baked/bake/loaders/mesh_assembly.h"
 
 #include <array>
 #include <functional>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "assets_baked/bake/loaders/gltf_attribute.h"
-#include "assets_baked/bake/loaders/gltf_draco.h"
-#include "assets_baked/bake/loaders/mesh_assembly.h"
 
 namespace frustumscreen {
 
@@ -39,8 +39,8 @@ private:
     struct Streams;
 
     [[nodiscard]] Streams streams_of(const GltfPrimitive& primitive, const GltfPlacement& placement);
-    [[nodiscard]] std::optional<GltfAttribute> attribute(const GltfPrimitive& primitive, const std::string& name,
-                                                         const Streams& streams);
+    [[nodiscard]] std::optional<GltfAttribute> attribute(const GltfPrimitive& primitive,
+                                                         const std::string& name, const Streams& streams);
     [[nodiscard]] const DracoMesh* draco_mesh(const GltfPrimitive& primitive);
     void add_skin(const GltfPrimitive& primitive, Streams& streams);
     void add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement, Streams& streams);
@@ -55,8 +55,9 @@ private:
     MeshAssembly& mesh_;
     MaterialOf material_of_;
     std::map<std::pair<std::size_t, std::map<std::string, std::uint32_t, std::less<>>>, DracoMesh> draco_;
-    /// Element of the primitive -> vertex of the mesh; of this primitive where `drawn_in_` is `drawing_`. Only the
-    /// vertices that triangles use are made, and nothing is cleared between primitives that share long accessors.
+    /// Element of the primitive -> vertex of the mesh; of this primitive where `drawn_in_` is `drawing_`.
+    /// Only the vertices that triangles use are made, and nothing is cleared between primitives that share
+    /// long accessors.
     std::vector<std::uint32_t> vertex_of_;
     std::vector<std::uint32_t> drawn_in_;
     std::uint32_t drawing_ = 0;

@@ -1,8 +1,7 @@
 #include "assets_baked/bake/loaders/gltf_model.h"
+#include "assets_baked/bake/loaders/refusal.h"
 
 #include <cmath>
-
-#include "assets_baked/bake/loaders/refusal.h"
 
 namespace frustumscreen {
 
@@ -83,8 +82,8 @@ glm::vec4 colour_from(const JsonPlace& place) {
     return colour;
 }
 
-void read_colour(const JsonPlace& place, const char* factor_key, const char* texture_key, const GltfModel& model,
-                 GltfMaterial& material) {
+void read_colour(const JsonPlace& place, const char* factor_key, const char* texture_key,
+                 const GltfModel& model, GltfMaterial& material) {
     if (const auto factor = place.find(factor_key)) {
         material.base_colour = colour_from(*factor);
     }
@@ -95,7 +94,8 @@ void read_colour(const JsonPlace& place, const char* factor_key, const char* tex
 
 GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     GltfMaterial material;
-    // The older workflow, still common in museums' downloads; its diffuse colour is the nearest to a base colour.
+    // The older workflow, still common in museums' downloads; its diffuse colour is the nearest to a base
+    // colour.
     if (const auto glossiness = extension_of(place, "KHR_materials_pbrSpecularGlossiness")) {
         read_colour(*glossiness, "diffuseFactor", "diffuseTexture", model, material);
     } else if (const auto roughness = place.find("pbrMetallicRoughness")) {
@@ -109,8 +109,8 @@ GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
 } // namespace
 
 glm::dvec2 GltfTextureUse::transformed(const glm::dvec2& uv) const {
-    // Scale, then turn counter-clockwise as seen with v downwards, then shift: the extension's words, its example
-    // and its test model say so; the GLSL beside them turns the other way.
+    // Scale, then turn counter-clockwise as seen with v downwards, then shift: the extension's words, its
+    // example and its test model say so; the GLSL beside them turns the other way.
     const double c = std::cos(rotation);
     const double s = std::sin(rotation);
     const glm::dvec2 scaled = uv * scale;

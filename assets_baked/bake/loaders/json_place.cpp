@@ -1,10 +1,10 @@
 #include "assets_baked/bake/loaders/json_place.h"
 
-#include <cmath>
+#include "assets_baked/bake/loaders/refusal.h"
 
 #include <nlohmann/json.hpp>
 
-#include "assets_baked/bake/loaders/refusal.h"
+#include <cmath>
 
 namespace frustumscreen {
 

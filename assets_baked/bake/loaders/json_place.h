@@ -1,9 +1,11 @@
-/// A JSON value together with its place, so that every refusal can say where: `accessors[3].bufferView: 7 is out of
-/// range, the file has 4`.
+/// A JSON value together with its place, so that every refusal can say where: `accessors[3].bufferView: 7 is
+/// out of range, the file has 4`.
 ///
 /// Lifetime  a JsonPlace points into the document it came from.
 /// Errors    throws Refusal for a missing member, a wrong type, a number outside what is allowed.
 #pragma once
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -11,8 +13,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace frustumscreen {
 
@@ -41,7 +41,8 @@ public:
     [[nodiscard]] std::string text() const;
     [[nodiscard]] bool truth() const;
 
-    [[nodiscard]] std::uint64_t whole_or(std::string_view key, std::uint64_t fallback, std::uint64_t most = largest_whole) const;
+    [[nodiscard]] std::uint64_t whole_or(std::string_view key, std::uint64_t fallback,
+                                         std::uint64_t most = largest_whole) const;
     [[nodiscard]] double number_or(std::string_view key, double fallback) const;
     [[nodiscard]] std::string text_or(std::string_view key, std::string_view fallback) const;
     [[nodiscard]] bool truth_or(std::string_view key, bool fallback) const;

@@ -1,11 +1,11 @@
 /// load_mesh for bytes that are in memory already; tests and fuzzers need no file then.
 #pragma once
 
-#include <filesystem>
-
 #include "assets_baked/bake/loaders/bytes.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"
+
+#include <filesystem>
 
 namespace frustumscreen {
 

@@ -1,12 +1,12 @@
 #include "assets_baked/bake/loaders/load_gltf.h"
 
-#include <cmath>
-#include <map>
+#include "assets_baked/bake/loaders/gltf_primitive.h"
+#include "assets_baked/bake/loaders/picture_store.h"
 
 #include <nlohmann/json.hpp>
 
-#include "assets_baked/bake/loaders/gltf_primitive.h"
-#include "assets_baked/bake/loaders/picture_store.h"
+#include <cmath>
+#include <map>
 
 namespace frustumscreen {
 
@@ -72,7 +72,8 @@ nlohmann::json parse_json(std::string_view text) {
     } catch (const nlohmann::json::exception& error) {
         const std::string_view what = error.what();
         const std::size_t end_of_code = what.find("] ");
-        refuse("the JSON is damaged: {}", end_of_code == std::string_view::npos ? what : what.substr(end_of_code + 2));
+        refuse("the JSON is damaged: {}",
+               end_of_code == std::string_view::npos ? what : what.substr(end_of_code + 2));
     }
 }
 

@@ -1,16 +1,16 @@
 #include "assets_baked/bake/load_mesh.h"
 
-#include <algorithm>
-#include <exception>
-#include <new>
-#include <string>
-
 #include "assets_baked/bake/loaders/load_bytes.h"
 #include "assets_baked/bake/loaders/load_gltf.h"
 #include "assets_baked/bake/loaders/load_obj.h"
 #include "assets_baked/bake/loaders/load_ply.h"
 #include "assets_baked/bake/loaders/load_stl.h"
 #include "assets_baked/bake/loaders/text.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
 
 namespace frustumscreen {
 
@@ -36,7 +36,8 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// By content first: a file may have been renamed. STL and OBJ have no sure mark, so the extension decides there.
+/// By content first: a file may have been renamed. STL and OBJ have no sure mark, so the extension decides
+/// there.
 Format format_of(ByteView file, const std::filesystem::path& path) {
     const std::string_view head = as_text(file.subspan(0, std::min<std::size_t>(file.size(), 64 * 1024)));
     const std::string_view first = trimmed(head);
@@ -110,7 +111,8 @@ Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& p
 
 Result<SourceMesh> load_mesh(const std::filesystem::path& path) {
     const Result<Bytes> file = read_file(path);
-    return file ? load_mesh_bytes(*file, path) : Result<SourceMesh>(bad_input(one_line(file.error().message)));
+    return file ? load_mesh_bytes(*file, path)
+                : Result<SourceMesh>(bad_input(one_line(file.error().message)));
 }
 
 } // namespace frustumscreen

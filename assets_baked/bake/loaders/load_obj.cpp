@@ -1,17 +1,17 @@
 #include "assets_baked/bake/loaders/load_obj.h"
 
-#include <algorithm>
-#include <map>
-#include <sstream>
-#include <unordered_map>
-
-#include <tiny_obj_loader.h>
-
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/picture_store.h"
 #include "assets_baked/bake/loaders/polygon.h"
 #include "assets_baked/bake/loaders/sidecar.h"
 #include "assets_baked/bake/loaders/text.h"
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <unordered_map>
 
 namespace frustumscreen {
 
@@ -63,7 +63,8 @@ private:
         if (textured) {
             made.texture = texture(source.diffuse_texname, source.diffuse_texopt.clamp);
             // Writers that leave Kd black beside a picture mean the picture.
-            made.base_colour = glm::vec3(made.base_colour) == glm::vec3(0.0F) ? glm::vec4(1.0F) : made.base_colour;
+            made.base_colour =
+                glm::vec3(made.base_colour) == glm::vec3(0.0F) ? glm::vec4(1.0F) : made.base_colour;
         }
         return made;
     }
@@ -135,13 +136,15 @@ private:
         } else if (keyword == "usemtl") {
             material_ = trimmed(words.rest_of_line());
         } else if (keyword == "mtllib") {
-            materials_.read_library(std::string(trimmed(words.rest_of_line())), fmt::format("line {}: mtllib", line_));
+            materials_.read_library(std::string(trimmed(words.rest_of_line())),
+                                    fmt::format("line {}: mtllib", line_));
         }
     }
 
     std::vector<double> numbers(WordReader& words, std::size_t least) {
         std::vector<double> values;
-        for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next()) {
+        for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#');
+             word = words.next()) {
             const std::optional<double> value = number_from(word);
             if (!value) {
                 refuse("line {}: a number is expected, not \"{}\"", line_, word.substr(0, 40));
@@ -212,7 +215,8 @@ private:
         corners_.clear();
         points_.clear();
         triangles_.clear();
-        for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next()) {
+        for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#');
+             word = words.next()) {
             corners_.push_back(corner_from(word));
             points_.push_back(mesh_.positions()[corners_.back()]);
         }

@@ -1,13 +1,13 @@
 #include "assets_baked/bake/loaders/load_ply.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/ply_header.h"
 #include "assets_baked/bake/loaders/polygon.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace frustumscreen {
 
@@ -138,8 +138,8 @@ private:
             }
             (void)mesh_.add_vertex({v[0], v[1], v[2]}, "vertex", static_cast<std::size_t>(row));
             if (coloured) {
-                mesh_.set_colour(glm::vec4(linear_from_srgb(v[3]), linear_from_srgb(v[4]),
-                                           linear_from_srgb(v[5]), v[6]));
+                mesh_.set_colour(
+                    glm::vec4(linear_from_srgb(v[3]), linear_from_srgb(v[4]), linear_from_srgb(v[5]), v[6]));
             }
         }
     }
@@ -253,6 +253,8 @@ private:
 
 } // namespace
 
-SourceMesh load_ply(ByteView file) { return PlyReader(file).read(); }
+SourceMesh load_ply(ByteView file) {
+    return PlyReader(file).read();
+}
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
-/// PLY: ASCII and both byte orders; vertices with optional colours, faces as lists of any whole type, polygons cut
-/// into triangles, Stanford's triangle strips. Elements and properties of other names are skipped.
+/// PLY: ASCII and both byte orders; vertices with optional colours, faces as lists of any whole type,
+/// polygons cut into triangles, Stanford's triangle strips. Elements and properties of other names are
+/// skipped.
 ///
 /// Frame    the file's; up is y.
 /// Colour   red, green, blue (alpha): whole numbers are 8- or 16-bit sRGB codes, floats are sRGB in 0..1.

@@ -1,10 +1,10 @@
 #include "assets_baked/bake/loaders/load_stl.h"
 
-#include <algorithm>
-
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
+
+#include <algorithm>
 
 namespace frustumscreen {
 
@@ -91,7 +91,8 @@ SourceMesh load_ascii(std::string_view text) {
 
 bool has_length_of_binary_stl(ByteView file) {
     return file.size() >= header_size &&
-           file.size() == header_size + facet_size * std::uint64_t{load_little<std::uint32_t>(file, header_size - 4)};
+           file.size() ==
+               header_size + facet_size * std::uint64_t{load_little<std::uint32_t>(file, header_size - 4)};
 }
 
 SourceMesh load_stl(ByteView file) {

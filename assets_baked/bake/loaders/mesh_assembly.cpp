@@ -1,14 +1,15 @@
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 
-#include <cmath>
-
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <cmath>
 
 namespace frustumscreen {
 
 namespace {
 
-/// Fractions of a texel at 16k survive up to here in 32 bits; a UV beyond it, or none at all, carries no picture.
+/// Fractions of a texel at 16k survive up to here in 32 bits; a UV beyond it, or none at all, carries no
+/// picture.
 constexpr double largest_uv = 1e6;
 
 float finite_uv(double value) {
@@ -42,8 +43,8 @@ void MeshAssembly::set_uv(const glm::dvec2& uv) {
 
 void MeshAssembly::set_colour(const glm::vec4& linear) {
     mesh_.colours.resize(mesh_.positions.size(), glm::vec4(1.0F));
-    mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g), colour_factor(linear.b),
-                                     colour_factor(linear.a));
+    mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g),
+                                     colour_factor(linear.b), colour_factor(linear.a));
 }
 
 std::uint32_t MeshAssembly::add_material(const SourceMaterial& material) {

@@ -3,15 +3,15 @@
 /// Errors   throws Refusal.
 #pragma once
 
+#include "assets_baked/bake/source_mesh.h"
+
 #include <cstdint>
 #include <string>
 
-#include "assets_baked/bake/source_mesh.h"
-
 namespace frustumscreen {
 
-/// What a curator's computer can still bake: 50 million triangles are 2 GiB of mesh. A small file that repeats
-/// its parts without end meets these limits too.
+/// What a curator's computer can still bake: 50 million triangles are 2 GiB of mesh. A small file that
+/// repeats its parts without end meets these limits too.
 inline constexpr std::size_t most_triangles = 50'000'000;
 inline constexpr std::size_t most_vertices = 100'000'000;
 /// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.

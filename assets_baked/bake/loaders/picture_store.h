@@ -3,11 +3,11 @@
 /// Errors   throws Refusal.
 #pragma once
 
-#include <memory>
-#include <string_view>
-
 #include "assets_baked/bake/loaders/decode_image.h"
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <memory>
+#include <string_view>
 
 namespace frustumscreen {
 

@@ -1,10 +1,10 @@
 #include "assets_baked/bake/loaders/ply_header.h"
 
-#include <array>
-#include <string_view>
-
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
+
+#include <array>
+#include <string_view>
 
 namespace frustumscreen {
 

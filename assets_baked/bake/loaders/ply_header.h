@@ -4,13 +4,13 @@
 /// Source   G. Turk, The PLY Polygon File Format, 1994.
 #pragma once
 
+#include "assets_baked/bake/loaders/bytes.h"
+
 #include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "assets_baked/bake/loaders/bytes.h"
 
 namespace frustumscreen {
 

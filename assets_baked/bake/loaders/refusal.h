@@ -1,12 +1,12 @@
-/// How the readers of this room give up on a file: one sentence, thrown, and turned into an Error at the room's
-/// door (load_mesh.cpp). A reader makes hundreds of checks in nested places; a throw keeps each of them one line.
-/// Nothing leaves the room by exception.
+/// How the readers of this room give up on a file: one sentence, thrown, and turned into an Error at the
+/// room's door (load_mesh.cpp). A reader makes hundreds of checks in nested places; a throw keeps each of
+/// them one line. Nothing leaves the room by exception.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace frustumscreen {
 

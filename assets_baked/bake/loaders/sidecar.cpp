@@ -1,8 +1,8 @@
 #include "assets_baked/bake/loaders/sidecar.h"
 
-#include <algorithm>
-
 #include "assets_baked/bake/loaders/refusal.h"
+
+#include <algorithm>
 
 namespace frustumscreen {
 

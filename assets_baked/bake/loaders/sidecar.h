@@ -4,13 +4,13 @@
 ///          missing or unreadable.
 #pragma once
 
+#include "firmware_host/base/file.h"
+
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include "firmware_host/base/file.h"
 
 namespace frustumscreen {
 
@@ -18,8 +18,8 @@ class Sidecars {
 public:
     explicit Sidecars(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// Bytes of the file called `name` (plain, not percent-encoded). Each file is read once, however often it is
-    /// named. `place` begins the message of a refusal.
+    /// Bytes of the file called `name` (plain, not percent-encoded). Each file is read once, however often it
+    /// is named. `place` begins the message of a refusal.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name, std::string_view place) const;
 
