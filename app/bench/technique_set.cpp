@@ -57,7 +57,8 @@ Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, Tec
 Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& usual) {
     PictureOptions options = usual;
     if (level + 1 == pack.levels.size()) {
-        options.samples = std::max(options.samples, finest_samples); // as `render --technique finest` draws it
+        options.samples =
+            std::max(options.samples, finest_samples); // as `render --technique finest` draws it
     }
     return add(
         make_pack_level(stage_, pack, level, options, level_name(pack, level)),

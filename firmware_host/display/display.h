@@ -3,10 +3,10 @@
 /// Threads  the render thread alone; construction makes the context current on it.
 #pragma once
 
-#include <string>
-
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
+
+#include <string>
 
 namespace frustumscreen {
 
