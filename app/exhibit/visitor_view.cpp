@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double prop_share_of_picture = 0.62;
+constexpr double prop_share_of_picture = 0.85;
 constexpr double largest_sine = 0.9;
 
 /// The room around the table: enough to read the shapes by, faint against the projector.

@@ -47,7 +47,7 @@ public:
             const TriangleMesh fewer = simplify(k == 0 ? welded_ : finest_, tolerance);
             if (k == 0) {
                 finest_ = fewer;
-                visible_ = visible_sides(fewer, source_, ViewingZone{});
+                visible_ = seen_sides(fewer);
                 simplified_triangles_ = fewer.triangle_count();
                 if (visible_.indices.empty()) {
                     visible_ = fewer; // nothing is seen from the zone: a sheet flat on the table
@@ -103,6 +103,19 @@ public:
     }
 
 private:
+    /// Hidden by itself: against the source, a simplified surface that lies a hair outside would seem open.
+    /// Only where alpha is cut does the source have to answer.
+    [[nodiscard]] TriangleMesh seen_sides(const TriangleMesh& mesh) const {
+        const std::vector<SourceMaterial>& materials = source_.mesh().materials;
+        if (std::any_of(materials.begin(), materials.end(),
+                        [](const SourceMaterial& material) { return material.alpha_mask; })) {
+            return visible_sides(mesh, source_, ViewingZone{});
+        }
+        const SourceMesh own = as_source(mesh);
+        const std::vector<glm::dvec3> own_points(mesh.positions.begin(), mesh.positions.end());
+        return visible_sides(mesh, SourceScene(own, own_points), ViewingZone{});
+    }
+
     Candidate candidate_of(const TriangleMesh& mesh, float tolerance) {
         const ChartedMesh charted = chart(mesh, texel_box_);
         const Image<AtlasTexel> texels = rasterise(charted);

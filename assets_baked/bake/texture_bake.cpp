@@ -300,8 +300,14 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
 
 ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels, const ChartedMesh& from,
                           const ImageFloat& from_light, float reach_box) {
-    const SourceMesh from_source = as_source({from.positions, from.indices});
-    const std::vector<glm::dvec3> points(from.positions.begin(), from.positions.end());
+    // The two sides of a sheet share positions and differ in light: each is lifted a little to its own side.
+    constexpr float lift = 1e-4F;
+    TriangleMesh lifted{from.positions, from.indices};
+    for (std::size_t k = 0; k < lifted.positions.size(); ++k) {
+        lifted.positions[k] += from.normals[k] * lift;
+    }
+    const SourceMesh from_source = as_source(lifted);
+    const std::vector<glm::dvec3> points(lifted.positions.begin(), lifted.positions.end());
     const SourceScene from_scene(from_source, points);
     ImageFloat light(to_texels.width, to_texels.height, glm::vec3(1.0F));
     for_each_texel(to_texels, [&](int x, int y, const AtlasTexel& texel) {
