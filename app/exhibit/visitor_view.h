@@ -47,8 +47,8 @@ struct VisitorCamera {
 ///     forward = +Z = (C - E) / |C - E|,  right = +X = normalise(forward x table Z),  down = +Y = forward x
 ///     right
 /// (straight above: right = table X);
-///     fx = fy = 0.85 * min(width, height) / 2 / tan(asin(r / |C - E|)),  cx = width / 2,  cy = height / 2,
-/// where r is the distance from C to the prop's farthest corner: the prop's sphere takes 0.85 of the
+///     fx = fy = 0.62 * min(width, height) / 2 / tan(asin(r / |C - E|)),  cx = width / 2,  cy = height / 2,
+/// where r is the distance from C to the prop's farthest corner: the prop's sphere takes 0.62 of the
 /// picture's shorter side. r / |C - E| counts as at most 0.9.
 [[nodiscard]] VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
                                            const glm::dvec3& eye_m, int width, int height);

@@ -26,7 +26,7 @@ constexpr glm::ivec2 projector_tile{400, 340};
 constexpr glm::ivec2 visitor_tile{544, 340};
 constexpr glm::ivec2 cell(projector_tile.x + 4 + visitor_tile.x, projector_tile.y + label_height);
 
-constexpr double zoom = 0.92;
+constexpr double zoom = 1.15;
 constexpr double lowered_by = 0.09; ///< of the tile's height
 
 /// A part of the projector's picture, in its pixels.

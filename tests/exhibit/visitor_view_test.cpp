@@ -167,10 +167,10 @@ TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
     EXPECT_NEAR(pixel(centre + glm::dvec3(0, 0, 0.01)).x, 320.0, 1e-9);
     EXPECT_LT(pixel(centre + glm::dvec3(0, 0, 0.01)).y, 200.0);
     EXPECT_NEAR(glm::distance(camera.table_from_camera.translation, eye), 0.0, 1e-15);
-    // The prop's sphere, as large as 0.85 of the height: its rim is a cone of half angle asin(r / d).
+    // The prop's sphere, as large as 0.62 of the height: its rim is a cone of half angle asin(r / d).
     const double r = std::hypot(std::hypot(0.08, 0.08), 0.06);
     const double d = glm::distance(eye, centre);
-    EXPECT_NEAR(camera.pinhole.fx * std::tan(std::asin(r / d)), 0.85 * 200.0, 1e-9);
+    EXPECT_NEAR(camera.pinhole.fx * std::tan(std::asin(r / d)), 0.62 * 200.0, 1e-9);
     const VisitorCamera above = visitor_camera(prop, pose, {0.1, 0.05, 1.0}, 640, 400);
     EXPECT_NEAR(above.table_from_camera.direction({1, 0, 0}).x, 1.0, 1e-12);
 }
