@@ -16,7 +16,7 @@ constexpr double prop_share_of_picture = 0.62;
 constexpr double largest_sine = 0.9;
 
 /// The room around the table: enough to read the shapes by, faint against the projector.
-constexpr double prop_albedo = 0.62;
+constexpr double prop_albedo = 0.85;
 constexpr double table_albedo = 0.30;
 constexpr double ambient_light = 0.020; ///< on a surface that faces `ambient_from`, after exposure
 const glm::dvec3 ambient_from = glm::normalize(glm::dvec3(-0.35, -0.45, 0.82));
