@@ -164,7 +164,7 @@ private:
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The eyes of seen_error look as low as 12 degrees: their worst is about twice the worst of a kiosk's
     // zone.
-    constexpr double good_mean_mm = 0.24;
+    constexpr double good_mean_mm = 0.17;
     constexpr double good_silhouette = 0.015;
     PropSize size;
     size.kind = kind;
