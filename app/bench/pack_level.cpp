@@ -56,7 +56,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     if (!artifact) {
         return tl::unexpected<Error>(artifact.error());
     }
-    Result<Renderer> renderer = Renderer::create({stage.width(), stage.height(), options.samples});
+    const int samples = options.samples > 0 ? options.samples : pack.samples;
+    Result<Renderer> renderer = Renderer::create({stage.width(), stage.height(), samples});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -64,9 +65,10 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    const double metres_per_box = place(pack, stage.prop).metres_per_box;
+    PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, level);
+    shown.samples = samples;
     return std::make_unique<PackLevelTechnique>(
-        stage, placed(pack, level, metres_per_box, level), std::move(name),
+        stage, shown, std::move(name),
         Parts{std::move(*artifact), std::move(*renderer), std::move(*hit_points)});
 }
 

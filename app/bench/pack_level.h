@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 /// How the exhibit's renderer is set up for the pictures that are measured.
 struct PictureOptions {
-    int samples = RendererOptions{}.samples; ///< coverage samples a pixel
+    int samples = 0; ///< a pixel; 0 = what the pack asks for
     TextureFilter filter{};
 };
 

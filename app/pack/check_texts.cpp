@@ -140,6 +140,9 @@ Result<void> check_texts(const Pack& pack) {
         return bad_input(
             fmt::format("prop_kind is '{}'; allowed are frustum and cube", printable(pack.prop_kind, 40)));
     }
+    if (pack.samples != 1 && pack.samples != 2 && pack.samples != 4 && pack.samples != 8) {
+        return bad_input(fmt::format("samples is {}; allowed are 1, 2, 4 and 8", pack.samples));
+    }
     if (pack.relief_size < 0 || pack.relief_size > most_side_texels) {
         return bad_input(
             fmt::format("relief_size is {}; allowed are 0 to {} texels", pack.relief_size, most_side_texels));

@@ -152,6 +152,7 @@ Manifest read_fields(Refusal& refusal, const nlohmann::json& document) {
     pack.provenance = read_provenance(fields.object("provenance"));
     pack.prop_kind = fields.text("prop_kind");
     pack.unlit = fields.flag("unlit");
+    pack.samples = static_cast<int>(fields.whole("samples", 8));
     pack.relief_size = static_cast<int>(fields.whole("relief_size", most_side_texels));
     read_placement(fields.object("placement"), pack);
     manifest.textures = fields.texts("textures", most_textures);

@@ -95,6 +95,7 @@ std::string write_manifest(const Manifest& manifest) {
                           {"source_triangles", provenance.source_triangles}}},
                         {"prop_kind", pack.prop_kind},
                         {"unlit", pack.unlit},
+                        {"samples", pack.samples},
                         {"relief_size", pack.relief_size},
                         {"placement", placement_json(pack)},
                         {"textures", manifest.textures},

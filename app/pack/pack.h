@@ -100,6 +100,9 @@ struct Pack {
     PackProvenance provenance;
     std::string prop_kind = "frustum"; ///< the prop whose directions the relief was baked for
     bool unlit = false;
+    /// Samples a pixel that keep this artifact's outlines and texture smooth, as the bake measured: 1, 2, 4
+    /// or 8.
+    int samples = 4;
     int relief_size = 0;              ///< --size: texels along the longest edge of a face
     glm::dvec3 box_size{1.0};         ///< extents; the longest is 1
     glm::dmat4 box_from_file{1.0};    ///< the file's own coordinates (glTF: scene) to the box

@@ -73,6 +73,7 @@ Pack description_of(const Pack& pack) {
     description.provenance = pack.provenance;
     description.prop_kind = pack.prop_kind;
     description.unlit = pack.unlit;
+    description.samples = pack.samples;
     description.relief_size = pack.relief_size;
     description.box_size = pack.box_size;
     description.box_from_file = pack.box_from_file;

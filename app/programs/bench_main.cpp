@@ -206,8 +206,10 @@ void add_options(CLI::App& error_time, CLI::App& scaling, Arguments& arguments) 
                           "leave out the full mesh and the two-pass method");
     }
     for (CLI::App* command : {&error_time, &scaling}) {
-        command->add_option("--samples", arguments.picture.samples, "coverage samples a pixel")
-            ->check(CLI::IsMember({1, 2, 4, 8, 16}))
+        command
+            ->add_option("--samples", arguments.picture.samples,
+                         "samples a pixel; 0 = what the pack asks for")
+            ->check(CLI::IsMember({0, 1, 2, 4, 8, 16}))
             ->capture_default_str();
         command->add_option("--anisotropy", arguments.picture.filter.anisotropy, "of the levels' textures")
             ->check(CLI::Range(1.0F, 16.0F))

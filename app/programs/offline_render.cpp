@@ -33,8 +33,8 @@ Result<std::uint32_t> level_of(const Pack& pack, std::string_view technique) {
 
 namespace {
 /// The finest level is for those who do not count the cost: it gets the smoothest outlines too.
-int samples_of(const OfflineOptions& options) {
-    const int usual = options.technique == "finest" ? finest_samples : default_samples;
+int samples_of(const OfflineOptions& options, const Pack& pack) {
+    const int usual = options.technique == "finest" ? finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;
 }
 } // namespace
@@ -70,7 +70,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    Result<Renderer> renderer = Renderer::create({width, height, samples_of(options)});
+    Result<Renderer> renderer = Renderer::create({width, height, samples_of(options, *pack)});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -87,6 +87,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
     made->estimated_error_mm_ =
         1e3 * metres_per_box * static_cast<double>(pack->levels[*level].error.mean_box);
     made->placed_ = placed(*pack, *level, metres_per_box, *level);
+    made->placed_.samples = 0;
     made->plan_ = make_plan(made->prop_, made->placed_);
     return made;
 }

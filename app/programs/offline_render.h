@@ -29,7 +29,8 @@ struct OfflineOptions {
     int height = 0;
     bool light = true;
     bool hit_points = false;
-    int samples = 0; ///< a pixel, see RendererOptions; 0 = finest_samples for "finest", else the default
+    int samples =
+        0; ///< a pixel, see RendererOptions; 0 = finest_samples for "finest", else what the pack asks for
 };
 
 struct OfflinePicture {

@@ -67,6 +67,7 @@ void add_description(Json& json, const Pack& pack) {
                           {"source_triangles", pack.provenance.source_triangles}};
     json["prop_kind"] = pack.prop_kind;
     json["unlit"] = pack.unlit;
+    json["samples"] = pack.samples;
     json["relief_size"] = pack.relief_size;
     json["box_size"] = {pack.box_size.x, pack.box_size.y, pack.box_size.z};
     json["textures"] = Json::array();

@@ -27,10 +27,11 @@ constexpr std::string_view average_fragment = R"(
 in vec2 at;
 uniform sampler2D enlarged;
 uniform ivec2 fetches;
+uniform vec2 scale;
 out vec4 result;
 void main() {
     vec2 step_between = 2.0 / vec2(textureSize(enlarged, 0));
-    vec2 first = at - 0.5 * vec2(fetches - 1) * step_between;
+    vec2 first = at * scale - 0.5 * vec2(fetches - 1) * step_between;
     vec4 sum = vec4(0.0);
     for (int y = 0; y < fetches.y; ++y) {
         for (int x = 0; x < fetches.x; ++x) {
@@ -113,9 +114,8 @@ Result<void> Renderer::make_enlarged() {
         return tl::unexpected<Error>(average.error());
     }
     average_ = std::move(*average);
-    glUseProgram(average_.get());
-    const glm::ivec2 fetches = glm::max(grid_ / 2, glm::ivec2(1));
-    glUniform2i(glGetUniformLocation(average_.get(), "fetches"), fetches.x, fetches.y);
+    average_fetches_ = glGetUniformLocation(average_.get(), "fetches");
+    average_scale_ = glGetUniformLocation(average_.get(), "scale");
     no_attributes_ = GlVertexArray::generate();
     enlarged_ = GlFramebuffer::generate();
     enlarged_colour_ = GlTexture::generate();
@@ -154,13 +154,14 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
         history_[0].hash == plan.hash) {
         return {};
     }
+    const int samples = plan.samples > 0 ? std::min(plan.samples, options_.samples) : options_.samples;
     DrawResult result{true, to_redraw(plan, target, redraw), 0};
     glViewport(0, 0, options_.width, options_.height);
     glEnable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     if (!result.redrawn.empty()) {
         set_scissor(result.redrawn);
-        const GLbitfield masks = options_.samples > 1 ? 0 : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
+        const GLbitfield masks = samples > 1 ? 0 : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
         clear(GL_COLOR_BUFFER_BIT | masks);
     }
     if (!plan.caption.bounds.empty()) {
@@ -169,8 +170,8 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
     }
     if (!plan.bounds.empty()) {
         set_scissor(plan.bounds);
-        if (options_.samples > 1) {
-            draw_smooth(plan, shows, target, result);
+        if (samples > 1) {
+            draw_smooth(plan, grid_of(samples), shows, target, result);
         } else {
             result.draw_calls += pass_.draw(plan, shows.artifact);
         }
@@ -183,20 +184,24 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
 }
 
 /// The artifact's rectangle, drawn larger, then averaged into the picture.
-void Renderer::draw_smooth(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-                           DrawResult& result) const {
+void Renderer::draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const Shows& shows,
+                           const RenderTarget& target, DrawResult& result) const {
     glBindFramebuffer(GL_FRAMEBUFFER, enlarged_.get());
-    glViewport(0, 0, options_.width * grid_.x, options_.height * grid_.y);
-    set_scissor(plan.bounds, grid_);
+    glViewport(0, 0, options_.width * grid.x, options_.height * grid.y);
+    set_scissor(plan.bounds, grid);
     clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     if (!plan.caption.bounds.empty()) {
         result.draw_calls += caption_.draw(plan.caption, shows.caption);
     }
-    result.draw_calls += pass_.draw(plan, shows.artifact, grid_);
+    result.draw_calls += pass_.draw(plan, shows.artifact, grid);
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, options_.width, options_.height);
     set_scissor(plan.bounds);
     glUseProgram(average_.get());
+    const glm::ivec2 fetches = glm::max(grid / 2, glm::ivec2(1));
+    const glm::vec2 scale = glm::vec2(grid) / glm::vec2(grid_);
+    glUniform2i(average_fetches_, fetches.x, fetches.y);
+    glUniform2f(average_scale_, scale.x, scale.y);
     glBindTexture(GL_TEXTURE_2D, enlarged_colour_.get());
     glBindVertexArray(no_attributes_.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -17,7 +17,8 @@
 namespace frustumscreen {
 
 /// What pictures are drawn with unless someone asks for another number.
-inline constexpr int default_samples = 4;
+/// What a pack may ask for: the live exhibit has room for it.
+inline constexpr int default_samples = 8;
 /// For those who do not count the cost: the finest level.
 inline constexpr int finest_samples = 16;
 
@@ -27,7 +28,7 @@ struct RendererOptions {
     /// Samples a pixel, on a regular grid, averaged in linear light: 1, 2, 4, 8 or 16. More smooth the
     /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
     /// llvmpipe that takes half the time of the driver's own multisampling.
-    int samples = default_samples;
+    int samples = default_samples; ///< the most; a plan may ask for fewer
 };
 
 /// Display::framebuffer and Display::buffer_age.
@@ -70,8 +71,8 @@ private:
         PixelRectangle bounds;
     };
     Renderer(FacePass pass, CaptionPass caption) : pass_(std::move(pass)), caption_(std::move(caption)) {}
-    void draw_smooth(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-                     DrawResult& result) const;
+    void draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const Shows& shows,
+                     const RenderTarget& target, DrawResult& result) const;
     [[nodiscard]] Result<void> make_enlarged();
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
@@ -79,6 +80,8 @@ private:
     RendererOptions options_;
     FacePass pass_;
     CaptionPass caption_;
+    GLint average_scale_ = -1;
+    GLint average_fetches_ = -1;
     glm::ivec2 grid_{1, 1}; ///< samples along a pixel's sides
     GlFramebuffer enlarged_;
     GlTexture enlarged_colour_;

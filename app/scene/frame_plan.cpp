@@ -257,7 +257,7 @@ PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b) {
 }
 
 PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, std::uint64_t id) {
-    return {pack.levels[level].clusters, pack.box_size, metres_per_box, id};
+    return {pack.levels[level].clusters, pack.box_size, metres_per_box, id, pack.samples};
 }
 
 FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
@@ -272,6 +272,7 @@ FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
     const Shared shared = shared_by_faces(prop, artifact, view);
     plan.projector = view.projector;
+    plan.samples = artifact.samples;
     plan.compensate_light = view.light.has_value();
     plan.brightness = static_cast<float>(view.brightness);
     plan.faces.clear();

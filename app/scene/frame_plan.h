@@ -42,6 +42,7 @@ struct PlacedLevel {
     glm::dvec3 box_size{1.0};    ///< extents of the pack's box
     double metres_per_box = 1.0; ///< Placement::metres_per_box
     std::uint64_t id = 0;        ///< tells artifacts and levels apart in a plan's hash
+    int samples = 0;             ///< Pack::samples; 0 = as many as the renderer takes
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  std::uint64_t id);
@@ -87,6 +88,7 @@ struct CaptionPlan {
 struct FramePlan {
     Pinhole projector;
     bool compensate_light = false;
+    int samples = 0; ///< a pixel, of the artifact; 0 = as many as the renderer takes
     float brightness = 1.0F;
     std::vector<FacePlan> faces;
     std::vector<IndexRange> ranges;

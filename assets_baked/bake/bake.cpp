@@ -160,15 +160,19 @@ private:
     ImageFloat light_;
 };
 
+double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
+    PropSize size;
+    size.kind = kind;
+    return place(pack, make_prop(size)).metres_per_box * 1e3;
+}
+
 /// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The eyes of seen_error look as low as 12 degrees: their worst is about twice the worst of a kiosk's
     // zone.
     constexpr double good_mean_mm = 0.17;
     constexpr double good_silhouette = 0.015;
-    PropSize size;
-    size.kind = kind;
-    const double mm_per_box = place(pack, make_prop(size)).metres_per_box * 1e3;
+    const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
         const SeenError error = seen_error(pack.levels[k], pack.box_size, bakery.source());
         if (error.mean_box * mm_per_box <= good_mean_mm && error.silhouette <= good_silhouette) {
@@ -267,6 +271,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     }
     pack.extremes = profile_extremes(used);
     keep(pack, candidates, atlas);
+    pack.samples =
+        samples_needed(bakery.source(), pack.box_size, mm_per_box_on_usual_prop(pack, options.prop));
     pack.default_level = choose_default(pack, bakery, options.prop);
     options.progress("done", 1.0);
     return pack;

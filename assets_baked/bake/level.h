@@ -47,4 +47,9 @@ struct SeenError {
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size,
                                    const SourceScene& source);
 
+/// Samples a pixel (1, 2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that
+/// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies
+/// need one, thin or finely painted ones more.
+[[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box);
+
 } // namespace frustumscreen

@@ -101,6 +101,7 @@ TEST(HostileManifest, texts_are_bounded_and_clean) {
                     {"source's name", [](Json& m) { m["provenance"]["source_name"] = "../../etc/passwd"; }},
                     {"sha256", [](Json& m) { m["provenance"]["source_sha256"] = "12"; }},
                     {"prop_kind", [](Json& m) { m["prop_kind"] = "sphere"; }},
+                    {"samples", [](Json& m) { m["samples"] = 3; }},
                     {"relief_size", [](Json& m) { m["relief_size"] = 1000000; }}});
 }
 

@@ -66,6 +66,7 @@ void expect_same(const Pack& a, const Pack& b) {
     expect_same_texts(a, b);
     EXPECT_EQ(a.prop_kind, b.prop_kind);
     EXPECT_EQ(a.unlit, b.unlit);
+    EXPECT_EQ(a.samples, b.samples);
     EXPECT_EQ(a.relief_size, b.relief_size);
     EXPECT_EQ(a.box_size, b.box_size);
     EXPECT_EQ(a.box_from_file, b.box_from_file);

@@ -113,6 +113,7 @@ inline Pack pack() {
     pack.provenance = {"amphora.glb", std::string(64, 'a'), "CC0-1.0", 123456789012ULL};
     pack.prop_kind = "frustum";
     pack.unlit = true;
+    pack.samples = 2;
     pack.relief_size = 512;
     pack.box_size = {1.0, 0.5, 0.8};
     pack.box_from_file = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, -1.0 / 3.0, 0.7)) *
