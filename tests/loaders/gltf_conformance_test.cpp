@@ -99,14 +99,15 @@ TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
     const double tip = 0.5 + 0.2778174593052023;
     struct Quad {
         std::size_t first_triangle;
-        glm::dvec2 marker;
+        double middle_x;
+        glm::dvec2 marker; ///< relative to the quad's middle
     };
     // Triangles come two to a node, roots first.
-    for (const Quad& quad : {Quad{6, {-0.07904822439840126, -0.5162674857624154}},
-                             Quad{8, {0.018544972870134853, -0.018544972870134853}}}) {
+    for (const Quad& quad : {Quad{6, -1.1, {-0.07904822439840126, -0.5162674857624154}},
+                             Quad{8, 0.0, {0.018544972870134853, -0.018544972870134853}}}) {
         const auto& [a, b, c] = mesh.triangles[quad.first_triangle];
         // UV as an affine map of the position, from one triangle.
-        const glm::dvec2 middle((extent_of(mesh).low.x, quad.first_triangle == 6 ? -1.1 : 0.0), -0.55);
+        const glm::dvec2 middle(quad.middle_x, -0.55);
         const glm::dvec2 pa = glm::dvec2(mesh.positions[a]) - middle;
         const glm::dmat2 edges(glm::dvec2(mesh.positions[b]) - middle - pa,
                                glm::dvec2(mesh.positions[c]) - middle - pa);

@@ -20,12 +20,18 @@ constexpr std::array known_extensions = {
     std::string_view("EXT_texture_webp"),
     std::string_view("KHR_materials_unlit"),
     std::string_view("KHR_materials_pbrSpecularGlossiness"),
+    std::string_view("KHR_materials_anisotropy"),
     std::string_view("KHR_materials_clearcoat"),
     std::string_view("KHR_materials_emissive_strength"),
     std::string_view("KHR_materials_ior"),
+    std::string_view("KHR_materials_iridescence"),
     std::string_view("KHR_materials_sheen"),
     std::string_view("KHR_materials_specular"),
+    std::string_view("KHR_materials_transmission"),
+    std::string_view("KHR_materials_variants"),
+    std::string_view("KHR_materials_volume"),
     std::string_view("KHR_lights_punctual"),
+    std::string_view("KHR_xmp_json_ld"),
 };
 
 void check_header(const JsonPlace& document) {

@@ -75,6 +75,7 @@ std::size_t triangles_in(std::uint64_t mode, std::size_t corners) {
 /// The arrays of one primitive, all of one length but the indices.
 struct GltfPrimitives::Streams {
     std::string place;
+    std::string vertex_place; ///< for messages about one vertex
     std::uint64_t mode = mode_triangles;
     std::optional<GltfAttribute> position;
     std::optional<GltfAttribute> uv;
@@ -131,6 +132,7 @@ GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitiv
                                                    const GltfPlacement& placement) {
     Streams streams;
     streams.place = primitive.place;
+    streams.vertex_place = primitive.place + ", vertex";
     streams.draco = draco_mesh(primitive);
     streams.mode = streams.draco != nullptr ? mode_triangles : primitive.mode;
     streams.position = attribute(primitive, "POSITION", streams);
@@ -263,7 +265,7 @@ std::uint32_t GltfPrimitives::vertex(const Streams& streams, const GltfPlacement
             ? placement.scene_from_mesh
             : blended(streams.joints_and_weights, placement.scene_from_mesh_by_joint, element, streams.place);
     const std::uint32_t added = mesh_.add_vertex(glm::dvec3(transform * glm::dvec4(position, 1.0)),
-                                                 (streams.place + ", vertex").c_str(), element);
+                                                 streams.vertex_place.c_str(), element);
     if (streams.uv) {
         mesh_.set_uv(streams.texture->transformed(streams.uv->vec2(element)));
     }
@@ -292,6 +294,15 @@ void GltfPrimitives::draw_corners(const Streams& streams, const GltfPlacement& p
         }
         mesh_.add_triangle(corners[0], corners[mirrored ? 2 : 1], corners[mirrored ? 1 : 2], material);
     }
+}
+
+std::size_t GltfPrimitives::declared_triangles(const GltfPrimitive& primitive) const {
+    const auto position = primitive.attributes.find("POSITION");
+    if (primitive.mode < mode_triangles || position == primitive.attributes.end()) {
+        return 0;
+    }
+    const std::size_t corners = model_.accessors[primitive.indices.value_or(position->second)].count;
+    return triangles_in(primitive.mode, corners);
 }
 
 void GltfPrimitives::draw(const GltfPrimitive& primitive, const GltfPlacement& placement) {

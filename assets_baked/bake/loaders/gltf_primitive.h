@@ -34,6 +34,8 @@ public:
         : model_(model), buffers_(buffers), mesh_(mesh), material_of_(std::move(material_of)) {}
 
     void draw(const GltfPrimitive& primitive, const GltfPlacement& placement);
+    /// By its accessors' counts, before any data are touched.
+    [[nodiscard]] std::size_t declared_triangles(const GltfPrimitive& primitive) const;
 
 private:
     struct Streams;

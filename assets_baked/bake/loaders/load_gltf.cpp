@@ -234,7 +234,9 @@ public:
     SourceMesh draw() {
         const std::vector<glm::dmat4> scene_from_node = scene_from_nodes(model_);
         const std::vector<std::size_t> roots = model_.scene_roots ? *model_.scene_roots : root_nodes(model_);
-        for (const std::size_t node : nodes_below(model_, roots)) {
+        const std::vector<std::size_t> drawn = nodes_below(model_, roots);
+        check_size(drawn);
+        for (const std::size_t node : drawn) {
             draw_node(node, scene_from_node);
         }
         if (model_.nodes.empty()) {
@@ -246,6 +248,26 @@ public:
     }
 
 private:
+    /// Meshes may be drawn by any number of nodes; too much is refused before memory is spent on it.
+    void check_size(const std::vector<std::size_t>& drawn) const {
+        std::vector<std::size_t> triangles;
+        for (const GltfMesh& mesh : model_.meshes) {
+            std::size_t sum = 0;
+            for (const GltfPrimitive& primitive : mesh.primitives) {
+                sum += primitives_.declared_triangles(primitive);
+            }
+            triangles.push_back(sum);
+        }
+        std::size_t total = 0;
+        for (const std::size_t node : drawn) {
+            total += model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
+            if (total > most_triangles) {
+                refuse("nodes[{}]: more than {} triangles after instancing; simplify the model first", node,
+                       most_triangles);
+            }
+        }
+    }
+
     void draw_node(std::size_t index, const std::vector<glm::dmat4>& scene_from_node) {
         const GltfNode& node = model_.nodes[index];
         if (!node.mesh) {

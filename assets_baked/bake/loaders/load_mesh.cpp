@@ -18,13 +18,15 @@ namespace {
 
 enum class Format { Gltf, Obj, Ply, Stl };
 
-bool has_obj_line(std::string_view text) {
-    for (int line = 0; line < 200 && !text.empty(); ++line) {
-        const std::string_view words = trimmed(text.substr(0, text.find('\n')));
-        if (words.starts_with("v ") || words.starts_with("mtllib ") || words.starts_with("f ")) {
+bool has_obj_line(std::string_view head) {
+    constexpr std::size_t lines = 200;
+    WordReader words(head);
+    for (std::string_view keyword = words.next(); !keyword.empty() && words.line() < lines;
+         keyword = words.next()) {
+        if (keyword == "v" || keyword == "f" || keyword == "mtllib") {
             return true;
         }
-        text.remove_prefix(std::min(text.size(), words.data() - text.data() + words.size() + 1));
+        (void)words.rest_of_line();
     }
     return false;
 }

@@ -250,7 +250,10 @@ private:
 } // namespace
 
 SourceMesh load_obj(ByteView file, const std::filesystem::path& folder) {
-    return ObjReader(as_text(file), folder).read();
+    std::string_view text = as_text(file);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    return ObjReader(text, folder).read();
 }
 
 } // namespace frustumscreen
