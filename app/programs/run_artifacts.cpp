@@ -2,7 +2,6 @@
 
 #include "app/exhibit/caption_image.h"
 #include "app/pack/pack_file.h"
-#include "app/programs/offline_render.h"
 #include "app/settings/lit_zone.h"
 
 #include <fmt/format.h>
@@ -54,10 +53,10 @@ std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
 
 } // namespace
 
-/// Brings packs into the GPU's memory, one after the other; nothing of a pack but its clusters stays in ours.
+/// Brings packs into the GPU's memory, one after the other; nothing of a pack but what culls stays in ours.
 struct ArtifactShow::Loader {
     const Settings& settings;
-    const ArtifactShowOptions& options;
+    LevelOptions level_options;
     PropShape prop;
     Typesetter typesetter;
     double texels_per_m = 0.0; ///< of captions: the projector's pixels at the table's centre
@@ -68,27 +67,12 @@ struct ArtifactShow::Loader {
         if (!pack) {
             return tl::unexpected<Error>(pack.error());
         }
-        const Result<std::uint32_t> level = level_of(**pack, options.technique);
-        if (!level) {
-            return at(file.string(), level.error());
+        Result<RunLevels> levels = RunLevels::upload(**pack, prop, level_options, next_id);
+        if (!levels) {
+            return at(file.string(), levels.error());
         }
-        Result<ArtifactGpu> gpu = ArtifactGpu::upload(**pack, *level);
-        if (!gpu) {
-            return at(file.string(), gpu.error());
-        }
-        const double metres_per_box = place(**pack, prop).metres_per_box;
-        const PackLevel& drawn = (*pack)->levels[*level];
-        Artifact artifact{(*pack)->title,
-                          fmt::format("level{}", *level),
-                          1e3 * metres_per_box * static_cast<double>(drawn.error.mean_box),
-                          drawn.clusters,
-                          placed(**pack, *level, metres_per_box, next_id++),
-                          std::move(*gpu),
-                          {},
-                          {},
-                          {}};
-        artifact.placed.clusters = artifact.clusters;
-        artifact.plan = make_plan(prop, artifact.placed);
+        next_id += (*pack)->levels.size();
+        Artifact artifact{(*pack)->title, std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             return at(file.string(), set.error());
         }
@@ -119,25 +103,27 @@ struct ArtifactShow::Loader {
     }
 };
 
-Result<std::unique_ptr<ArtifactShow>>
-ArtifactShow::create(const Settings& settings, const ArtifactShowOptions& options, MonotonicTime now) {
+Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
+                                                           const ArtifactShowOptions& options,
+                                                           const RenderTarget& target, MonotonicTime now) {
     Result<Typesetter> typesetter = Typesetter::open();
     if (!typesetter) {
         return tl::unexpected<Error>(typesetter.error());
     }
     const Pinhole& pinhole = settings.projector.pinhole;
-    Result<Renderer> renderer = Renderer::create({pinhole.width, pinhole.height, options.samples});
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
     const double lens_height_m = settings.projector.table_from_projector.translation.z;
-    Loader loader{settings, options, make_prop(settings.prop), std::move(*typesetter),
-                  pinhole.fx / lens_height_m};
+    const PropShape prop = make_prop(settings.prop);
+    const double pixel_m = pixel_on_prop_m(prop, pinhole, settings.projector.table_from_projector.inverse());
+    const LevelOptions level_options{options.technique, 1e3 * settings.render.error_tolerance_px * pixel_m,
+                                     1e3 / settings.projector.refresh_hz};
+    Loader loader{settings, level_options, prop, std::move(*typesetter), pinhole.fx / lens_height_m};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
+    bool level_fades = false;
     for (const std::filesystem::path& file : options.packs) {
         Result<Artifact> artifact = loader.load(file);
         if (artifact) {
+            level_fades = level_fades || artifact->levels.fades();
             artifacts.push_back(std::move(*artifact));
         } else {
             fmt::print(stderr, "frustumscreen: left out: {}\n", artifact.error().message);
@@ -149,8 +135,23 @@ ArtifactShow::create(const Settings& settings, const ArtifactShowOptions& option
             "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
             "make them with frustumscreen-bake");
     }
-    return std::unique_ptr<ArtifactShow>(
+    Result<Renderer> renderer =
+        Renderer::create({pinhole.width, pinhole.height, options.samples, level_fades});
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, std::move(*renderer), std::move(artifacts), now));
+    show->measure(settings, target);
+    return show;
+}
+
+/// At the middle of the table, seen by the default eye.
+void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
+    const PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
+    for (Artifact& artifact : artifacts_) {
+        artifact.levels.measure(prop_, view, renderer_, target);
+    }
 }
 
 ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
@@ -193,17 +194,30 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& situation, con
                   std::span(&situation.eye_m, 1)};
     view.brightness = shown.brightness;
     const CaptionPicture* caption = place_caption(now, shown, situation, view);
-    Artifact& artifact = artifacts_[shown.artifact];
-    plan_frame(prop_, artifact.placed, view, artifact.plan);
-    return renderer_.draw(artifact.plan, {&artifact.gpu, caption == nullptr ? nullptr : &caption->gpu},
-                          target, redraw);
+    if (on_ != shown.artifact) {
+        artifacts_[shown.artifact].levels.enter(now, artifacts_[on_].levels.load());
+        on_ = shown.artifact;
+    }
+    return artifacts_[on_].levels.draw(now, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
+                                       renderer_, target, redraw);
+}
+
+void ArtifactShow::took(MonotonicTime now, double ms) {
+    artifacts_[on_].levels.took(now, ms);
 }
 
 ShowState ArtifactShow::state(MonotonicTime now) const {
     const Shown shown = exhibit_.at(now);
     const Artifact& artifact = artifacts_[shown.artifact];
     const double opacity = placer_.at(now).opacity;
-    return {artifact.title, artifact.technique, exhibit_.language(), artifact.estimated_error_mm,
+    LevelState levels = artifact.levels.state();
+    levels.switches = 0;
+    levels.ignored_times = 0;
+    for (const Artifact& each : artifacts_) {
+        levels.switches += each.levels.state().switches;
+        levels.ignored_times += each.levels.state().ignored_times;
+    }
+    return {artifact.title, exhibit_.language(), levels,
             !shown.changing && (opacity <= 0.0 || opacity >= 1.0)};
 }
 

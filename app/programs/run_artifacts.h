@@ -1,4 +1,4 @@
-/// The exhibit on the display: packs in the GPU's memory, the exhibit's state, captions, plan and renderer.
+/// The exhibit on the display: packs in the GPU's memory, the exhibit's state, captions and renderer.
 ///
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
 /// Errors   a pack that cannot be loaded is left out with a line on standard error; none left:
@@ -7,6 +7,7 @@
 
 #include "app/exhibit/captions.h"
 #include "app/exhibit/exhibit.h"
+#include "app/programs/run_levels.h"
 #include "app/programs/run_show.h"
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
@@ -22,18 +23,22 @@ namespace frustumscreen {
 
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
-    std::string technique = "auto"; ///< see `level_of`
+    std::string technique = "auto"; ///< see LevelOptions
     int samples = default_samples;
 };
 
 class ArtifactShow final : public Show {
 public:
-    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
-    create(const Settings& settings, const ArtifactShowOptions& options, MonotonicTime now);
+    /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
+                                                                      const ArtifactShowOptions& options,
+                                                                      const RenderTarget& target,
+                                                                      MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
                                   Redraw redraw) override;
+    void took(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(MonotonicTime now) const override;
 
 private:
@@ -45,12 +50,7 @@ private:
     };
     struct Artifact {
         std::string title;
-        std::string technique;
-        double estimated_error_mm = 0.0;
-        std::vector<PackCluster> clusters; ///< what `placed` points into
-        PlacedLevel placed;
-        ArtifactGpu gpu;
-        FramePlan plan;
+        RunLevels levels;
         std::vector<std::string> languages;
         std::vector<std::vector<CaptionPicture>> captions; ///< one list for each of `languages`
     };
@@ -58,6 +58,7 @@ private:
 
     ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
                  MonotonicTime now);
+    void measure(const Settings& settings, const RenderTarget& target);
     /// Chooses the caption; its brightness includes the fades.
     [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
                                                       const Situation& situation, PlanView& view);
@@ -68,6 +69,7 @@ private:
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
     Exhibit exhibit_;
+    std::size_t on_ = 0; ///< the artifact that is on
     CaptionPlacer placer_;
     const std::vector<CaptionPicture>* placed_caption_ = nullptr;
 };

@@ -86,7 +86,7 @@ sigset_t hold_stop_signals() {
 }
 
 Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
-                                        MonotonicTime start) {
+                                        const Display& display, MonotonicTime start) {
     if (request.pattern) {
         return PatternShow::create(settings);
     }
@@ -94,7 +94,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
     }
-    return ArtifactShow::create(settings, options, start);
+    return ArtifactShow::create(settings, options, {display.framebuffer(), 0}, start);
 }
 
 /// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.
@@ -124,10 +124,10 @@ void report(const Request& request, const LoopResult& result) {
         return;
     }
     fmt::print(
-        "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 99th percentile {:.2f} ms; {} display times "
-        "missed; {:.0f} MiB resident",
-        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p99_ms, status.late,
-        status.resident_mib);
+        "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 95th percentile {:.2f} ms, 99th {:.2f} ms; {} "
+        "deadlines and {} display times missed, {} changes of level; {:.0f} MiB resident",
+        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p95_ms, status.p99_ms,
+        status.missed_deadlines, status.late, status.level_switches, status.resident_mib);
     if (request.changes > 0) {
         fmt::print("; {} changes of artifact, {:+.1f} MiB since the first tenth, p99/p50 {:.2f}",
                    request.changes, status.resident_mib - result.first_resident_mib,
@@ -162,7 +162,7 @@ Result<void> run(const Request& request) {
         return request.fast ? MonotonicTime{}
                             : std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
     };
-    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, now());
+    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, **display, now());
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }

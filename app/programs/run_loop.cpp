@@ -1,5 +1,6 @@
 #include "app/programs/run_loop.h"
 
+#include "app/render/probe.h"
 #include "app/render/read_back.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t window_frames = 8192; ///< that the status' times are taken from
 constexpr std::size_t most_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
+constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
 std::optional<Wish> wish_of(int button) {
     switch (button) {
@@ -46,7 +48,7 @@ public:
           situation_(inputs.tracker->reports_table_frame() ? RigidTransform{}
                                                            : settings.tracker.table_from_tracker,
                      settings.eye.default_m),
-          times_(window_frames) {
+          times_(window_frames), presented_(start) {
         samples_.reserve(1024);
         events_.reserve(64);
         if (options.keep_rows && options.length) {
@@ -83,29 +85,40 @@ private:
         poll(now);
         const Situation situation = situation_.at(now);
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
-        const DrawResult drawn = show_.draw(now, situation, target, options_.redraw);
+        const bool probe = options_.redraw == Redraw::Changes && now - presented_ >= between_probes;
+        const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
         if (drawn.drawn) {
+            write_probe(target.framebuffer, ++probe_code_, drawn.lit);
             if (Result<MonotonicTime> shown = display_.present(now); !shown) {
                 return tl::unexpected<Error>(shown.error());
             }
+            presented_ = now;
         }
         const double ms = milliseconds_since(begin);
-        RunStatus& status = result_.status;
-        ++status.frames;
-        ++(drawn.drawn ? status.drawn : status.unchanged);
-        if (drawn.drawn && status.frames > 1) { // the first one compiles shaders
-            times_.add(ms);
-        }
-        status.prop_known = situation.prop_known;
-        status.head_known = situation.head_known;
+        const bool changed = drawn.drawn && !drawn.redrawn.empty();
+        count(drawn.drawn, changed, now, ms);
+        result_.status.prop_known = situation.prop_known;
+        result_.status.head_known = situation.head_known;
         const ShowState state = show_.state(now);
         if (result_.rows.size() < rows_expected_) {
             result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
-                                    static_cast<float>(state.estimated_error_mm), drawn.drawn, state.artifact,
-                                    state.technique});
+                                    static_cast<float>(state.levels.estimated_error_mm), changed,
+                                    state.artifact, state.levels.level});
         }
         take_still(now, situation, state);
         return {};
+    }
+
+    void count(bool presented, bool changed, MonotonicTime now, double ms) {
+        RunStatus& status = result_.status;
+        ++status.frames;
+        status.probes += presented && !changed ? 1 : 0;
+        ++(changed ? status.drawn : status.unchanged);
+        if (changed && status.frames > 1) { // the first one compiles shaders
+            times_.add(ms);
+            status.missed_deadlines += ms > 1e3 * to_seconds(period_) ? 1 : 0;
+            show_.took(now, ms);
+        }
     }
 
     void poll(MonotonicTime now) {
@@ -138,16 +151,23 @@ private:
         still.situation = situation;
         still.time = MonotonicTime(now - start_);
         read_colour_into(display_.framebuffer(), still.picture);
+        erase_probe(still.picture); // a watchdog's, not the picture's
     }
 
     void post_status(MonotonicTime now) {
         RunStatus& status = result_.status;
         const ShowState state = show_.state(now);
         status.artifact = state.artifact;
-        status.technique = state.technique;
         status.language = state.language;
-        status.estimated_error_mm = state.estimated_error_mm;
+        status.technique = state.levels.technique;
+        status.level = state.levels.level;
+        status.samples = state.levels.samples;
+        status.estimated_error_mm = state.levels.estimated_error_mm;
+        status.p95_error_mm = state.levels.p95_error_mm;
+        status.level_switches = state.levels.switches;
+        status.ignored_times = state.levels.ignored_times;
         status.median_ms = times_.quantile(0.5);
+        status.p95_ms = times_.quantile(0.95);
         status.p99_ms = times_.quantile(0.99);
         status.uptime_s = to_seconds(now - start_);
         if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
@@ -188,6 +208,8 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
+    MonotonicTime presented_; ///< when the picture on show was
+    std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     std::size_t stills_taken_ = 0;
     LoopResult result_;

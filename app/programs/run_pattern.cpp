@@ -28,7 +28,8 @@ DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const Re
     }
     shown_ = pose;
     upload_.show(with_prop(table_, scene_, situation.table_from_prop, typesetter_), target.framebuffer);
-    return {true, {0, 0, scene_.projector.width, scene_.projector.height}, 1};
+    const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
+    return {true, whole, whole, 1};
 }
 
 } // namespace frustumscreen

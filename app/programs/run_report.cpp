@@ -62,21 +62,30 @@ double FrameTimes::quantile(double share) {
 
 std::string status_json(const RunStatus& status) {
     const auto rounded = [](double value) { return std::round(value * 1000.0) / 1000.0; };
-    const nlohmann::ordered_json json = {
-        {"artifact", status.artifact},
-        {"level", status.technique},
-        {"language", status.language},
-        {"estimated_error_mm", rounded(status.estimated_error_mm)},
-        {"frame_ms", {{"median", rounded(status.median_ms)}, {"p99", rounded(status.p99_ms)}}},
-        {"frames", status.frames},
-        {"drawn", status.drawn},
-        {"unchanged", status.unchanged},
-        {"skipped", status.late},
-        {"device_errors", status.bad_samples},
-        {"prop_known", status.prop_known},
-        {"head_known", status.head_known},
-        {"uptime_s", rounded(status.uptime_s)},
-        {"resident_mib", rounded(status.resident_mib)}};
+    const nlohmann::ordered_json json = {{"artifact", status.artifact},
+                                         {"technique", status.technique},
+                                         {"level", status.level},
+                                         {"samples", status.samples},
+                                         {"language", status.language},
+                                         {"estimated_error_mm", rounded(status.estimated_error_mm)},
+                                         {"p95_error_mm", rounded(status.p95_error_mm)},
+                                         {"frame_ms",
+                                          {{"p50", rounded(status.median_ms)},
+                                           {"p95", rounded(status.p95_ms)},
+                                           {"p99", rounded(status.p99_ms)}}},
+                                         {"missed_deadlines", status.missed_deadlines},
+                                         {"level_switches", status.level_switches},
+                                         {"ignored_times", status.ignored_times},
+                                         {"frames", status.frames},
+                                         {"drawn", status.drawn},
+                                         {"unchanged", status.unchanged},
+                                         {"probes", status.probes},
+                                         {"skipped", status.late},
+                                         {"device_errors", status.bad_samples},
+                                         {"prop_known", status.prop_known},
+                                         {"head_known", status.head_known},
+                                         {"uptime_s", rounded(status.uptime_s)},
+                                         {"resident_mib", rounded(status.resident_mib)}};
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -48,11 +48,19 @@ private:
 
 struct RunStatus {
     std::string_view artifact;
-    std::string_view technique;
+    std::string_view technique; ///< as asked for: "auto" is the governor's choice
+    std::string_view level;
     std::string_view language;
-    double estimated_error_mm = 0.0;
+    int samples = 0;                 ///< a pixel
+    double estimated_error_mm = 0.0; ///< mean, as measured by the bake, on the configured prop
+    double p95_error_mm = 0.0;
     double median_ms = 0.0; ///< of the frames that were drawn
+    double p95_ms = 0.0;
     double p99_ms = 0.0;
+    std::uint64_t missed_deadlines = 0; ///< frames drawn that took longer than one refresh
+    std::uint64_t level_switches = 0;   ///< of level or samples, by the governors
+    std::uint64_t ignored_times = 0;    ///< frame times that could not be, see Governor
+    std::uint64_t probes = 0;           ///< pictures at rest that were presented again
     std::uint64_t frames = 0;
     std::uint64_t drawn = 0;
     std::uint64_t unchanged = 0;   ///< nothing had changed: nothing was drawn

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/exhibit/exhibit.h"
+#include "app/programs/run_levels.h"
 #include "app/render/renderer.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
@@ -14,11 +15,10 @@ namespace frustumscreen {
 
 /// What a frame shows, for the status and the report. The texts live as long as the show.
 struct ShowState {
-    std::string_view artifact;  ///< title; empty for the pattern
-    std::string_view technique; ///< level of the pack
+    std::string_view artifact; ///< title; empty for the pattern
     std::string_view language;
-    double estimated_error_mm = 0.0;
-    bool settled = true; ///< no fade: a good moment for a picture
+    LevelState levels;
+    bool settled = true; ///< no artifact or caption fades: a good moment for a picture
 };
 
 class Show {
@@ -28,6 +28,8 @@ public:
     /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& situation,
                                           const RenderTarget& target, Redraw redraw) = 0;
+    /// What the latest picture drawn took, from the poll until it was done.
+    virtual void took(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(MonotonicTime now) const = 0;
 };
 

@@ -71,7 +71,6 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level, c
     artifact.vertex_array_ = GlVertexArray::generate();
     glBindVertexArray(artifact.vertex_array_.get());
     artifact.vertices_ = upload_buffer(GL_ARRAY_BUFFER, source.vertices);
-    artifact.indices_ = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, source.indices);
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex), nullptr);
     glEnableVertexAttribArray(1);

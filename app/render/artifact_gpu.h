@@ -1,4 +1,4 @@
-/// One level of a pack in the GPU's memory: vertices, triangles, colour.
+/// One level of a pack in the GPU's memory: vertices and colour. Its triangles come with each plan.
 ///
 /// Threads  the render thread.
 /// Errors   the driver has no memory, or the texture is larger than it allows.
@@ -34,7 +34,6 @@ private:
 
     GlVertexArray vertex_array_;
     GlBuffer vertices_;
-    GlBuffer indices_;
     GlTexture texture_;
     float level_bias_ = 0.0F;
 };

@@ -1,8 +1,11 @@
 #include "app/render/face_pass.h"
 
 #include "app/render/gl_program.h"
+#include "app/render/scissor.h"
 
 #include <glm/gtc/type_ptr.hpp>
+
+#include <string>
 
 namespace frustumscreen {
 
@@ -46,8 +49,20 @@ in vec2 texel;
 uniform sampler2D colour;
 uniform float level_bias;
 uniform float brightness;
-#ifdef COMPENSATED
+#if defined(COMPENSATED) || defined(FADING)
 uniform vec2 pixel_per_fragment;
+#endif
+#ifdef FADING
+uniform vec2 fade; // share of the pixels that the coming level draws; 1 = this is the coming level, 0 = the other
+// Bayer's matrix of 8 x 8: 64 thresholds, each once in every 8 x 8 pixels.
+bool is_other_levels() {
+    ivec2 p = ivec2(gl_FragCoord.xy * pixel_per_fragment);
+    int q = p.x ^ p.y;
+    int rank = (q & 1) << 5 | (p.y & 1) << 4 | (q & 2) << 2 | (p.y & 2) << 1 | (q & 4) >> 1 | (p.y & 4) >> 2;
+    return ((float(rank) + 0.5) / 64.0 < fade.x) != (fade.y > 0.5);
+}
+#endif
+#ifdef COMPENSATED
 uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
 uniform vec3 inverse_depth; // of the face's plane
 uniform vec2 gain;          // constant, times d^3
@@ -60,6 +75,11 @@ float compensation() {
 }
 #endif
 void main() {
+#ifdef FADING
+    if (is_other_levels()) {
+        discard;
+    }
+#endif
     vec3 light = brightness * texture(colour, texel, level_bias).rgb;
 #ifdef COMPENSATED
     light *= compensation();
@@ -89,48 +109,68 @@ Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_vi
                          glGetUniformLocation(name, "pinhole"),
                          glGetUniformLocation(name, "inverse_depth"),
                          glGetUniformLocation(name, "gain"),
-                         glGetUniformLocation(name, "prop_from_unit")};
+                         glGetUniformLocation(name, "prop_from_unit"),
+                         glGetUniformLocation(name, "fade")};
     glUseProgram(name);
     glUniform1i(glGetUniformLocation(name, "colour"), 0);
     return made;
 }
 
-Result<FacePass> FacePass::create(FaceOutput output) {
+Result<FacePass> FacePass::create(FaceOutput output, bool level_fades) {
     FacePass pass;
-    const bool hit_point = output == FaceOutput::HitPoint;
-    Result<ArtifactProgram> plain = make_artifact_program(hit_point ? "#define HIT_POINT\n" : "");
-    Result<ArtifactProgram> compensated =
-        make_artifact_program(hit_point ? "#define HIT_POINT\n" : "#define COMPENSATED\n");
-    Result<GlProgram> outline = make_program("", outline_vertex, outline_fragment);
-    if (!plain || !compensated) {
-        return tl::unexpected<Error>(plain ? compensated.error() : plain.error());
+    const unsigned variants = level_fades ? AllVariants : Fading;
+    for (unsigned variant = 0; variant < variants; ++variant) {
+        std::string defines = (variant & Compensated) != 0 ? "#define COMPENSATED\n" : "";
+        defines += (variant & Fading) != 0 ? "#define FADING\n" : "";
+        if (output == FaceOutput::HitPoint) {
+            defines = "#define HIT_POINT\n";
+        }
+        Result<ArtifactProgram> program = make_artifact_program(defines);
+        if (!program) {
+            return tl::unexpected<Error>(program.error());
+        }
+        pass.programs_[variant] = std::move(*program);
     }
+    Result<GlProgram> outline = make_program("", outline_vertex, outline_fragment);
     if (!outline) {
         return tl::unexpected<Error>(outline.error());
     }
-    pass.plain_ = std::move(*plain);
-    pass.compensated_ = std::move(*compensated);
     pass.outline_ = std::move(*outline);
     pass.outline_corners_ = glGetUniformLocation(pass.outline_.get(), "corners");
     pass.no_attributes_ = GlVertexArray::generate();
+    pass.indices_ = GlBuffer::generate();
     return pass;
 }
 
-int FacePass::draw(const FramePlan& plan, const ArtifactGpu* artifact, const glm::ivec2& fragments) const {
-    if (plan.faces.empty() || artifact == nullptr) {
+int FacePass::draw(const FramePlan& plan, const Levels& levels, const glm::ivec2& fragments) const {
+    if (plan.faces.empty() || levels.artifact == nullptr) {
         return 0;
     }
     glEnable(GL_STENCIL_TEST);
-    mark_faces(plan);
-    const int calls = draw_artifact(plan, *artifact, fragments);
+    glEnable(GL_SCISSOR_TEST);
+    mark_faces(plan, fragments);
+    upload_indices(plan);
+    int calls = draw_level(plan, *levels.artifact, false, fragments);
+    if (plan.coming_share && levels.coming != nullptr) {
+        calls += draw_level(plan, *levels.coming, true, fragments);
+    }
     glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
     return calls + static_cast<int>(plan.faces.size());
 }
 
-void FacePass::mark_faces(const FramePlan& plan) const {
+void FacePass::upload_indices(const FramePlan& plan) const {
+    glBindVertexArray(no_attributes_.get()); // a vertex array keeps the buffer that is bound while it is
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(plan.indices.size() * sizeof(std::uint32_t)), plan.indices.data(),
+                 GL_STREAM_DRAW);
+}
+
+void FacePass::mark_faces(const FramePlan& plan, const glm::ivec2& fragments) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -143,6 +183,7 @@ void FacePass::mark_faces(const FramePlan& plan) const {
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         // The prop is convex: faces that the projector sees do not hide each other.
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
+        set_scissor(plan.faces[k].bounds, fragments);
         glUniform4fv(outline_corners_, 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
         glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
     }
@@ -151,9 +192,15 @@ void FacePass::mark_faces(const FramePlan& plan) const {
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-int FacePass::draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact,
-                            const glm::ivec2& fragments) const {
-    const ArtifactProgram& program = plan.compensate_light ? compensated_ : plain_;
+int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,
+                         const glm::ivec2& fragments) const {
+    // A renderer that was made without fades draws the first level alone, whole.
+    const bool fading = plan.coming_share && programs_[Fading];
+    if (coming && !fading) {
+        return 0;
+    }
+    const ArtifactProgram& program =
+        *programs_[(plan.compensate_light ? Compensated : 0U) | (fading ? Fading : 0U)];
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
@@ -166,6 +213,7 @@ int FacePass::draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact,
     glBindVertexArray(artifact.vertex_array());
     glUniform1f(program.level_bias, artifact.level_bias());
     glUniform1f(program.brightness, plan.brightness);
+    glUniform2f(program.fade, plan.coming_share.value_or(0.0F), coming ? 1.0F : 0.0F);
     glUniform2f(program.pixel_per_fragment, 1.0F / static_cast<float>(fragments.x),
                 1.0F / static_cast<float>(fragments.y));
     const Pinhole& pinhole = plan.projector;
@@ -174,6 +222,7 @@ int FacePass::draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact,
     const std::array<glm::vec3, 2> prop_from_unit{glm::vec3(plan.prop_from_unit_scale),
                                                   glm::vec3(plan.prop_from_unit_offset)};
     glUniform3fv(program.prop_from_unit, 2, glm::value_ptr(prop_from_unit[0]));
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     int calls = 0;
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         const FacePlan& face = plan.faces[k];
@@ -181,15 +230,16 @@ int FacePass::draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact,
         glUniformMatrix4fv(program.clip_from_unit, 1, GL_FALSE, glm::value_ptr(face.clip_from_unit));
         glUniform3fv(program.inverse_depth, 1, glm::value_ptr(face.light.inverse_depth));
         glUniform2f(program.gain, face.light.constant, face.light.per_cubic_metre);
-        for (std::uint32_t r = face.first_range; r < face.first_range + face.range_count; ++r) {
-            const IndexRange& range = plan.ranges[r];
-            const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
-            glDrawElements(
-                GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
-                // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                reinterpret_cast<const void*>(offset));
-            ++calls;
+        const IndexRange& range = coming ? face.coming : face.shown;
+        if (range.count == 0) {
+            continue;
         }
+        set_scissor(face.bounds, fragments);
+        const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                       // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                       reinterpret_cast<const void*>(offset));
+        ++calls;
     }
     return calls;
 }

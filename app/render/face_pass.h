@@ -1,7 +1,11 @@
 /// The one pass of the picture: visible faces into the stencil, then the artifact once for each face.
 ///
-/// Draws into the framebuffer that is bound, inside the scissor that is set; the caller clears. Sets every
-/// piece of state that it needs and leaves stencil test, depth test and culling off.
+/// While one level of the artifact fades into another, both are drawn, and an ordered dither gives each of
+/// the picture's pixels, with all its samples, to exactly one of them: no pixel is a mixture and none is left
+/// out.
+///
+/// Draws into the framebuffer that is bound; the caller clears. Sets every piece of state that it needs, the
+/// scissor to each face's bounds, and leaves stencil test, depth test and culling off.
 ///
 /// Colour   linear light out; an sRGB framebuffer encodes.
 /// Threads  the render thread; allocates nothing in `draw`.
@@ -12,6 +16,9 @@
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
 
+#include <array>
+#include <optional>
+
 namespace frustumscreen {
 
 enum class FaceOutput {
@@ -21,13 +28,21 @@ enum class FaceOutput {
 
 class FacePass {
 public:
-    [[nodiscard]] static Result<FacePass> create(FaceOutput output);
+    /// `level_fades`: a plan may fade between levels; else its shaders are not made.
+    [[nodiscard]] static Result<FacePass> create(FaceOutput output, bool level_fades = false);
 
-    /// Number of draw calls made. `artifact` is not touched if the plan has no face.
+    /// The level that the plan is of, and the one that a fade brings in.
+    struct Levels {
+        const ArtifactGpu* artifact = nullptr;
+        const ArtifactGpu* coming = nullptr;
+    };
+    /// Number of draw calls made. No level is touched if the plan has no face.
     /// `fragments`: of the framebuffer, along the sides of one of the plan's pixels.
-    int draw(const FramePlan& plan, const ArtifactGpu* artifact, const glm::ivec2& fragments = {1, 1}) const;
+    int draw(const FramePlan& plan, const Levels& levels, const glm::ivec2& fragments = {1, 1}) const;
 
 private:
+    /// Of the artifact's shader: bits of an index into `programs_`.
+    enum Variant : unsigned { Compensated = 1, Fading = 2, AllVariants = 4 };
     struct ArtifactProgram {
         GlProgram program;
         GLint clip_from_unit = -1;
@@ -38,17 +53,20 @@ private:
         GLint inverse_depth = -1;
         GLint gain = -1;
         GLint prop_from_unit = -1;
+        GLint fade = -1;
     };
     FacePass() = default;
     [[nodiscard]] static Result<ArtifactProgram> make_artifact_program(std::string_view defines);
-    void mark_faces(const FramePlan& plan) const;
-    int draw_artifact(const FramePlan& plan, const ArtifactGpu& artifact, const glm::ivec2& fragments) const;
+    void upload_indices(const FramePlan& plan) const;
+    void mark_faces(const FramePlan& plan, const glm::ivec2& fragments) const;
+    int draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,
+                   const glm::ivec2& fragments) const;
 
-    ArtifactProgram plain_;
-    ArtifactProgram compensated_;
+    std::array<std::optional<ArtifactProgram>, AllVariants> programs_;
     GlProgram outline_;
     GLint outline_corners_ = -1;
     GlVertexArray no_attributes_;
+    GlBuffer indices_; ///< the plan's, renewed with each picture
 };
 
 } // namespace frustumscreen

@@ -41,7 +41,7 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const ArtifactGpu* arti
     glStencilMask(0xFF);
     glClearBufferfv(GL_COLOR, 0, nothing.data());
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
-    pass_.draw(plan, artifact);
+    pass_.draw(plan, {artifact, nullptr});
     ImageFloat image(width_, height_);
     std::vector<glm::vec4> read(image.texels.size());
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, read.data());

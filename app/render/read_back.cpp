@@ -19,4 +19,8 @@ void read_colour_into(unsigned framebuffer, Image8& image) {
     }
 }
 
+void wait_until_drawn() {
+    glFinish();
+}
+
 } // namespace frustumscreen

@@ -10,4 +10,7 @@ namespace frustumscreen {
 /// The same into an image of the framebuffer's size.
 void read_colour_into(unsigned framebuffer, Image8& image);
 
+/// Returns when everything that was asked of the GPU is done. For measuring.
+void wait_until_drawn();
+
 } // namespace frustumscreen

@@ -8,11 +8,12 @@
 #include "app/render/artifact_gpu.h"
 #include "app/render/caption_pass.h"
 #include "app/render/face_pass.h"
-#include "app/render/gl_handle.h"
+#include "app/render/sample_grid.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
 
 #include <array>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -29,6 +30,7 @@ struct RendererOptions {
     /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
     /// llvmpipe that takes half the time of the driver's own multisampling.
     int samples = default_samples; ///< the most; a plan may ask for fewer
+    bool level_fades = false;      ///< a plan may fade from one level to another
 };
 
 /// Display::framebuffer and Display::buffer_age.
@@ -40,11 +42,13 @@ struct RenderTarget {
 struct DrawResult {
     bool drawn = false;     ///< false: the picture on show is still right; do not present
     PixelRectangle redrawn; ///< what was cleared and drawn
+    PixelRectangle lit;     ///< every pixel that the picture may light
     int draw_calls = 0;
 };
 
 enum class Redraw {
     Changes,
+    Again,      ///< to present it once more: as Changes, but `drawn` even if nothing had to be
     Everything, ///< the whole picture, whether it changed or not
 };
 
@@ -56,6 +60,7 @@ public:
     struct Shows {
         const ArtifactGpu* artifact = nullptr;
         const CaptionGpu* caption = nullptr;
+        const ArtifactGpu* coming = nullptr; ///< the level that a fade brings in
     };
     /// Each drawn picture must be presented before the next call: the target's age counts presents.
     DrawResult draw(const FramePlan& plan, const ArtifactGpu* artifact, const RenderTarget& target,
@@ -71,25 +76,19 @@ private:
         PixelRectangle bounds;
     };
     Renderer(FacePass pass, CaptionPass caption) : pass_(std::move(pass)), caption_(std::move(caption)) {}
+    void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
+               DrawResult& result) const;
     void draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const Shows& shows,
                      const RenderTarget& target, DrawResult& result) const;
-    [[nodiscard]] Result<void> make_enlarged();
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
 
     RendererOptions options_;
     FacePass pass_;
     CaptionPass caption_;
-    GLint average_scale_ = -1;
-    GLint average_fetches_ = -1;
-    glm::ivec2 grid_{1, 1}; ///< samples along a pixel's sides
-    GlFramebuffer enlarged_;
-    GlTexture enlarged_colour_;
-    GlRenderbuffer enlarged_depth_stencil_;
-    GlProgram average_;
-    GlVertexArray no_attributes_;
-    std::array<Picture, 4> history_{}; ///< [0] is the last picture presented
-    std::size_t pictures_ = 0;         ///< valid entries of history_
+    std::optional<SampleGrid> sample_grid_; ///< for more than one sample
+    std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
+    std::size_t pictures_ = 0;              ///< valid entries of history_
 };
 
 } // namespace frustumscreen

@@ -44,14 +44,18 @@ void hash_caption(const CaptionPlan& caption, Hash& hash) {
     }
 }
 
-std::uint64_t hash_of(const FramePlan& plan, std::uint64_t artifact, std::uint64_t caption) {
+std::uint64_t hash_of(const FramePlan& plan, std::uint64_t artifact, std::uint64_t coming,
+                      std::uint64_t caption) {
     Hash hash;
     hash.add(artifact);
+    hash.add(coming);
     hash.add(plan.caption.bounds.empty() ? 0 : caption);
     hash.add(static_cast<std::uint64_t>(plan.projector.width));
     hash.add(static_cast<std::uint64_t>(plan.projector.height));
     hash.add(static_cast<std::uint64_t>(plan.compensate_light));
+    hash.add(static_cast<std::uint64_t>(plan.samples));
     hash.add_float(plan.brightness);
+    hash.add_float(plan.coming_share.value_or(-1.0F));
     hash_caption(plan.caption, hash);
     for (const FacePlan& face : plan.faces) {
         hash.add(static_cast<std::uint64_t>(face.face));
@@ -63,10 +67,8 @@ std::uint64_t hash_of(const FramePlan& plan, std::uint64_t artifact, std::uint64
         hash_corners(face.corners_clip, hash);
         hash.add_float(face.light.constant);
         hash.add_float(face.light.per_cubic_metre);
-        for (std::uint32_t k = 0; k < face.range_count; ++k) {
-            hash.add(plan.ranges[face.first_range + k].first);
-            hash.add(plan.ranges[face.first_range + k].count);
-        }
+        hash.add(face.shown.count);
+        hash.add(face.coming.count);
     }
     return hash.value();
 }
@@ -143,12 +145,6 @@ PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pi
             static_cast<int>(high.y - low.y)};
 }
 
-PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b) {
-    const int x = std::max(a.x, b.x);
-    const int y = std::max(a.y, b.y);
-    return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
-}
-
 /// Where the artifact can show on the face: its box seen through the face, and the face itself.
 PixelRectangle face_bounds(const PropFace& face, const Shared& shared, const glm::dmat4& clip_from_frame) {
     std::array<glm::dvec4, 4> outline;
@@ -176,6 +172,69 @@ std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corner
     return result;
 }
 
+/// Pixels around points of the box seen through a face.
+template <std::size_t count>
+PixelRectangle pixels_of(const std::array<glm::vec3, count>& points, const glm::mat4& clip_from_box,
+                         const Pinhole& pinhole) {
+    std::array<glm::dvec4, count> clip;
+    for (std::size_t k = 0; k < count; ++k) {
+        clip[k] = glm::dvec4(clip_from_box * glm::vec4(points[k], 1.0F));
+    }
+    return pixels_around(clip, pinhole);
+}
+
+std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
+    std::array<glm::vec3, 8> corners{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        corners[k] = {(k & 1U) != 0 ? extent.high.x : extent.low.x,
+                      (k & 2U) != 0 ? extent.high.y : extent.low.y,
+                      (k & 4U) != 0 ? extent.high.z : extent.low.z};
+    }
+    return corners;
+}
+
+/// Lights what the triangles may light on a face: their box's part of it, or each triangle's where there are
+/// few in a large box. Returns the pixels around it all.
+PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
+                           std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
+                           const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
+    constexpr int pixels_per_triangle = 100; // fewer cost less than looking closer
+    const PixelRectangle box =
+        intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
+    const std::size_t triangles = visible.size() / 3;
+    if (box.empty() || static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height) <=
+                           pixels_per_triangle * triangles) {
+        tiles.light(box);
+        return box;
+    }
+    PixelRectangle bounds;
+    for (std::size_t k = 0; k < visible.size(); k += 3) {
+        const std::array<glm::vec3, 3> corners{level.positions[visible[k]], level.positions[visible[k + 1]],
+                                               level.positions[visible[k + 2]]};
+        const PixelRectangle part = intersected(face, pixels_of(corners, clip_from_box, pinhole));
+        tiles.light(part);
+        bounds = united(bounds, part);
+    }
+    return bounds;
+}
+
+/// Adds what the face shows to the plan; returns the pixels around it.
+PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& volume,
+                              const glm::mat4& clip_from_box, const PixelRectangle& face, FramePlan& plan,
+                              IndexRange& range) {
+    range.first = static_cast<std::uint32_t>(plan.indices.size());
+    PixelRectangle bounds;
+    for (std::size_t k = 0; k < level.clusters.size(); ++k) {
+        const std::size_t first = plan.indices.size();
+        if (append_visible(volume, level, level.clusters[k], plan.indices) > 0) {
+            bounds = united(bounds, light_tiles(level, k, std::span(plan.indices).subspan(first),
+                                                clip_from_box, face, plan.projector, plan.lit));
+        }
+    }
+    range.count = static_cast<std::uint32_t>(plan.indices.size()) - range.first;
+    return bounds;
+}
+
 /// Plans one face; false if nothing shows on it.
 bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePlan& face_plan) {
     const PropFace& face = shared.prop.faces[index];
@@ -200,17 +259,20 @@ bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePla
     }
     clip_from_unit[3] = *clip * glm::dvec4(plan.prop_from_unit_offset, 1.0);
 
-    const std::size_t first = plan.ranges.size();
-    append_visible(volume_of(face, eye, scale, clip_from_box), shared.artifact.clusters, plan.ranges);
-    if (plan.ranges.size() == first) {
+    const FaceVolume volume = volume_of(face, eye, scale, clip_from_box);
+    const glm::mat4 clip32(clip_from_box);
+    face_plan.bounds =
+        show_triangles(*shared.artifact.triangles, volume, clip32, bounds, plan, face_plan.shown);
+    if (shared.view.fade) {
+        face_plan.bounds = united(face_plan.bounds, show_triangles(*shared.view.fade->triangles, volume,
+                                                                   clip32, bounds, plan, face_plan.coming));
+    }
+    if (face_plan.shown.count + face_plan.coming.count == 0) {
         return false;
     }
     face_plan.face = static_cast<int>(index);
     face_plan.clip_from_unit = glm::mat4(clip_from_unit);
-    face_plan.first_range = static_cast<std::uint32_t>(first);
-    face_plan.range_count = static_cast<std::uint32_t>(plan.ranges.size() - first);
     face_plan.corners_clip = corners_in_clip(face.corners, shared.clip_from_prop);
-    plan.bounds = united(plan.bounds, bounds);
     return true;
 }
 
@@ -247,25 +309,21 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 
 } // namespace
 
-PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b) {
-    if (a.empty() || b.empty()) {
-        return a.empty() ? b : a;
-    }
-    const int x = std::min(a.x, b.x);
-    const int y = std::min(a.y, b.y);
-    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, std::uint64_t id) {
-    return {pack.levels[level].clusters, pack.box_size, metres_per_box, id, pack.samples};
+    return {std::make_shared<LevelTriangles>(triangles_of(pack.levels[level], pack.box_size)), pack.box_size,
+            metres_per_box, id, pack.samples};
 }
 
 FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
+    return make_plan(prop, artifact.triangles ? artifact.triangles->indices.size() : 0);
+}
+
+FramePlan make_plan(const PropShape& prop, std::size_t indices) {
     FramePlan plan;
     plan.faces.reserve(prop.faces.size());
     plan.caption.prop_clip.reserve(prop.faces.size());
-    // Runs of visible clusters are at most every other one.
-    plan.ranges.reserve(prop.faces.size() * (artifact.clusters.size() / 2 + 1));
+    // A triangle may show on every face; memory that is never written is never taken.
+    plan.indices.reserve(prop.faces.size() * indices);
     return plan;
 }
 
@@ -275,14 +333,18 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
     plan.samples = artifact.samples;
     plan.compensate_light = view.light.has_value();
     plan.brightness = static_cast<float>(view.brightness);
+    plan.coming_share = std::nullopt;
+    if (view.fade) {
+        plan.coming_share = static_cast<float>(view.fade->share);
+    }
     plan.faces.clear();
-    plan.ranges.clear();
-    plan.bounds = {};
+    plan.indices.clear();
+    plan.lit.begin(view.projector.width, view.projector.height);
     plan.prop_from_unit_scale = shared.box.high - shared.box.low;
     plan.prop_from_unit_offset = shared.box.low;
     plan.caption.bounds = {};
     plan.caption.prop_clip.clear();
-    if (!artifact.clusters.empty() && !view.eyes_m.empty() && view.brightness > 0.0) {
+    if (artifact.triangles && !view.eyes_m.empty() && view.brightness > 0.0) {
         for (std::size_t face = 0; face < std::min(prop.faces.size(), most_faces); ++face) {
             FacePlan face_plan;
             if (plan_face(face, shared, plan, face_plan)) {
@@ -290,25 +352,19 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
             }
         }
     }
+    plan.lit.finish();
     if (view.light) {
         compensate(shared, *view.light, plan);
     }
     if (view.caption && view.caption->brightness > 0.0) {
         plan_caption(*view.caption, shared, plan.caption);
     }
-    plan.hash = hash_of(plan, artifact.id, view.caption ? view.caption->id : 0);
+    plan.hash =
+        hash_of(plan, artifact.id, view.fade ? view.fade->id : 0, view.caption ? view.caption->id : 0);
 }
 
 PixelRectangle lit_bounds(const FramePlan& plan) {
-    return united(plan.bounds, plan.caption.bounds);
-}
-
-std::uint64_t index_count(const FramePlan& plan) {
-    std::uint64_t total = 0;
-    for (const IndexRange& range : plan.ranges) {
-        total += range.count;
-    }
-    return total;
+    return united(plan.lit.bounds(), plan.caption.bounds);
 }
 
 } // namespace frustumscreen

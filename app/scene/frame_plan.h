@@ -15,34 +15,27 @@
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
 #include "app/scene/light.h"
-#include "app/scene/visible_clusters.h"
+#include "app/scene/lit_tiles.h"
+#include "app/scene/visible_triangles.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace frustumscreen {
 
-/// A rectangle of pixels, row 0 at the top.
-struct PixelRectangle {
-    int x = 0, y = 0, width = 0, height = 0;
-    [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
-    [[nodiscard]] bool operator==(const PixelRectangle&) const = default;
-};
-/// The smallest rectangle around both; an empty one adds nothing.
-[[nodiscard]] PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b);
-
 /// The artifact at one level, placed in the configured prop.
 struct PlacedLevel {
-    std::span<const PackCluster> clusters;
-    glm::dvec3 box_size{1.0};    ///< extents of the pack's box
-    double metres_per_box = 1.0; ///< Placement::metres_per_box
-    std::uint64_t id = 0;        ///< tells artifacts and levels apart in a plan's hash
-    int samples = 0;             ///< Pack::samples; 0 = as many as the renderer takes
+    std::shared_ptr<const LevelTriangles> triangles; ///< none: nothing shows
+    glm::dvec3 box_size{1.0};                        ///< extents of the pack's box
+    double metres_per_box = 1.0;                     ///< Placement::metres_per_box
+    std::uint64_t id = 0;                            ///< tells artifacts and levels apart in a plan's hash
+    int samples = 0;                                 ///< Pack::samples; 0 = as many as the renderer takes
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  std::uint64_t id);
@@ -52,6 +45,14 @@ struct TablePicture {
     std::array<glm::dvec3, 4> corners_m{}; ///< of the picture: top left, top right, bottom right, bottom left
     double brightness = 1.0;               ///< 0..1, linear light
     std::uint64_t id = 0;                  ///< tells pictures apart in a plan's hash
+};
+
+/// A second level of the artifact that is coming in: it draws a share of the pixels, the first level the
+/// rest.
+struct LevelFade {
+    const LevelTriangles* triangles = nullptr;
+    std::uint64_t id = 0; ///< as PlacedLevel::id
+    double share = 0.0;   ///< 0..1
 };
 
 /// Where everything stands.
@@ -65,6 +66,13 @@ struct PlanView {
     std::optional<LightCompensation> light = LightCompensation{};
     double brightness = 1.0; ///< of the artifact, 0..1, linear light: fades; 0 leaves the prop dark
     std::optional<TablePicture> caption = std::nullopt;
+    std::optional<LevelFade> fade = std::nullopt;
+};
+
+/// A run of FramePlan::indices.
+struct IndexRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
 };
 
 /// One face of the prop that is turned to its eye and lit by the projector.
@@ -73,8 +81,9 @@ struct FacePlan {
     glm::mat4 clip_from_unit{1.0F};          ///< PackVertex::position / 65535 -> clip
     std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
-    std::uint32_t first_range = 0; ///< of FramePlan::ranges
-    std::uint32_t range_count = 0;
+    IndexRange shown;      ///< of FramePlan::indices
+    IndexRange coming;     ///< of the level that comes in, while one does
+    PixelRectangle bounds; ///< holds every pixel that the artifact can light on this face
 };
 
 /// A caption, and the outlines of the prop's lit faces, which it never lights.
@@ -90,25 +99,25 @@ struct FramePlan {
     bool compensate_light = false;
     int samples = 0; ///< a pixel, of the artifact; 0 = as many as the renderer takes
     float brightness = 1.0F;
+    /// Of the pixels, those that the level coming in draws; nothing = one level is drawn.
+    std::optional<float> coming_share;
     std::vector<FacePlan> faces;
-    std::vector<IndexRange> ranges;
-    PixelRectangle bounds; ///< holds every pixel that the artifact can light
+    std::vector<std::uint32_t> indices; ///< of the triangles that each face shows
+    LitTiles lit;                       ///< hold every pixel that the artifact can light
     CaptionPlan caption;
     glm::dvec3 prop_from_unit_scale{1.0}; ///< metres: prop point = scale * (position / 65535) + offset
     glm::dvec3 prop_from_unit_offset{0.0};
     std::uint64_t hash = 0; ///< equal for equal pictures (of one pack)
 };
 
-/// A plan with room for every face and cluster.
+/// A plan with room for every face and `indices`: those of all levels that are drawn at one time.
+[[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
-/// `artifact` without clusters: the prop stays dark.
+/// `artifact` without triangles: the prop stays dark.
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);
 
 /// Every pixel that the plan can light.
 [[nodiscard]] PixelRectangle lit_bounds(const FramePlan& plan);
-
-/// Number of indices that the plan draws over all its faces.
-[[nodiscard]] std::uint64_t index_count(const FramePlan& plan);
 
 } // namespace frustumscreen

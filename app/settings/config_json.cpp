@@ -88,6 +88,7 @@ std::string config_json(const CheckedSettings& checked) {
     const Settings& settings = *checked;
     Json json;
     json["projector"] = projector_json(settings.projector);
+    json["render"] = {{"error_tolerance_px", settings.render.error_tolerance_px}};
     json["prop"] = {{"kind", std::string(name_of(settings.prop.kind))},
                     {"base_m", settings.prop.base_m},
                     {"top_m", settings.prop.top_m},

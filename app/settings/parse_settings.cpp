@@ -105,6 +105,11 @@ void read_projector(TableReader table, ProjectorSettings& projector) {
     table.finish();
 }
 
+void read_render(TableReader table, RenderSettings& render) {
+    table.number("error_tolerance_px", render.error_tolerance_px, {0.01, 20.0, "pixels"});
+    table.finish();
+}
+
 void read_prop(TableReader table, PropSize& prop) {
     constexpr std::array<std::string_view, 2> kinds{"frustum", "cube"};
     int kind = 0;
@@ -209,6 +214,7 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
     Settings settings;
     TableReader file(state, &root, "");
     read_projector(file.table("projector"), settings.projector);
+    read_render(file.table("render"), settings.render);
     read_prop(file.table("prop"), settings.prop);
     read_table(file.table("table"), settings.table);
     read_eye(file.table("eye"), settings.eye);

@@ -66,8 +66,14 @@ struct ExhibitSettings {
     double caption_height_m = 0.010; ///< height of a capital letter's em on the table; 24 pt = 0.0085 m
 };
 
+struct RenderSettings {
+    /// Of a projector pixel, where one is smallest on the prop: the error that a level may have.
+    double error_tolerance_px = 0.5;
+};
+
 struct Settings {
     ProjectorSettings projector;
+    RenderSettings render;
     PropSize prop;
     TableSettings table;
     EyeSettings eye;

@@ -29,8 +29,10 @@ glm::vec3 position_of(const PackVertex& vertex, const glm::dvec3& box_size) {
 
 /// Triangles in clusters, each in vertex-cache order, with what culls them.
 void cluster(PackLevel& level, const glm::dvec3& box_size) {
-    constexpr std::size_t most_vertices = 128;
-    constexpr std::size_t most_triangles = 192;
+    // Compact rather than flat: the kiosk looks at each triangle's side itself.
+    constexpr std::size_t most_vertices = 96;
+    constexpr std::size_t most_triangles = 64;
+    constexpr float cone_weight = 0.0F;
     std::vector<glm::vec3> positions;
     positions.reserve(level.vertices.size());
     for (const PackVertex& vertex : level.vertices) {
@@ -44,7 +46,7 @@ void cluster(PackLevel& level, const glm::dvec3& box_size) {
     std::vector<unsigned char> meshlet_triangles(meshlets.size() * most_triangles * 3);
     meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshlet_vertices.data(), meshlet_triangles.data(),
                                           ordered.data(), ordered.size(), &positions[0].x, positions.size(),
-                                          sizeof(glm::vec3), most_vertices, most_triangles, 0.5F));
+                                          sizeof(glm::vec3), most_vertices, most_triangles, cone_weight));
     level.indices.clear();
     for (const meshopt_Meshlet& meshlet : meshlets) {
         const meshopt_Bounds bounds = meshopt_computeMeshletBounds(

@@ -78,10 +78,10 @@ TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
         const DrawResult result =
             rig.renderer->draw(rig.plan, &*rig.artifact, {rig.display->framebuffer(), k < 2 ? 0 : 2});
         if (k >= 2) {
-            EXPECT_EQ(result.redrawn, united(before_last, rig.plan.bounds));
+            EXPECT_EQ(result.redrawn, united(before_last, rig.plan.lit.bounds()));
         }
         before_last = last;
-        last = rig.plan.bounds;
+        last = rig.plan.lit.bounds();
     }
 }
 

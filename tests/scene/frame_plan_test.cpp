@@ -2,28 +2,39 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
 namespace frustumscreen {
 namespace {
 
-/// A ball of one cluster that fills the pack's box, and a kiosk that looks straight down.
+/// A closed surface of one cluster in the pack's box, and a kiosk that looks straight down.
 struct Kiosk {
     PropShape prop = make_prop({});
-    std::vector<PackCluster> clusters;
     PlacedLevel artifact;
     glm::dvec3 eye{0.05, -0.5, 0.45};
     PlanView view{
         {1280, 800, 1872.0, 1872.0, 640.0, 400.0}, {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.2}}, {}, {}, {}};
 
     Kiosk() {
-        PackCluster ball;
-        ball.index_count = 300;
-        ball.centre = {0.0F, 0.0F, 0.5F};
-        ball.radius = 0.87F;
-        clusters = {ball};
-        artifact = {clusters, glm::dvec3(1.0), 0.16, 1}; // larger than the prop: seen through every face
+        PackLevel ball;
+        for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}) {
+            ball.vertices.push_back(
+                {{static_cast<std::uint16_t>(65535 * x), static_cast<std::uint16_t>(65535 * y),
+                  static_cast<std::uint16_t>(65535 * z)},
+                 0,
+                 {}});
+        }
+        ball.indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 4, 2, 3, 4, 3, 1, 4}; // two tetrahedra, base to base
+        PackCluster all;
+        all.index_count = static_cast<std::uint32_t>(ball.indices.size());
+        all.centre = {0.0F, 0.0F, 0.5F};
+        all.radius = 0.87F;
+        ball.clusters = {all};
+        // Larger than the prop: seen through every face.
+        artifact = {std::make_shared<LevelTriangles>(triangles_of(ball, glm::dvec3(1.0))), glm::dvec3(1.0),
+                    0.16, 1};
     }
     FramePlan plan() {
         view.eyes_m = std::span(&eye, 1);
@@ -64,7 +75,7 @@ TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
     Kiosk kiosk;
     kiosk.eye = {0.0, 0.0, 0.05}; // inside the prop
     EXPECT_TRUE(kiosk.plan().faces.empty());
-    EXPECT_TRUE(kiosk.plan().bounds.empty());
+    EXPECT_TRUE(kiosk.plan().lit.bounds().empty());
     kiosk = Kiosk();
     kiosk.eye = {0.0, 0.0, -1.0}; // under the table
     EXPECT_TRUE(kiosk.plan().faces.empty());
@@ -78,8 +89,7 @@ TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
     kiosk.view.brightness = 0.0;
     EXPECT_TRUE(kiosk.plan().faces.empty());
     kiosk = Kiosk();
-    kiosk.clusters.clear();
-    kiosk.artifact.clusters = {};
+    kiosk.artifact.triangles = nullptr;
     EXPECT_TRUE(kiosk.plan().faces.empty());
 }
 
@@ -100,10 +110,10 @@ TEST(FramePlan, EveryNumberIsFiniteForAnyPose) {
                 }
             }
             ASSERT_TRUE(std::isfinite(face.light.per_cubic_metre));
-            ASSERT_GE(plan.bounds.x, 0);
-            ASSERT_GE(plan.bounds.y, 0);
-            ASSERT_LE(plan.bounds.x + plan.bounds.width, 1280);
-            ASSERT_LE(plan.bounds.y + plan.bounds.height, 800);
+            ASSERT_GE(plan.lit.bounds().x, 0);
+            ASSERT_GE(plan.lit.bounds().y, 0);
+            ASSERT_LE(plan.lit.bounds().x + plan.lit.bounds().width, 1280);
+            ASSERT_LE(plan.lit.bounds().y + plan.lit.bounds().height, 800);
         }
     }
 }

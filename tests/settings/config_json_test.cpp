@@ -26,6 +26,7 @@ TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
     for (std::size_t k = 0; k < 16; ++k) {
         EXPECT_NEAR(projector["table_from_projector"][k].get<double>(), expected[k].get<double>(), 1e-15);
     }
+    EXPECT_EQ(json.at("render").at("error_tolerance_px"), 0.5);
     EXPECT_EQ(json.at("prop"),
               nlohmann::json({{"kind", "frustum"}, {"base_m", 0.16}, {"top_m", 0.09}, {"height_m", 0.12}}));
     EXPECT_EQ(json.at("eye_default_m"), nlohmann::json({0.0, -0.55, 0.50}));

@@ -22,6 +22,7 @@ TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
     EXPECT_EQ(shipped.projector.pinhole.cx, defaults.projector.pinhole.cx);
     EXPECT_EQ(shipped.projector.pinhole.cy, defaults.projector.pinhole.cy);
     EXPECT_EQ(shipped.projector.refresh_hz, defaults.projector.refresh_hz);
+    EXPECT_EQ(shipped.render.error_tolerance_px, defaults.render.error_tolerance_px);
     expect_same_pose(shipped.projector.table_from_projector, defaults.projector.table_from_projector);
     EXPECT_EQ(shipped.prop.kind, defaults.prop.kind);
     EXPECT_EQ(shipped.prop.base_m, defaults.prop.base_m);

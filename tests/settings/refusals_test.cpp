@@ -11,6 +11,8 @@ TEST(Refusals, NameFileLineKeyFoundAndAllowed) {
               "set/kiosk.toml:4: prop.base_m is -0.1; allowed are 0.02 to 2 metres");
     EXPECT_EQ(refusal("[eye]\ndefault_m = [0,\n 0.1,\n 1e9]\n"),
               "set/kiosk.toml:4: eye.default_m[2] is 1000000000; allowed are -10 to 10 metres");
+    EXPECT_EQ(refusal("[render]\nerror_tolerance_px = 0\n"),
+              "set/kiosk.toml:2: render.error_tolerance_px is 0; allowed are 0.01 to 20 pixels");
 }
 
 /// Each text, and words that its refusal must hold.

@@ -1,0 +1,152 @@
+#include "app/programs/run_levels.h"
+
+#include "app/programs/offline_render.h"
+#include "app/render/read_back.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace frustumscreen {
+
+RunLevels::RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs,
+                     double deadline_ms, FramePlan plan)
+    : technique_(std::move(technique)), levels_(std::move(levels)), rungs_(std::move(rungs)),
+      deadline_ms_(deadline_ms), governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms),
+      plan_(std::move(plan)) {}
+
+Result<RunLevels> RunLevels::upload(const Pack& pack, const PropShape& prop, const LevelOptions& options,
+                                    std::uint64_t first_id) {
+    const Result<std::uint32_t> asked = level_of(pack, options.technique);
+    if (!asked) {
+        return tl::unexpected<Error>(asked.error());
+    }
+    const double metres_per_box = place(pack, prop).metres_per_box;
+    const double mm_per_box = 1e3 * metres_per_box;
+    std::vector<Rung> rungs{{*asked, pack.samples, true}};
+    if (options.technique == "auto") {
+        rungs = ladder(pack.levels, mm_per_box, options.tolerance_mm, pack.samples);
+    }
+    std::vector<Level> levels;
+    std::size_t indices = 0;
+    for (const Rung& rung : rungs) {
+        if (!levels.empty() && levels.back().level == rung.level) {
+            continue;
+        }
+        Result<ArtifactGpu> gpu = ArtifactGpu::upload(pack, rung.level);
+        if (!gpu) {
+            return tl::unexpected<Error>(gpu.error());
+        }
+        const PackLevel& source = pack.levels[rung.level];
+        levels.push_back({rung.level, fmt::format("level{}", rung.level),
+                          mm_per_box * static_cast<double>(source.error.mean_box),
+                          mm_per_box * static_cast<double>(source.error.p95_box),
+                          placed(pack, rung.level, metres_per_box, first_id + rung.level), std::move(*gpu)});
+        indices += source.indices.size();
+    }
+    return RunLevels(options.technique, std::move(levels), std::move(rungs), options.deadline_ms,
+                     make_plan(prop, indices));
+}
+
+std::size_t RunLevels::slot_of(std::uint32_t level) const {
+    return static_cast<std::size_t>(
+        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.level == level; }) -
+        levels_.begin());
+}
+
+FrameWork RunLevels::work() const {
+    return {static_cast<double>(plan_.indices.size()) / 3.0, static_cast<double>(plan_.lit.pixels())};
+}
+
+double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanView& view, Renderer& renderer,
+                            const RenderTarget& target) {
+    const Level& level = levels_[slot_of(rung.level)];
+    PlacedLevel placed = level.placed;
+    placed.samples = rung.samples;
+    std::array<double, 7> ms{};
+    for (double& each : ms) {
+        const auto start = std::chrono::steady_clock::now();
+        plan_frame(prop, placed, view, plan_);
+        renderer.draw(plan_, &level.gpu, target, Redraw::Everything);
+        wait_until_drawn();
+        each = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+    // The first two warm up: shaders are compiled, buffers come into the GPU's memory.
+    const auto first = ms.begin() + 2;
+    const auto middle = first + (ms.end() - first) / 2;
+    std::nth_element(first, middle, ms.end());
+    return *middle;
+}
+
+void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& renderer,
+                        const RenderTarget& target) {
+    if (rungs_.size() < 2) {
+        return;
+    }
+    std::vector<RungTime> times;
+    for (const Rung& rung : rungs_) {
+        const double ms = median_ms(rung, prop, view, renderer, target);
+        times.push_back({rung.samples, work(), ms});
+    }
+    governor_ = Governor(rungs_, std::move(times), deadline_ms_);
+    if (fades()) { // the driver makes the fade's shaders now and not in the middle of the first one
+        PlanView fading = view;
+        fading.fade = LevelFade{levels_[1].placed.triangles.get(), levels_[1].placed.id, 0.5};
+        plan_frame(prop, levels_[0].placed, fading, plan_);
+        renderer.draw(plan_, {&levels_[0].gpu, nullptr, &levels_[1].gpu}, target, Redraw::Everything);
+        wait_until_drawn();
+    }
+    shown_ = slot_of(governor_.rung().level);
+}
+
+void RunLevels::enter(MonotonicTime now, double load) {
+    governor_.enter(now, load);
+    shown_ = slot_of(governor_.rung().level);
+    coming_.reset();
+}
+
+DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, PlanView view, const CaptionGpu* caption,
+                           Renderer& renderer, const RenderTarget& target, Redraw redraw) {
+    const double share = coming_ ? to_seconds(now - fade_start_) / level_fade_s : 0.0;
+    if (share >= 1.0) {
+        shown_ = *coming_;
+        coming_.reset();
+    }
+    const Level* coming = coming_ ? &levels_[*coming_] : nullptr;
+    if (coming != nullptr) {
+        view.fade = LevelFade{coming->placed.triangles.get(), coming->placed.id, share};
+    }
+    const Level& level = levels_[shown_];
+    PlacedLevel placed = level.placed;
+    placed.samples = governor_.rung().samples;
+    plan_frame(prop, placed, view, plan_);
+    return renderer.draw(plan_, {&level.gpu, caption, coming != nullptr ? &coming->gpu : nullptr}, target,
+                         redraw);
+}
+
+void RunLevels::took(MonotonicTime now, double ms) {
+    if (coming_ || plan_.faces.empty()) {
+        return; // two levels, or nothing, were drawn: says little about one
+    }
+    governor_.observe(now, work(), ms);
+    if (const std::size_t slot = slot_of(governor_.rung().level); slot != shown_) {
+        coming_ = slot;
+        fade_start_ = now;
+    }
+}
+
+LevelState RunLevels::state() const {
+    const Level& to = levels_[coming_.value_or(shown_)];
+    const Level& from = levels_[shown_];
+    return {technique_,
+            to.name,
+            governor_.rung().samples,
+            std::max(from.mean_error_mm, to.mean_error_mm),
+            std::max(from.p95_error_mm, to.p95_error_mm),
+            governor_.switches(),
+            governor_.ignored()};
+}
+
+} // namespace frustumscreen

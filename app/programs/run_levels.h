@@ -1,0 +1,99 @@
+/// One artifact on the display: its levels in the GPU's memory, the governor that picks one, and the fade
+/// from one to the next.
+///
+/// Only levels that the governor may pick are uploaded. A change of level fades over `level_fade_s`, pixel by
+/// pixel; a change of samples alone does not: it alters the picture less than a quarter of a pixel of the
+/// prop's way does (six scans: RMSE 2 to 12 codes against 7 to 37), and a governor only decides while
+/// pictures change.
+///
+/// Threads  the render thread, with the display's context current. `draw` and `took` allocate nothing.
+/// Errors   a technique that the pack has not, a driver without memory.
+#pragma once
+
+#include "app/pack/pack_file.h"
+#include "app/render/renderer.h"
+#include "app/scene/frame_plan.h"
+#include "app/scene/governor.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/base/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr double level_fade_s = 0.4;
+
+struct LevelOptions {
+    std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
+    double tolerance_mm = 0.0;
+    double deadline_ms = 0.0;
+};
+
+/// What is being drawn.
+struct LevelState {
+    std::string_view technique; ///< as asked for
+    std::string_view level;     ///< "level0", ...: during a fade the one that comes in
+    int samples = 0;
+    double estimated_error_mm = 0.0; ///< mean; during a fade the larger of the two
+    double p95_error_mm = 0.0;       ///< what the tolerance is held against
+    std::uint64_t switches = 0;
+    std::uint64_t ignored_times = 0;
+};
+
+class RunLevels {
+public:
+    /// Level k of the pack gets the id first_id + k. `pack` need not outlive the call.
+    [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const PropShape& prop,
+                                                  const LevelOptions& options, std::uint64_t first_id);
+
+    /// Whether a renderer for it must be able to fade.
+    [[nodiscard]] bool fades() const { return levels_.size() > 1; }
+
+    /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
+    /// there is nothing to choose. `target` is left with some picture in it, to be presented by nobody.
+    void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
+
+    /// The artifact comes on, on a GPU under `load` (see Governor).
+    void enter(MonotonicTime now, double load);
+    [[nodiscard]] double load() const { return governor_.load(); }
+
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, PlanView view,
+                                  const CaptionGpu* caption, Renderer& renderer, const RenderTarget& target,
+                                  Redraw redraw);
+    /// The latest `draw` took `ms`, until its picture was done.
+    void took(MonotonicTime now, double ms);
+
+    [[nodiscard]] LevelState state() const;
+
+private:
+    struct Level {
+        std::uint32_t level = 0; ///< of the pack
+        std::string name;
+        double mean_error_mm = 0.0;
+        double p95_error_mm = 0.0;
+        PlacedLevel placed;
+        ArtifactGpu gpu;
+    };
+    RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs, double deadline_ms,
+              FramePlan plan);
+    [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
+    [[nodiscard]] FrameWork work() const;
+    [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
+                                   Renderer& renderer, const RenderTarget& target);
+
+    std::string technique_;
+    std::vector<Level> levels_;
+    std::vector<Rung> rungs_;
+    double deadline_ms_;
+    Governor governor_;
+    FramePlan plan_;
+    std::size_t shown_ = 0; ///< of `levels_`
+    std::optional<std::size_t> coming_;
+    MonotonicTime fade_start_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// The probe: a reserved code in the picture that is another in every picture presented, so that a watchdog
+/// can tell a resting exhibit from a hung one.
+///
+/// Shape    a row of `probe_pixels` pixels from the picture's top left corner; pixel k is grey of sRGB code 1
+///          where bit k of the code is 0, and of code 2 where it is 1: next to nothing on a table, and never
+///          black, so that a picture without a probe reads as none. The code counts presents modulo 256; a
+///          watchdog that looks more rarely than every 255th picture may meet the same code by chance, so it
+///          looks at two in a row, one second of rest apart.
+/// Colour   linear light into an sRGB framebuffer; read as sRGB codes.
+/// Place    where the artifact or a caption may light the corner, the picture goes first and has no code.
+/// Threads  `write_probe`: the render thread; allocates nothing. The rest is pure.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/scene/frame_plan.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace frustumscreen {
+
+inline constexpr int probe_pixels = 8;
+
+/// Into the framebuffer, inside the picture's corner alone. False: `lit` covers the corner; nothing is
+/// written.
+bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& lit);
+
+/// The code in a picture's corner; nothing if there is none.
+[[nodiscard]] std::optional<std::uint8_t> read_probe(const Image8& picture);
+
+/// Makes the corner black again, as the picture had it. A picture without a code is left alone.
+void erase_probe(Image8& picture);
+
+} // namespace frustumscreen

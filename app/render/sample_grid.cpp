@@ -1,0 +1,189 @@
+#include "app/render/sample_grid.h"
+
+#include "app/render/gl_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Rectangles of the picture's pixels, six corners each, at the far plane.
+constexpr std::string_view tiles_vertex = R"(
+uniform vec4 rectangles[MOST_RECTANGLES]; // x, y, width, height
+uniform vec2 picture;                     // size in pixels
+void main() {
+    int corner = gl_VertexID % 6;
+    vec4 r = rectangles[gl_VertexID / 6];
+    vec2 pixel = r.xy + r.zw * vec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);
+    gl_Position = vec4(2.0 * pixel / picture - 1.0, 1.0, 1.0);
+}
+)";
+constexpr std::string_view black_fragment = R"(
+out vec4 result;
+void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
+)";
+// A bilinear fetch where four texels meet is their average; the sampler decodes sRGB before it. A pixel of
+// more than 2 x 2 samples takes one fetch for each 2 x 2.
+constexpr std::string_view average_fragment = R"(
+uniform sampler2D enlarged;
+uniform ivec2 grid;
+out vec4 result;
+void main() {
+    vec2 texel = 1.0 / vec2(textureSize(enlarged, 0));
+    ivec2 fetches = max(grid / 2, ivec2(1));
+    vec2 middle = gl_FragCoord.xy * vec2(grid) * texel;
+    vec2 first = middle - vec2(fetches - 1) * texel;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < fetches.y; ++y) {
+        for (int x = 0; x < fetches.x; ++x) {
+            sum += textureLod(enlarged, first + 2.0 * vec2(x, y) * texel, 0.0);
+        }
+    }
+    result = sum / float(fetches.x * fetches.y);
+}
+)";
+
+constexpr std::size_t corners_per_rectangle = 6;
+
+} // namespace
+
+glm::ivec2 SampleGrid::of(int samples) {
+    switch (samples) {
+    case 1:
+        return {1, 1};
+    case 2:
+        return {1, 2};
+    case 4:
+        return {2, 2};
+    case 8:
+        return {2, 4};
+    case 16:
+        return {4, 4};
+    default:
+        return {0, 0};
+    }
+}
+
+Result<SampleGrid> SampleGrid::create(int width, int height, int most_samples) {
+    SampleGrid made;
+    made.width_ = width;
+    made.height_ = height;
+    made.room_ = of(most_samples);
+    if (made.room_.x == 0) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", most_samples));
+    }
+    if (Result<void> ready = made.make_target(); !ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
+    if (Result<void> ready = made.make_programs(); !ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
+    return made;
+}
+
+Result<void> SampleGrid::make_programs() {
+    const std::string defines = fmt::format("#define MOST_RECTANGLES {}\n", LitTiles::most_rectangles);
+    Result<GlProgram> clear = make_program(defines, tiles_vertex, black_fragment);
+    Result<GlProgram> average = make_program(defines, tiles_vertex, average_fragment);
+    if (!clear || !average) {
+        return tl::unexpected<Error>(clear ? average.error() : clear.error());
+    }
+    clear_ = std::move(*clear);
+    average_ = std::move(*average);
+    for (const GlProgram* program : {&clear_, &average_}) {
+        glUseProgram(program->get());
+        glUniform2f(glGetUniformLocation(program->get(), "picture"), static_cast<float>(width_),
+                    static_cast<float>(height_));
+    }
+    clear_rectangles_ = glGetUniformLocation(clear_.get(), "rectangles");
+    average_rectangles_ = glGetUniformLocation(average_.get(), "rectangles");
+    average_grid_ = glGetUniformLocation(average_.get(), "grid");
+    no_attributes_ = GlVertexArray::generate();
+    return {};
+}
+
+Result<void> SampleGrid::make_target() {
+    const glm::ivec2 size = room_ * glm::ivec2(width_, height_);
+    const int samples = room_.x * room_.y;
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (std::max(size.x, size.y) > most) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("render: {} x {} pixels of {} samples; this driver draws up to {} on each side: "
+                        "use fewer samples",
+                        width_, height_, samples, most));
+    }
+    framebuffer_ = GlFramebuffer::generate();
+    colour_ = GlTexture::generate();
+    depth_stencil_ = GlRenderbuffer::generate();
+    glBindTexture(GL_TEXTURE_2D, colour_.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, size.x, size.y);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_stencil_.get());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.x, size.y);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.get(), 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                              depth_stencil_.get());
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("render: the driver cannot hold {} x {} pixels of {} samples; use 1 sample",
+                                width_, height_, samples));
+    }
+    return {};
+}
+
+void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {
+    std::array<glm::vec4, LitTiles::most_rectangles> corners{};
+    std::size_t count = 0;
+    for (const PixelRectangle& r : tiles.rectangles()) {
+        corners[count++] = glm::vec4(r.x, r.y, r.width, r.height);
+    }
+    glUniform4fv(rectangles, static_cast<GLsizei>(count), &corners[0].x);
+    glBindVertexArray(no_attributes_.get());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_per_rectangle * count));
+    glBindVertexArray(0);
+}
+
+void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glViewport(0, 0, width_ * grid.x, height_ * grid.y);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_STENCIL_TEST);
+    glStencilMask(0xFF);
+    glStencilFunc(GL_ALWAYS, 0, 0xFF);
+    glStencilOp(GL_REPLACE, GL_REPLACE, GL_REPLACE);
+    glUseProgram(clear_.get());
+    draw_tiles(tiles, clear_rectangles_);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void SampleGrid::finish(const LitTiles& tiles, const glm::ivec2& grid, unsigned framebuffer) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, width_, height_);
+    glDisable(GL_SCISSOR_TEST);
+    glUseProgram(average_.get());
+    glUniform2i(average_grid_, grid.x, grid.y);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, colour_.get());
+    draw_tiles(tiles, average_rectangles_);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,121 @@
+#include "app/scene/frame_time_model.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// No GPU is further from its start than this: keeps a run of garbage from ending in infinity.
+constexpr double most_log = 7.0;
+
+double bounded(double logarithm) {
+    return std::clamp(logarithm, -most_log, most_log);
+}
+
+/// A frame that draws hardly anything says little about the others: relative work within a factor of 20.
+double relative(double work, double at_start) {
+    constexpr double most = 20.0;
+    return std::isfinite(work) && work > 0.0 && at_start > 0.0 ? std::clamp(work / at_start, 1.0 / most, most)
+                                                               : 1.0;
+}
+
+} // namespace
+
+bool FrameTimeModel::is_time(double ms) {
+    return ms > 0.0 && ms <= longest_ms; // false for NaN
+}
+
+FrameTimeModel::FrameTimeModel(std::vector<RungTime> rungs) {
+    for (const RungTime& start : rungs) {
+        rungs_.push_back({start});
+        if (!is_time(start.ms)) {
+            rungs_.back().start.ms = std::numeric_limits<double>::infinity();
+        }
+    }
+    fit_shares();
+}
+
+/// Least squares ms = fixed + a * triangles + b * samples over the rungs, each weighed by 1 / ms^2, with a
+/// touch of ridge where the rungs do not tell the terms apart.
+void FrameTimeModel::fit_shares() {
+    glm::dvec3 most(1.0, 0.0, 0.0);
+    const auto terms = [](const RungTime& start) {
+        return glm::dvec3(1.0, std::fmax(start.work.triangles, 0.0),
+                          std::fmax(start.work.pixels, 0.0) * start.samples);
+    };
+    for (const Rung& rung : rungs_) {
+        most = glm::max(most, terms(rung.start));
+    }
+    const glm::dvec3 scale(1.0, most.y > 0.0 ? 1.0 / most.y : 0.0, most.z > 0.0 ? 1.0 / most.z : 0.0);
+    glm::dmat3 normal(0.0);
+    glm::dvec3 right(0.0);
+    for (const Rung& rung : rungs_) {
+        if (std::isfinite(rung.start.ms)) {
+            const glm::dvec3 row = terms(rung.start) * scale / rung.start.ms;
+            normal += glm::outerProduct(row, row);
+            right += row;
+        }
+    }
+    const double ridge = 1e-4 * (normal[0][0] + normal[1][1] + normal[2][2]);
+    const glm::dvec3 cost = glm::max(glm::inverse(normal + glm::dmat3(ridge)) * right, glm::dvec3(0.0));
+    for (Rung& rung : rungs_) {
+        const glm::dvec3 parts = cost * terms(rung.start) * scale;
+        const double sum = parts.x + parts.y + parts.z;
+        if (std::isfinite(sum) && sum > 0.0) {
+            rung.triangle_share = parts.y / sum;
+            rung.sample_share = parts.z / sum;
+        }
+    }
+}
+
+double FrameTimeModel::relative_work(const Rung& rung, double triangles, double pixels) const {
+    return 1.0 + rung.triangle_share * (triangles - 1.0) + rung.sample_share * (pixels - 1.0);
+}
+
+double FrameTimeModel::expected_ms(std::size_t rung) const {
+    const Rung& r = rungs_[rung];
+    return r.start.ms * relative_work(r, triangles_, pixels_) * std::exp(r.log_own + log_load_);
+}
+
+bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms, MonotonicTime now) {
+    if (!is_time(ms)) {
+        return false;
+    }
+    Rung& r = rungs_[rung];
+    const bool changed = last_rung_ && *last_rung_ != rung;
+    const double dt = last_rung_ ? std::clamp(to_seconds(now - last_time_), 0.0, most_dt_s) : time_constant_s;
+    learned_s_ = changed ? 0.0 : (last_rung_ ? learned_s_ + dt : learning_s);
+    last_rung_ = rung;
+    last_time_ = now;
+    const double triangles = relative(work.triangles, r.start.work.triangles);
+    const double pixels = relative(work.pixels, r.start.work.pixels);
+    const double weight = -std::expm1(-dt / time_constant_s);
+    triangles_ += weight * (triangles - triangles_);
+    pixels_ += weight * (pixels - pixels_);
+    if (!std::isfinite(r.start.ms)) { // never measured before: this is its start
+        r.start.ms = ms / (relative_work(r, triangles, pixels) * std::exp(r.log_own + log_load_));
+        return true;
+    }
+    const double surprise =
+        std::log(ms / (r.start.ms * relative_work(r, triangles, pixels))) - r.log_own - log_load_;
+    double& learned = learned_s_ < learning_s ? r.log_own : log_load_;
+    learned = bounded(learned + weight * surprise);
+    return true;
+}
+
+double FrameTimeModel::load() const {
+    return std::exp(log_load_);
+}
+
+void FrameTimeModel::set_load(double load) {
+    if (std::isfinite(load) && load > 0.0) {
+        log_load_ = bounded(std::log(load));
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,125 @@
+#include "app/scene/governor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Two rungs of nearly equal time are not worth a change.
+constexpr double worth_saving = 0.85;
+
+} // namespace
+
+double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
+                       const RigidTransform& projector_from_prop) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const PropFace& face : prop.faces) {
+        for (const glm::dvec3& corner : face.corners) {
+            nearest = std::fmin(nearest, projector_from_prop.point(corner).z);
+        }
+    }
+    return std::fmax(nearest, 0.0) / std::fmax(projector.fx, projector.fy);
+}
+
+std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box, double tolerance_mm,
+                         int samples) {
+    const auto within = [&](const PackLevel& level) {
+        return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm; // false for NaN
+    };
+    std::size_t best = levels.size() - 1;
+    for (std::size_t k = levels.size(); k-- > 0;) {
+        if (within(levels[k]) &&
+            (!within(levels[best]) || levels[k].indices.size() <= levels[best].indices.size())) {
+            best = k;
+        }
+    }
+    constexpr double most_of_finer = 0.75;
+    std::vector<Rung> rungs;
+    std::size_t last_indices = levels[best].indices.size();
+    for (std::size_t k = best + 1; k-- > 0;) {
+        const std::size_t indices = levels[k].indices.size();
+        if (k != best && static_cast<double>(indices) > most_of_finer * static_cast<double>(last_indices)) {
+            continue;
+        }
+        last_indices = indices;
+        for (int s = std::max(samples, 1); s >= 1; s /= 2) {
+            rungs.push_back({static_cast<std::uint32_t>(k), s,
+                             k == best && s == std::max(samples, 1) && within(levels[k])});
+        }
+    }
+    return rungs;
+}
+
+Governor::Governor(std::vector<Rung> rungs, std::vector<RungTime> times, double deadline_ms)
+    : rungs_(std::move(rungs)), model_(std::move(times)), deadline_ms_(deadline_ms) {
+    current_ = rungs_.size(); // none: no rung is favoured
+    current_ = wanted();
+}
+
+bool Governor::fits(std::size_t rung) const {
+    return model_.expected_ms(rung) <= (rung == current_ ? leave_share : enter_share) * deadline_ms_;
+}
+
+double Governor::cost(std::size_t rung) const {
+    return model_.expected_ms(rung) * (rung == current_ ? worth_saving : 1.0);
+}
+
+std::size_t Governor::wanted() const {
+    constexpr auto none = std::numeric_limits<std::size_t>::max();
+    std::size_t enough = none;
+    std::size_t best = none;
+    std::size_t quickest = rungs_.size() - 1;
+    for (std::size_t k = rungs_.size(); k-- > 0;) {
+        quickest = cost(k) < cost(quickest) ? k : quickest;
+        if (fits(k)) {
+            best = k;
+            enough = rungs_[k].enough && (enough == none || cost(k) <= cost(enough)) ? k : enough;
+        }
+    }
+    return enough != none ? enough : (best != none ? best : quickest);
+}
+
+void Governor::change_to(std::size_t rung, MonotonicTime now) {
+    const bool relief = !fits(current_);
+    if (relief && entered_for_quality_) {
+        // What was entered for quality and did not last is tried again later and later.
+        const bool lasted = now - changed_ >= 4 * patience_;
+        patience_ = lasted ? least_patience : std::min(2 * patience_, most_patience);
+    }
+    entered_for_quality_ = !relief;
+    current_ = rung;
+    changed_ = now;
+    wish_ = Wish::None;
+    ++switches_;
+}
+
+void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
+    if (!model_.observe(current_, work, ms, now)) {
+        ++ignored_;
+        return;
+    }
+    const std::size_t better = wanted();
+    const Wish wish = better == current_ ? Wish::None : (fits(current_) ? Wish::Quality : Wish::Relief);
+    if (wish != wish_) {
+        wish_ = wish;
+        wished_since_ = now;
+    }
+    const Nanoseconds delay = wish == Wish::Relief ? relief_delay : patience_;
+    const bool settled = switches_ == 0 || now - changed_ >= dwell;
+    if (wish != Wish::None && settled && now - wished_since_ >= delay) {
+        change_to(better, now);
+    }
+}
+
+void Governor::enter(MonotonicTime now, double load) {
+    model_.set_load(load);
+    wish_ = Wish::None;
+    if (const std::size_t better = wanted(); better != current_) {
+        change_to(better, now);
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,112 @@
+/// Picks how an artifact is drawn: the level, and the samples a pixel, that keep both the error tolerance and
+/// the deadline.
+///
+/// Of the rungs that are good enough (their level's error within the tolerance, with the samples that the
+/// artifact wants) the one that takes least time, if it meets the deadline; failing that, the finest level
+/// that meets it, with as many samples as fit; failing that, the quickest.
+///
+/// Tolerance  half a projector pixel as that pixel lands on the face (conventions, Measuring), compared with
+/// a
+///          level's p95 error. The mean would hide a spout or an ear that is off by pixels, where a visitor
+///          looks; the largest error is that of one vertex.
+/// Levers   fewer samples before a coarser level. Measured on six scans (RMSE in codes against the finest
+///          level at 16 samples, milliseconds of llvmpipe): from a level within the tolerance, finer levels
+///          bought 0.3 codes a millisecond and more samples 3; past the tolerance a coarser level cost 6 to
+///          30 codes for each millisecond saved, half the samples 4 to 16.
+/// Steady   a rung is left for a quicker one when it takes more than 90 % of the deadline and entered for
+///          quality when it takes less than 70 %; a rung that proves too slow soon after it was entered is
+///          tried again after twice the time; nothing changes within `dwell` of a change. So at most one
+///          change a `dwell`, and a rung that never fits is tried O(log t) times.
+/// Source   Kim 2008, Eq. (1): the importance I = u P + v / |PA - PO| + w cos + x S of an object decides
+/// whether
+///          it is drawn in images or in polygons. Here one object has many levels: u = 1, and P, pixels for
+///          one texel, becomes pixels for one level's error, measured, not assumed; v, w, x = 0, because one
+///          artifact is shown and its distance is in P. Francken 2007, section 2 and Fig. 4: the tolerance is
+///          adapted while running for a stable frame rate. Here it is adapted in measured steps, with a
+///          model of each step's time, so that a
+///          step is known to fit before it is taken.
+///
+/// Units    millimetres on the configured prop; milliseconds.
+/// Time     `now` is a parameter and may stand still or go back.
+/// Threads  values; one caller. `observe` allocates nothing.
+/// Errors   none: garbage times are counted and ignored.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "app/pack/pack.h"
+#include "app/scene/frame_time_model.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The least width of a pixel on the prop's faces, metres: where the prop is nearest to the projector. On a
+/// tilted face a pixel is longer the other way.
+[[nodiscard]] double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
+                                     const RigidTransform& projector_from_prop);
+
+/// One way to draw an artifact.
+struct Rung {
+    std::uint32_t level = 0; ///< of Pack::levels
+    int samples = 1;         ///< a pixel
+    bool enough = false;     ///< within the tolerance, with the samples that the artifact wants
+};
+
+/// The rungs that a governor may ever pick, best first; nothing else need be loaded. The level that meets the
+/// tolerance with fewest triangles (the finest if none does), coarser ones that save at least a quarter of
+/// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
+[[nodiscard]] std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box,
+                                       double tolerance_mm, int samples);
+
+class Governor {
+public:
+    static constexpr double enter_share = 0.70; ///< of the deadline
+    static constexpr double leave_share = 0.90;
+    static constexpr Nanoseconds dwell = std::chrono::seconds(1);
+    /// Too slow for so long: until then a hiccup is forgotten and a step is known by its full height.
+    static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds least_patience = std::chrono::seconds(2);
+    static constexpr Nanoseconds most_patience = std::chrono::seconds(512);
+
+    /// `times`: one for each rung, measured on this GPU. At least one rung.
+    Governor(std::vector<Rung> rungs, std::vector<RungTime> times, double deadline_ms);
+
+    [[nodiscard]] std::size_t index() const { return current_; }
+    [[nodiscard]] const Rung& rung() const { return rungs_[current_]; }
+    [[nodiscard]] double expected_ms() const { return model_.expected_ms(current_); }
+
+    /// A frame of `rung()` took `ms`; afterwards `rung()` may be another.
+    void observe(MonotonicTime now, const FrameWork& work, double ms);
+
+    /// The artifact comes on: the rung that fits the GPU's load now, unseen, so without waiting.
+    void enter(MonotonicTime now, double load);
+    [[nodiscard]] double load() const { return model_.load(); }
+
+    [[nodiscard]] std::uint64_t switches() const { return switches_; }
+    [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< garbage times
+
+private:
+    [[nodiscard]] std::size_t wanted() const;
+    [[nodiscard]] bool fits(std::size_t rung) const;
+    [[nodiscard]] double cost(std::size_t rung) const;
+    void change_to(std::size_t rung, MonotonicTime now);
+
+    std::vector<Rung> rungs_;
+    FrameTimeModel model_;
+    double deadline_ms_;
+    std::size_t current_ = 0;
+    bool entered_for_quality_ = false;
+    MonotonicTime changed_; ///< when `current_` was entered
+    enum class Wish { None, Relief, Quality };
+    Wish wish_ = Wish::None;
+    MonotonicTime wished_since_;
+    Nanoseconds patience_ = least_patience;
+    std::uint64_t switches_ = 0;
+    std::uint64_t ignored_ = 0;
+};
+
+} // namespace frustumscreen

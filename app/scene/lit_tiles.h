@@ -1,0 +1,60 @@
+/// The part of the picture that an artifact may light, as rectangles of whole tiles.
+///
+/// What a picture costs beside its triangles is clearing and averaging; a thin artifact lights a small part
+/// of the rectangle around it.
+///
+/// Units    pixels, row 0 at the top.
+/// Threads  values; any. Allocates nothing.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace frustumscreen {
+
+/// A rectangle of pixels, row 0 at the top.
+struct PixelRectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+    [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
+    [[nodiscard]] bool operator==(const PixelRectangle&) const = default;
+};
+/// The smallest rectangle around both; an empty one adds nothing.
+[[nodiscard]] PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b);
+[[nodiscard]] PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b);
+
+class LitTiles {
+public:
+    static constexpr std::size_t most_rectangles = 96;
+
+    /// Nothing lit yet.
+    void begin(int picture_width, int picture_height);
+    void light(const PixelRectangle& part);
+    /// Makes the rectangles from what was lit: disjoint, inside the picture.
+    void finish();
+
+    [[nodiscard]] std::span<const PixelRectangle> rectangles() const {
+        return std::span(rectangles_).first(count_);
+    }
+    /// Of the rectangles.
+    [[nodiscard]] std::int64_t pixels() const;
+    /// Around everything lit.
+    [[nodiscard]] PixelRectangle bounds() const { return bounds_; }
+
+private:
+    static constexpr int most_tiles = 256; ///< along a side
+    using Row = std::bitset<most_tiles>;
+
+    [[nodiscard]] bool add(const PixelRectangle& rectangle);
+
+    int tile_ = 16;
+    int width_ = 0, height_ = 0;
+    PixelRectangle bounds_;
+    std::array<Row, most_tiles> rows_{};
+    std::array<PixelRectangle, most_rectangles> rectangles_{};
+    std::size_t count_ = 0;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,138 @@
+#include "app/scene/visible_triangles.h"
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Single-precision planes and the quantised positions under them; a triangle this near to edge-on is kept.
+constexpr float edge_on_box = 1e-5F;
+
+bool looks_away(const glm::dvec3& eye, const PackCluster& cluster) {
+    const glm::dvec3 to_apex = glm::dvec3(cluster.cone_apex) - eye;
+    // A hair's breadth keeps float-stored cones on the safe side.
+    constexpr double hair = 1e-5;
+    const double cutoff = static_cast<double>(cluster.cone_cutoff) + hair;
+    return cutoff <= 1.0 && glm::dot(to_apex, glm::dvec3(cluster.cone_axis)) > cutoff * glm::length(to_apex);
+}
+
+/// The half spaces whose border runs through one cluster.
+struct Crossed {
+    std::array<glm::vec4, 9> half_spaces{};
+    std::size_t count = 0;
+    bool outside = false;
+};
+
+Crossed crossed_by(const PackCluster& cluster, const FaceVolume& volume, double margin_box) {
+    Crossed crossed;
+    const glm::dvec4 centre(glm::dvec3(cluster.centre), 1.0);
+    const double reach = static_cast<double>(cluster.radius) + margin_box;
+    for (std::size_t k = 0; k < volume.count; ++k) {
+        const double inside = glm::dot(volume.half_spaces[k], centre);
+        if (inside < -reach) {
+            crossed.outside = true;
+            return crossed;
+        }
+        if (inside < reach) {
+            const glm::dvec4 widened = volume.half_spaces[k] + glm::dvec4(0.0, 0.0, 0.0, margin_box);
+            crossed.half_spaces[crossed.count++] = glm::vec4(widened);
+        }
+    }
+    return crossed;
+}
+
+bool misses(const Crossed& crossed, const LevelTriangles& level, std::span<const std::uint32_t> corners) {
+    for (std::size_t k = 0; k < crossed.count; ++k) {
+        const glm::vec4& h = crossed.half_spaces[k];
+        const auto outside = [&](std::uint32_t corner) {
+            return glm::dot(glm::vec3(h), level.positions[corner]) + h.w < 0.0F;
+        };
+        if (outside(corners[0]) && outside(corners[1]) && outside(corners[2])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) {
+    LevelTriangles result;
+    result.clusters = level.clusters;
+    result.indices = level.indices;
+    const glm::dvec3 low(-0.5 * box_size.x, -0.5 * box_size.y, 0.0);
+    for (const PackVertex& vertex : level.vertices) {
+        const glm::dvec3 unit =
+            glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0;
+        result.positions.emplace_back(low + unit * box_size);
+    }
+    for (std::size_t first = 0; first + 2 < level.indices.size(); first += 3) {
+        const glm::dvec3 a(result.positions[level.indices[first]]);
+        const glm::dvec3 b(result.positions[level.indices[first + 1]]);
+        const glm::dvec3 c(result.positions[level.indices[first + 2]]);
+        const glm::dvec3 area_normal = glm::cross(b - a, c - a);
+        const double length = glm::length(area_normal);
+        const glm::dvec3 normal = length > 0.0 ? area_normal / length : glm::dvec3(0.0);
+        result.normal_x.push_back(static_cast<float>(normal.x));
+        result.normal_y.push_back(static_cast<float>(normal.y));
+        result.normal_z.push_back(static_cast<float>(normal.z));
+        result.distance.push_back(static_cast<float>(glm::dot(normal, a)));
+    }
+    for (const PackCluster& cluster : result.clusters) {
+        LevelTriangles::Extent extent{glm::vec3(std::numeric_limits<float>::infinity()),
+                                      glm::vec3(-std::numeric_limits<float>::infinity())};
+        for (std::uint32_t k = 0; k < cluster.index_count; ++k) {
+            const glm::vec3& corner = result.positions[result.indices[cluster.first_index + k]];
+            extent.low = glm::min(extent.low, corner);
+            extent.high = glm::max(extent.high, corner);
+        }
+        result.extents.push_back(extent);
+    }
+    return result;
+}
+
+void FaceVolume::add(const glm::dvec4& half_space) {
+    const double length = glm::length(glm::dvec3(half_space));
+    const glm::dvec4 unit = half_space / length;
+    if (length > 0.0 && std::isfinite(unit.x + unit.y + unit.z + unit.w) && count < half_spaces.size()) {
+        half_spaces[count++] = unit;
+    }
+}
+
+std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const PackCluster& cluster,
+                           std::vector<std::uint32_t>& indices, double margin_box) {
+    const Crossed crossed = crossed_by(cluster, volume, margin_box);
+    if (crossed.outside || looks_away(volume.eye, cluster)) {
+        return 0;
+    }
+    const glm::vec3 eye(volume.eye);
+    // What one rounding of the products may amount to, for an eye however far.
+    const float slack =
+        edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
+    const std::size_t begin = indices.size();
+    indices.resize(begin + cluster.index_count);
+    std::uint32_t* out = indices.data() + begin;
+    const std::size_t first = cluster.first_index / 3;
+    for (std::size_t t = first; t < first + cluster.index_count / 3; ++t) {
+        const float in_front = level.normal_x[t] * eye.x + level.normal_y[t] * eye.y +
+                               level.normal_z[t] * eye.z - level.distance[t];
+        if (in_front < -slack) {
+            continue;
+        }
+        const std::span<const std::uint32_t> corners(&level.indices[3 * t], 3);
+        if (crossed.count == 0 || !misses(crossed, level, corners)) {
+            out[0] = corners[0];
+            out[1] = corners[1];
+            out[2] = corners[2];
+            out += 3;
+        }
+    }
+    const auto appended = static_cast<std::size_t>(out - (indices.data() + begin));
+    indices.resize(begin + appended);
+    return appended / 3;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,52 @@
+/// Which of a level's triangles may show on one face of the prop: clusters first, then triangle by triangle.
+///
+/// A software or small GPU spends more on a triangle that it throws away than this spends on finding it:
+/// about half of a level looks away from the eye, and each face of the prop shows its own part of the rest.
+///
+/// Frames   box (pack.h).
+/// Threads  pure; any. Allocates nothing if `indices` has room.
+#pragma once
+
+#include "app/pack/pack.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A level's triangles as culling needs them; made once, when the level is loaded.
+struct LevelTriangles {
+    struct Extent {
+        glm::vec3 low{0.0F}, high{0.0F};
+    };
+    std::vector<PackCluster> clusters;
+    std::vector<Extent> extents; ///< of the clusters
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::vec3> positions; ///< of the vertices
+    /// Of each triangle: n.X = d, n a unit vector outward, as four arrays. A triangle without area faces
+    /// everywhere.
+    std::vector<float> normal_x, normal_y, normal_z, distance;
+};
+[[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
+
+/// What one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the picture's four
+/// edges.
+struct FaceVolume {
+    std::array<glm::dvec4, 9> half_spaces{};
+    std::size_t count = 0;
+    glm::dvec3 eye{0.0};
+
+    /// Scales to a unit normal; a degenerate or non-finite half space is left out.
+    void add(const glm::dvec4& half_space);
+};
+
+/// Appends the indices of the cluster's triangles that may show; returns how many triangles that were.
+/// Conservative: a triangle that is left out has no front-facing point inside the volume, with `margin_box`
+/// to spare for the rasterizer's rounding.
+std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const PackCluster& cluster,
+                           std::vector<std::uint32_t>& indices, double margin_box = 1e-3);
+
+} // namespace frustumscreen

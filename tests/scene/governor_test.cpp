@@ -1,0 +1,337 @@
+// The governor in a closed loop with simulated GPUs; independent arithmetic for what it should come to.
+
+#include "app/scene/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+PackLevel level_of(std::size_t triangles, float p95_box) {
+    PackLevel level;
+    level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
+    level.indices.resize(3 * triangles);
+    return level;
+}
+
+MonotonicTime at_seconds(double seconds) {
+    return MonotonicTime(Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9))));
+}
+
+constexpr double deadline_ms = 1000.0 / 60.0;
+
+TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
+    const std::vector<PackLevel> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F), level_of(8000, 9e-4F),
+                                        level_of(30000, 1e-4F)};
+    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4); // 0.48, 0.24, 0.108, 0.012 mm
+    ASSERT_EQ(rungs.size(), 6U);
+    EXPECT_EQ(rungs[0].level, 1U);
+    EXPECT_EQ(rungs[0].samples, 4);
+    EXPECT_TRUE(rungs[0].enough);
+    EXPECT_EQ(rungs[2].samples, 1);
+    EXPECT_EQ(rungs[3].level, 0U);
+    EXPECT_EQ(rungs[5].samples, 1);
+    for (std::size_t k = 1; k < rungs.size(); ++k) {
+        EXPECT_FALSE(rungs[k].enough);
+    }
+    // A prop twice as large shows twice the error.
+    EXPECT_EQ(ladder(levels, 240.0, 0.28, 4)[0].level, 2U);
+}
+
+TEST(Ladder, OfATighterToleranceThanAnyLevelBeginsWithTheFinest) {
+    const std::vector<PackLevel> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F), level_of(4000, 1e-3F)};
+    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.01, 1);
+    ASSERT_EQ(rungs.size(), 2U); // 1000 triangles are not worth a level of their own beside 1200
+    EXPECT_EQ(rungs[0].level, 2U);
+    EXPECT_FALSE(rungs[0].enough);
+    EXPECT_EQ(rungs[1].level, 1U);
+}
+
+TEST(Ladder, SurvivesErrorFiguresThatAreNone) {
+    std::vector<PackLevel> levels{level_of(1000, std::nanf("")), level_of(3000, -1.0F)};
+    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);
+    levels[1].error.p95_box = std::nanf("");
+    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);
+    EXPECT_EQ(ladder(levels, 120.0, std::nan(""), 0)[0].level, 1U);
+}
+
+TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
+    const Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
+    const RigidTransform projector_from_prop =
+        RigidTransform{{0.0, 1.0, 0.0, 0.0}, {0.1, 0.0, 1.2}}.inverse();
+    EXPECT_NEAR(pixel_on_prop_m(make_prop({}), pinhole, projector_from_prop), (1.2 - 0.12) / 1920.0, 1e-12);
+}
+
+/// A GPU whose frames take fixed + per_triangle * triangles + per_sample * pixels * samples, in milliseconds.
+struct SimulatedGpu {
+    std::vector<Rung> rungs;
+    std::vector<RungTime> times;
+    std::vector<double> lie; ///< true time of a rung over the one measured at the start
+    std::mt19937 random{7};
+    double noise = 0.1;
+
+    SimulatedGpu() {
+        const std::vector<double> triangles{40000.0, 10000.0};
+        for (std::uint32_t level = 2; level-- > 0;) {
+            for (const int samples : {4, 2, 1}) {
+                rungs.push_back({level, samples, level == 1 && samples == 4});
+                times.push_back({samples, {triangles[1 - level], 50000.0}, 0.0});
+                times.back().ms = true_ms(times.back().samples, times.back().work);
+                lie.push_back(1.0);
+            }
+        }
+    }
+    static double true_ms(int samples, const FrameWork& work) {
+        return 0.5 + 1e-4 * work.triangles + 2e-5 * work.pixels * samples; // 8.5, 6.5, 5.5; 5.5, 3.5, 2.5
+    }
+    double frame_ms(std::size_t rung, double load) {
+        std::lognormal_distribution<double> spread(0.0, noise);
+        return times[rung].ms * lie[rung] * load * spread(random);
+    }
+    [[nodiscard]] Governor governor() const { return {rungs, times, deadline_ms}; }
+
+    struct Outcome {
+        std::uint64_t switches = 0;
+        double late_share = 0.0;    ///< frames over the deadline
+        double quality_share = 0.0; ///< of the time at the best rung
+        std::size_t last = 0;
+    };
+    Outcome play(Governor& governor, double from_s, double to_s, const std::function<double(double)>& load,
+                 double period_s = 1.0 / 60.0) {
+        Outcome outcome;
+        const std::uint64_t before = governor.switches();
+        double frames = 0.0;
+        for (double t = from_s; t < to_s; t += period_s, frames += 1.0) {
+            const std::size_t rung = governor.index();
+            const double ms = frame_ms(rung, load(t));
+            outcome.late_share += ms > deadline_ms ? 1.0 : 0.0;
+            outcome.quality_share += rung == 0 ? 1.0 : 0.0;
+            governor.observe(at_seconds(t), times[rung].work, ms);
+        }
+        outcome.late_share /= frames;
+        outcome.quality_share /= frames;
+        outcome.switches = governor.switches() - before;
+        outcome.last = governor.index();
+        return outcome;
+    }
+};
+
+TEST(Governor, KeepsTheBestRungWhereItFits) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    const auto outcome = gpu.play(governor, 0.0, 120.0, [](double) { return 1.0; });
+    EXPECT_EQ(outcome.switches, 0U);
+    EXPECT_EQ(outcome.quality_share, 1.0);
+}
+
+TEST(Governor, OfSeveralGoodEnoughRungsTakesTheQuickest) {
+    SimulatedGpu gpu;
+    gpu.rungs[3].enough = true; // the coarse level with all samples
+    EXPECT_EQ(gpu.governor().index(), 3U);
+}
+
+TEST(Governor, GivesUpSamplesBeforeTriangles) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    // 8.5, 6.5, 5.5 ms times 2.1: 17.9 is late, 13.7 is above 70 % of 16.7, 11.55 fits: the fine level, 1
+    // sample.
+    EXPECT_EQ(gpu.play(governor, 0.0, 30.0, [](double) { return 2.1; }).last, 2U);
+    EXPECT_EQ(governor.rung().level, 1U);
+}
+
+TEST(Governor, TakesTheQuickestWhereNothingFits) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    const auto outcome = gpu.play(governor, 0.0, 60.0, [](double) { return 50.0; });
+    EXPECT_EQ(outcome.last, 5U);
+    EXPECT_EQ(outcome.switches, 1U);
+}
+
+TEST(Governor, RelievesWithinASecondAndAHalfOfALoadStepAndComesBackAfterIt) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    gpu.play(governor, 0.0, 20.0, [](double) { return 1.0; });
+    const auto step = gpu.play(governor, 20.0, 21.5, [](double) { return 3.0; });
+    EXPECT_NE(step.last, 0U);
+    const auto loaded = gpu.play(governor, 21.5, 60.0, [](double) { return 3.0; });
+    EXPECT_LE(loaded.switches, 1U);
+    EXPECT_LT(loaded.late_share, 0.01);
+    const auto after = gpu.play(governor, 60.0, 90.0, [](double) { return 1.0; });
+    EXPECT_EQ(after.last, 0U);
+    EXPECT_LE(after.switches, 2U);
+}
+
+/// Ten minutes at every load from far below to far above: some rung's time lies at any place between the two
+/// limits, with frames that differ by 30 %.
+TEST(Governor, DoesNotOscillateAtAnySteadyLoad) {
+    for (double load = 0.5; load < 8.0; load *= 1.07) {
+        SimulatedGpu gpu;
+        gpu.noise = 0.3;
+        Governor governor = gpu.governor();
+        const auto outcome = gpu.play(governor, 0.0, 600.0, [&](double) { return load; });
+        EXPECT_LE(outcome.switches, 4U) << load;
+    }
+}
+
+/// The best rung is slower, in truth, than its measurement at the start says: it is tried, and given up, at
+/// growing intervals: 2 + 4 + ... + 2^k seconds of patience fit into the time.
+TEST(Governor, TriesARungThatNeverFitsOnlyLogarithmicallyOften) {
+    for (const double lie : {1.3, 2.0, 5.0}) {
+        for (const double swing : {0.0, 0.25, 0.5}) { // a load that invites to try again
+            SimulatedGpu gpu;
+            gpu.lie = {lie * 2.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+            Governor governor = gpu.governor();
+            const double length_s = 1800.0;
+            const auto outcome = gpu.play(governor, 0.0, length_s, [&](double t) {
+                return 1.0 + swing * std::sin(2.0 * std::numbers::pi * t / 7.0);
+            });
+            EXPECT_LE(outcome.switches, 2.0 * (std::log2(length_s / 2.0) + 1.0)) << lie << ' ' << swing;
+            EXPECT_LT(outcome.late_share, 0.05) << lie << ' ' << swing;
+        }
+    }
+}
+
+TEST(Governor, NeverChangesMoreOftenThanItsDwellUnderAnyLoad) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    for (int trial = 0; trial < 20; ++trial) {
+        SimulatedGpu gpu;
+        Governor governor = gpu.governor();
+        const double period_s = 0.05 * std::pow(600.0, u(random));
+        const double high = 1.0 + 5.0 * u(random);
+        const double length_s = 200.0;
+        const auto outcome = gpu.play(governor, 0.0, length_s, [&](double t) {
+            return std::fmod(t, period_s) < 0.5 * period_s ? high : 0.7; // square wave
+        });
+        EXPECT_LE(outcome.switches, length_s) << period_s << ' ' << high;
+        if (period_s > 20.0) { // slow enough to be followed: by at most two steps each way
+            EXPECT_LE(outcome.switches, 4.0 * (length_s / period_s + 1.0)) << period_s << ' ' << high;
+        } else {
+            EXPECT_LE(outcome.switches, 20U) << period_s << ' ' << high;
+        }
+    }
+}
+
+TEST(Governor, AHiccupChangesNothing) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    for (int k = 0; k < 6000; ++k) {
+        const double ms = k % 500 == 499 ? 400.0 : gpu.frame_ms(governor.index(), 1.0);
+        governor.observe(at_seconds(k / 60.0), gpu.times[governor.index()].work, ms);
+    }
+    EXPECT_EQ(governor.switches(), 0U);
+}
+
+TEST(Governor, SurvivesAndCountsGarbageTimes) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    const double before = governor.expected_ms();
+    std::uint64_t fed = 0;
+    for (int k = 0; k < 1000; ++k) {
+        for (const double ms : {std::nan(""), infinity, -infinity, 0.0, -3.0, 1e9}) {
+            governor.observe(at_seconds(k / 60.0), {std::nan(""), -1.0}, ms);
+            ++fed;
+        }
+    }
+    EXPECT_EQ(governor.ignored(), fed);
+    EXPECT_EQ(governor.switches(), 0U);
+    EXPECT_EQ(governor.expected_ms(), before);
+    // Garbage between good times changes nothing either; nor does garbage work.
+    for (int k = 0; k < 3000; ++k) {
+        const double ms = k % 3 == 0 ? std::nan("") : gpu.frame_ms(governor.index(), 1.0);
+        governor.observe(at_seconds(20.0 + k / 60.0), {k % 2 == 0 ? infinity : std::nan(""), -infinity}, ms);
+    }
+    EXPECT_EQ(governor.switches(), 0U);
+    EXPECT_TRUE(std::isfinite(governor.expected_ms()));
+}
+
+TEST(Governor, SurvivesAStartWithoutTimes) {
+    SimulatedGpu gpu;
+    for (RungTime& time : gpu.times) {
+        time = {0, {-1.0, std::nan("")}, std::nan("")};
+    }
+    Governor governor = gpu.governor();
+    EXPECT_EQ(governor.index(), 5U); // nothing is known: the one that should be quickest
+    governor.observe(at_seconds(0.0), {}, 3.0);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(), 3.0);
+}
+
+TEST(Governor, SurvivesATimeThatStandsStillOrGoesBack) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> t(-1e3, 1e3);
+    for (int k = 0; k < 10000; ++k) {
+        governor.observe(at_seconds(k % 3 == 0 ? 5.0 : t(random)), gpu.times[governor.index()].work,
+                         gpu.frame_ms(governor.index(), 1.0));
+        ASSERT_TRUE(std::isfinite(governor.expected_ms()));
+    }
+    EXPECT_LT(governor.index(), gpu.rungs.size());
+}
+
+TEST(Governor, EntersWithTheLoadThatAnotherArtifactMet) {
+    SimulatedGpu gpu;
+    Governor governor = gpu.governor();
+    governor.enter(at_seconds(1.0), 3.0);
+    EXPECT_NE(governor.index(), 0U);
+    governor.enter(at_seconds(1.1), 1.0);
+    EXPECT_EQ(governor.index(), 0U);
+    governor.enter(at_seconds(1.2), std::nan(""));
+    EXPECT_EQ(governor.index(), 0U);
+}
+
+TEST(FrameTimeModel, DoesNotDependOnHowAnIntervalIsCutIntoFrames) {
+    const std::vector<RungTime> start{{1, {1e4, 5e4}, 5.0}};
+    std::vector<double> ends;
+    for (const int frames : {1, 2, 10, 1000}) {
+        FrameTimeModel model(start);
+        model.set_load(1.0);
+        model.observe(0, {1e4, 5e4}, 5.0, at_seconds(0.0));
+        for (int k = 1; k <= frames; ++k) {
+            model.observe(0, {1e4, 5e4}, 20.0, at_seconds(0.09 * k / frames));
+        }
+        ends.push_back(std::log(model.expected_ms(0) / 5.0));
+    }
+    for (const double end : ends) {
+        EXPECT_NEAR(end, std::log(4.0) * (1.0 - std::exp(-0.09 / FrameTimeModel::time_constant_s)), 1e-6);
+    }
+}
+
+TEST(FrameTimeModel, IsStableForEveryStep) {
+    for (const double dt : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+        FrameTimeModel model({{1, {1e4, 5e4}, 5.0}});
+        double last = 5.0;
+        for (int k = 0; k < 1000; ++k) {
+            model.observe(0, {1e4, 5e4}, 50.0, at_seconds(k * dt));
+            EXPECT_GE(model.expected_ms(0), last - 1e-9); // monotone towards it,
+            EXPECT_LE(model.expected_ms(0), 50.0 + 1e-9); // never past it
+            last = model.expected_ms(0);
+        }
+    }
+}
+
+TEST(FrameTimeModel, ForetellsOtherRungsAtAnotherPose) {
+    SimulatedGpu gpu;
+    FrameTimeModel model(gpu.times);
+    // The prop has come nearer: more of the artifact and 1.8 times the pixels; only rung 5 is ever drawn.
+    const auto nearer = [&](std::size_t rung) {
+        return FrameWork{1.3 * gpu.times[rung].work.triangles, 1.8 * gpu.times[rung].work.pixels};
+    };
+    for (int k = 0; k < 600; ++k) {
+        model.observe(5, nearer(5), 1.2 * SimulatedGpu::true_ms(1, nearer(5)), at_seconds(k / 60.0));
+    }
+    for (std::size_t rung = 0; rung < gpu.rungs.size(); ++rung) {
+        const double truth = 1.2 * SimulatedGpu::true_ms(gpu.rungs[rung].samples, nearer(rung));
+        EXPECT_NEAR(model.expected_ms(rung), truth, 0.02 * truth) << rung;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
