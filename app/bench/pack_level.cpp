@@ -52,7 +52,7 @@ private:
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
                                                    const PictureOptions& options, std::string name) {
-    Result<ArtifactGpu> artifact = ArtifactGpu::upload(pack, level, options.filter);
+    Result<ArtifactGpu> artifact = ArtifactGpu::upload(pack, level);
     if (!artifact) {
         return tl::unexpected<Error>(artifact.error());
     }

@@ -15,7 +15,6 @@ namespace frustumscreen {
 /// How the exhibit's renderer is set up for the pictures that are measured.
 struct PictureOptions {
     int samples = 0; ///< a pixel; 0 = what the pack asks for
-    TextureFilter filter{};
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,

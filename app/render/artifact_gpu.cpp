@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
-#include <string_view>
 
 namespace frustumscreen {
 
@@ -15,18 +16,30 @@ namespace {
 /// Coarser levels mix charts that lie side by side in the atlas.
 constexpr int coarsest_mip_level = 4;
 
-bool driver_has(std::string_view extension) {
-    GLint count = 0;
-    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
-    for (GLint k = 0; k < count; ++k) {
-        if (extension == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(k)))) {
-            return true;
-        }
+/// The edge of the surface's mean texel, inverted: texels along one box unit.
+double texels_per_box(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size) {
+    const auto position = [&](std::uint32_t vertex) {
+        const auto& q = level.vertices[vertex].position;
+        return glm::dvec3(q[0], q[1], q[2]) * box_size;
+    };
+    const auto texel = [&](std::uint32_t vertex) {
+        const auto& q = level.vertices[vertex].uv;
+        return glm::dvec3(q[0] * texture.width, q[1] * texture.height, 0);
+    };
+    const auto doubled_area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return glm::length(glm::cross(b - a, c - a));
+    };
+    double texels = 0.0;
+    double surface = 0.0;
+    for (std::size_t k = 0; k + 2 < level.indices.size(); k += 3) {
+        const std::array<std::uint32_t, 3> v{level.indices[k], level.indices[k + 1], level.indices[k + 2]};
+        texels += doubled_area(texel(v[0]), texel(v[1]), texel(v[2]));
+        surface += doubled_area(position(v[0]), position(v[1]), position(v[2]));
     }
-    return false;
+    return surface > 0.0 ? std::sqrt(texels / surface) : 0.0;
 }
 
-GlTexture upload_colour(const Image8& image, const TextureFilter& filter) {
+GlTexture upload_colour(const Image8& image) {
     GlTexture texture = GlTexture::generate();
     const auto longest = static_cast<unsigned>(std::max(image.width, image.height));
     const int levels = std::min(static_cast<int>(std::bit_width(longest)), coarsest_mip_level + 1);
@@ -35,13 +48,11 @@ GlTexture upload_colour(const Image8& image, const TextureFilter& filter) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                     image.texels.data());
     glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    if (filter.anisotropy > 1.0F && driver_has("GL_EXT_texture_filter_anisotropic")) {
-        glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, filter.anisotropy);
-    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
     return texture;
 }
 
@@ -54,7 +65,7 @@ template <typename T> GlBuffer upload_buffer(GLenum target, const std::vector<T>
 
 } // namespace
 
-Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level, const TextureFilter& filter) {
+Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
     const PackLevel& source = pack.levels[level];
     const Image8& image = pack.textures[source.texture];
     GLint limit = 0;
@@ -67,7 +78,7 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level, c
                 image.width, image.height, limit));
     }
     ArtifactGpu artifact;
-    artifact.level_bias_ = filter.level_bias;
+    artifact.texels_per_box_ = texels_per_box(source, image, pack.box_size);
     artifact.vertex_array_ = GlVertexArray::generate();
     glBindVertexArray(artifact.vertex_array_.get());
     artifact.vertices_ = upload_buffer(GL_ARRAY_BUFFER, source.vertices);
@@ -78,12 +89,17 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level, c
                           // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
     glBindVertexArray(0);
-    artifact.texture_ = upload_colour(image, filter);
+    artifact.texture_ = upload_colour(image);
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration,
                     "render: the driver has no memory for the artifact; bake a smaller one");
     }
     return artifact;
+}
+
+float ArtifactGpu::mip_level(double samples_per_box) const {
+    const double texels_per_sample = texels_per_box_ / samples_per_box;
+    return texels_per_sample > 0.0 ? static_cast<float>(std::log2(texels_per_sample)) : 0.0F;
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 /// One level of a pack in the GPU's memory: vertices and colour. Its triangles come with each plan.
 ///
+/// Colour   the texture gives sRGB codes as they are stored; its mipmaps were averaged in linear light.
 /// Threads  the render thread.
 /// Errors   the driver has no memory, or the texture is larger than it allows.
 #pragma once
@@ -10,24 +11,16 @@
 
 namespace frustumscreen {
 
-struct TextureFilter {
-    /// Texels along the longer axis of a pixel's footprint for each one along the shorter; 1 = isotropic.
-    /// Used where the driver has EXT_texture_filter_anisotropic.
-    float anisotropy = 1.0F;
-    /// Added to the mip level: below 0 sharper. A steep face shows texels 4 : 1 foreshortened, which
-    /// isotropic mip levels blur; one level sharper halves the colour error of textured artifacts and costs
-    /// nothing.
-    float level_bias = -1.0F;
-};
-
 class ArtifactGpu {
 public:
-    [[nodiscard]] static Result<ArtifactGpu> upload(const Pack& pack, std::uint32_t level,
-                                                    const TextureFilter& filter = {});
+    [[nodiscard]] static Result<ArtifactGpu> upload(const Pack& pack, std::uint32_t level);
 
     [[nodiscard]] GLuint vertex_array() const { return vertex_array_.get(); }
     [[nodiscard]] GLuint texture() const { return texture_.get(); }
-    [[nodiscard]] float level_bias() const { return level_bias_; }
+    /// The mip level whose texels are as large as a sample, one for a whole face: a software or small GPU
+    /// spends more on finding and mixing two for each pixel than on the rest of it. `samples_per_box` as
+    /// FacePlan::pixels_per_box, times the samples along a pixel's side.
+    [[nodiscard]] float mip_level(double samples_per_box) const;
 
 private:
     ArtifactGpu() = default;
@@ -35,7 +28,7 @@ private:
     GlVertexArray vertex_array_;
     GlBuffer vertices_;
     GlTexture texture_;
-    float level_bias_ = 0.0F;
+    double texels_per_box_ = 0.0;
 };
 
 } // namespace frustumscreen

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace frustumscreen {
@@ -47,7 +48,7 @@ void main() { result = vec4(point, 1.0); }
 #else
 in vec2 texel;
 uniform sampler2D colour;
-uniform float level_bias;
+uniform float mip_level;
 uniform float brightness;
 #if defined(COMPENSATED) || defined(FADING)
 uniform vec2 pixel_per_fragment;
@@ -65,13 +66,13 @@ bool is_other_levels() {
 #ifdef COMPENSATED
 uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
 uniform vec3 inverse_depth; // of the face's plane
-uniform vec2 gain;          // constant, times d^3
+uniform vec2 face_gain;     // constant, times d^3
 float compensation() {
     vec2 pixel = gl_FragCoord.xy * pixel_per_fragment;
     vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
     float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
     float d2 = depth * depth * (1.0 + dot(ray, ray));
-    return min(1.0, gain.x + gain.y * d2 * sqrt(d2));
+    return min(1.0, face_gain.x + face_gain.y * d2 * sqrt(d2));
 }
 #endif
 void main() {
@@ -80,11 +81,13 @@ void main() {
         discard;
     }
 #endif
-    vec3 light = brightness * texture(colour, texel, level_bias).rgb;
+    vec3 code = textureLod(colour, texel, mip_level).rgb;
+    float gain = brightness;
 #ifdef COMPENSATED
-    light *= compensation();
+    gain *= compensation();
 #endif
-    result = vec4(light, 1.0);
+    // The code of `gain` times the light of a code, by sRGB's own power law; its straight piece near black exactly.
+    result = vec4(max(gain * code, (code + 0.055) * pow(gain, 1.0 / 2.4) - 0.055), 1.0);
 }
 #endif
 )";
@@ -103,12 +106,12 @@ Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_vi
     const GLuint name = program->get();
     ArtifactProgram made{std::move(*program),
                          glGetUniformLocation(name, "clip_from_unit"),
-                         glGetUniformLocation(name, "level_bias"),
+                         glGetUniformLocation(name, "mip_level"),
                          glGetUniformLocation(name, "brightness"),
                          glGetUniformLocation(name, "pixel_per_fragment"),
                          glGetUniformLocation(name, "pinhole"),
                          glGetUniformLocation(name, "inverse_depth"),
-                         glGetUniformLocation(name, "gain"),
+                         glGetUniformLocation(name, "face_gain"),
                          glGetUniformLocation(name, "prop_from_unit"),
                          glGetUniformLocation(name, "fade")};
     glUseProgram(name);
@@ -211,7 +214,6 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, artifact.texture());
     glBindVertexArray(artifact.vertex_array());
-    glUniform1f(program.level_bias, artifact.level_bias());
     glUniform1f(program.brightness, plan.brightness);
     glUniform2f(program.fade, plan.coming_share.value_or(0.0F), coming ? 1.0F : 0.0F);
     glUniform2f(program.pixel_per_fragment, 1.0F / static_cast<float>(fragments.x),
@@ -223,11 +225,13 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
                                                   glm::vec3(plan.prop_from_unit_offset)};
     glUniform3fv(program.prop_from_unit, 2, glm::value_ptr(prop_from_unit[0]));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
+    const double samples_along = std::sqrt(static_cast<double>(fragments.x * fragments.y));
     int calls = 0;
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         const FacePlan& face = plan.faces[k];
         glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(k)), 0xFF);
         glUniformMatrix4fv(program.clip_from_unit, 1, GL_FALSE, glm::value_ptr(face.clip_from_unit));
+        glUniform1f(program.mip_level, artifact.mip_level(samples_along * face.pixels_per_box));
         glUniform3fv(program.inverse_depth, 1, glm::value_ptr(face.light.inverse_depth));
         glUniform2f(program.gain, face.light.constant, face.light.per_cubic_metre);
         const IndexRange& range = coming ? face.coming : face.shown;

@@ -7,7 +7,9 @@
 /// Draws into the framebuffer that is bound; the caller clears. Sets every piece of state that it needs, the
 /// scissor to each face's bounds, and leaves stencil test, depth test and culling off.
 ///
-/// Colour   linear light out; an sRGB framebuffer encodes.
+/// Colour   sRGB codes in and out: the framebuffer must take them as they are (GL_FRAMEBUFFER_SRGB_EXT off).
+/// Decoding
+///          and encoding every sample costs a software GPU more than the rest of it.
 /// Threads  the render thread; allocates nothing in `draw`.
 #pragma once
 
@@ -46,7 +48,7 @@ private:
     struct ArtifactProgram {
         GlProgram program;
         GLint clip_from_unit = -1;
-        GLint level_bias = -1;
+        GLint mip_level = -1;
         GLint brightness = -1;
         GLint pixel_per_fragment = -1;
         GLint pinhole = -1;

@@ -2,11 +2,26 @@
 
 #include "app/render/scissor.h"
 
+#include <GLES2/gl2ext.h>
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string_view>
 
 namespace frustumscreen {
 
 namespace {
+
+bool driver_has(std::string_view extension) {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint k = 0; k < count; ++k) {
+        if (extension == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(k)))) {
+            return true;
+        }
+    }
+    return false;
+}
 
 void clear(GLbitfield what) {
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
@@ -21,6 +36,13 @@ void clear(GLbitfield what) {
 } // namespace
 
 Result<Renderer> Renderer::create(const RendererOptions& options) {
+    for (const std::string_view extension : {"GL_EXT_texture_sRGB_decode", "GL_EXT_sRGB_write_control"}) {
+        if (!driver_has(extension)) {
+            return fail(
+                ErrorKind::BadConfiguration,
+                fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
+        }
+    }
     Result<FacePass> pass = FacePass::create(FaceOutput::Colour, options.level_fades);
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
@@ -85,7 +107,9 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
         if (samples > 1) {
             draw_smooth(plan, SampleGrid::of(samples), shows, target, result);
         } else {
+            glDisable(GL_FRAMEBUFFER_SRGB_EXT);
             result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming});
+            glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         }
     }
     glDisable(GL_SCISSOR_TEST);
@@ -97,9 +121,11 @@ void Renderer::draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const 
     sample_grid_->begin(plan.lit, grid);
     const PixelRectangle caption = intersected(plan.caption.bounds, plan.lit.bounds());
     if (!caption.empty()) {
+        glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         glEnable(GL_SCISSOR_TEST);
         set_scissor(caption, grid);
         result.draw_calls += caption_.draw(plan.caption, shows.caption);
+        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     }
     result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, grid);
     sample_grid_->finish(plan.lit, grid, target.framebuffer);

@@ -2,6 +2,7 @@
 
 #include "app/render/gl_program.h"
 
+#include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -156,6 +157,7 @@ void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {
 }
 
 void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, width_ * grid.x, height_ * grid.y);
     glDisable(GL_SCISSOR_TEST);
@@ -176,6 +178,7 @@ void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
 }
 
 void SampleGrid::finish(const LitTiles& tiles, const glm::ivec2& grid, unsigned framebuffer) const {
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width_, height_);
     glDisable(GL_SCISSOR_TEST);

@@ -24,9 +24,10 @@ public:
     /// Samples along a pixel's sides; zero for a number that has no grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
-    /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
+    /// Binds the larger picture, which takes sRGB codes as they are (GL_FRAMEBUFFER_SRGB_EXT off), and clears
+    /// the tiles in it: black, far, stencil 0.
     void begin(const LitTiles& tiles, const glm::ivec2& grid) const;
-    /// Averages the tiles into `framebuffer`, which stays bound.
+    /// Averages the tiles into `framebuffer`, which stays bound and encodes again.
     void finish(const LitTiles& tiles, const glm::ivec2& grid, unsigned framebuffer) const;
 
 private:

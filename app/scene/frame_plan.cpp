@@ -235,6 +235,21 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
     return bounds;
 }
 
+/// Geometric mean of the two singular values of pixel(point) at a point: how large a picture the face makes
+/// of it.
+double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point, const Pinhole& pinhole) {
+    const glm::dvec4 clip = clip_from_box * glm::dvec4(point, 1.0);
+    if (!(clip.w > 0.0)) {
+        return 0.0;
+    }
+    const glm::dvec3 w(row(clip_from_box, 3));
+    const glm::dvec3 across =
+        0.5 * pinhole.width / clip.w * (glm::dvec3(row(clip_from_box, 0)) - clip.x / clip.w * w);
+    const glm::dvec3 down =
+        0.5 * pinhole.height / clip.w * (glm::dvec3(row(clip_from_box, 1)) - clip.y / clip.w * w);
+    return std::sqrt(glm::length(glm::cross(across, down)));
+}
+
 /// Plans one face; false if nothing shows on it.
 bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePlan& face_plan) {
     const PropFace& face = shared.prop.faces[index];
@@ -271,6 +286,8 @@ bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePla
         return false;
     }
     face_plan.face = static_cast<int>(index);
+    face_plan.pixels_per_box =
+        pixels_per_unit(clip_from_box, {0.0, 0.0, 0.5 * shared.artifact.box_size.z}, shared.view.projector);
     face_plan.clip_from_unit = glm::mat4(clip_from_unit);
     face_plan.corners_clip = corners_in_clip(face.corners, shared.clip_from_prop);
     return true;

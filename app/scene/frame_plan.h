@@ -81,9 +81,11 @@ struct FacePlan {
     glm::mat4 clip_from_unit{1.0F};          ///< PackVertex::position / 65535 -> clip
     std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
-    IndexRange shown;      ///< of FramePlan::indices
-    IndexRange coming;     ///< of the level that comes in, while one does
-    PixelRectangle bounds; ///< holds every pixel that the artifact can light on this face
+    IndexRange shown;            ///< of FramePlan::indices
+    IndexRange coming;           ///< of the level that comes in, while one does
+    PixelRectangle bounds;       ///< holds every pixel that the artifact can light on this face
+    double pixels_per_box = 0.0; ///< along one box unit at the artifact's middle, across the eye's ray; the
+                                 ///< mean of two directions, by area
 };
 
 /// A caption, and the outlines of the prop's lit faces, which it never lights.

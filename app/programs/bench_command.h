@@ -1,0 +1,78 @@
+/// What the commands of frustumscreen-bench share: each command is a file of its own with one function
+/// `BenchCommand ..._command(CLI::App&)` that declares its options and says how it runs.
+///
+/// Threads  one.
+/// Errors   as Result; the sentence goes to standard error by bench_main.cpp.
+#pragma once
+
+#include "app/bench/pack_level.h"
+#include "app/bench/technique_set.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+/// One line that is written over while a person waits longer than two seconds; silent in a pipe.
+class BenchProgress {
+public:
+    BenchProgress();
+    ~BenchProgress();
+    BenchProgress(const BenchProgress&) = delete;
+    BenchProgress& operator=(const BenchProgress&) = delete;
+    void show(const std::string& step, double done);
+    void clear();
+
+private:
+    bool on_terminal_;
+    bool written_ = false;
+    std::string step_;
+    std::chrono::steady_clock::time_point started_;
+    std::chrono::steady_clock::time_point begun_;
+};
+
+struct BenchCommand {
+    CLI::App* options = nullptr; ///< the subcommand; `parsed()` once it was chosen
+    std::function<Result<void>(BenchProgress&)> run;
+};
+
+/// Where the results go and whose settings hold; every command has these.
+struct BenchPlace {
+    std::filesystem::path out;
+    std::vector<std::filesystem::path> configs; ///< none: the near and the shipped set-up
+};
+/// --out and --config.
+void add_place_options(CLI::App& command, BenchPlace& place);
+/// --samples.
+void add_picture_options(CLI::App& command, PictureOptions& picture);
+/// --poses and --seed.
+void add_pose_options(CLI::App& command, int& poses, std::uint64_t& seed);
+
+/// A pack and the file that it was baked from.
+struct BenchArtifact {
+    std::filesystem::path pack;
+    std::filesystem::path mesh;
+};
+/// --pack and --mesh.
+void add_artifact_options(CLI::App& command, BenchArtifact& artifact);
+
+struct LoadedArtifact {
+    VerifiedPack pack;
+    std::shared_ptr<const SourceMesh> mesh;
+};
+/// Warns on standard error of a pack that was not baked with --unlit.
+[[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
+[[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
+
+/// Files in --out, all or the first that fails.
+[[nodiscard]] Result<void> write_all(const std::filesystem::path& folder,
+                                     const std::vector<std::pair<std::string, std::string>>& files);
+
+} // namespace frustumscreen
