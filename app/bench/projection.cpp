@@ -11,6 +11,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr int rays_per_side = 4;
+constexpr const char* ray_cast_technique = "ray-cast picture";
 constexpr glm::u8vec4 black(0, 0, 0, 255);
 
 VisitorScene scene_of(const Stage& stage, const BenchPose& pose) {
@@ -31,6 +32,33 @@ double percent_of(std::int64_t part, std::int64_t all) {
     return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 100.0;
 }
 
+struct PixelBox {
+    glm::ivec2 low{0};
+    glm::ivec2 high{0}; ///< one past the end
+};
+
+/// Of all that is not zero, with a rim of two pixels.
+PixelBox box_of(const Image<std::uint8_t>& mask) {
+    constexpr int rim = 2;
+    PixelBox box{{mask.width, mask.height}, {0, 0}};
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (mask.at(x, y) != 0) {
+                box.low = glm::min(box.low, glm::ivec2(x - rim, y - rim));
+                box.high = glm::max(box.high, glm::ivec2(x + 1 + rim, y + 1 + rim));
+            }
+        }
+    }
+    box.low = glm::max(box.low, glm::ivec2(0));
+    box.high = glm::max(box.low, glm::min(box.high, glm::ivec2(mask.width, mask.height)));
+    return box;
+}
+
+glm::u8vec4 colour_of_difference(int codes) {
+    const auto grey = static_cast<std::uint8_t>(24 + std::min(4 * codes, 231));
+    return codes > most_codes_off ? glm::u8vec4(255, 40, 30, 255) : glm::u8vec4(grey, grey, grey, 255);
+}
+
 /// The visitor's rays in the prop's frame.
 struct VisitorRays {
     glm::dvec3 eye_m;
@@ -46,39 +74,71 @@ struct VisitorRays {
     }
 };
 
+/// Projector pixels that one step of a visitor's pixel spans in the direction where they are fewest, at the
+/// place that is seen through `at`; infinite beside the prop.
+double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
+    PropHit hit;
+    if (!intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const Plane& plane = scene.prop.faces[static_cast<std::size_t>(hit.face)].plane;
+    const RigidTransform projector_from_prop = scene.table_from_projector.inverse() * scene.table_from_prop;
+    const auto lit_pixel = [&](double u, double v) {
+        const glm::dvec3 ray = rays.through(u, v);
+        const double t = -plane.distance(rays.eye_m) / glm::dot(plane.normal, ray);
+        return scene.projector.pixel(projector_from_prop.point(rays.eye_m + t * ray))
+            .value_or(glm::dvec2(0.0));
+    };
+    const glm::dvec2 across = lit_pixel(at.x + 0.5, at.y) - lit_pixel(at.x - 0.5, at.y);
+    const glm::dvec2 down = lit_pixel(at.x, at.y + 0.5) - lit_pixel(at.x, at.y - 0.5);
+    // The smaller singular value of the matrix (across, down).
+    const double squares = glm::dot(across, across) + glm::dot(down, down);
+    const double area = std::abs(across.x * down.y - across.y * down.x);
+    return 0.5 * (std::sqrt(squares + 2.0 * area) - std::sqrt(std::max(0.0, squares - 2.0 * area)));
+}
+
 /// Of every prop pixel in a grid of `step`; infinite if there is none.
-double least_covered(const VisitorScene& scene, const VisitorCamera& camera, int step) {
+double least_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
     const VisitorRays rays(scene, camera);
     double least = std::numeric_limits<double>::infinity();
     for (int y = step / 2; y < camera.pinhole.height; y += step) {
         for (int x = step / 2; x < camera.pinhole.width; x += step) {
-            PropHit hit;
-            if (intersect(scene.prop, rays.eye_m, rays.through(x + 0.5, y + 0.5), hit)) {
-                least = std::min(least, projector_pixels_covered(scene, camera, {x + 0.5, y + 0.5}));
-            }
+            least = std::min(least, least_span(scene, rays, {x + 0.5, y + 0.5}));
         }
     }
     return least;
 }
 
-/// One level in one pose, and its pictures.
-struct Look {
-    ProjectionRow row;
-    Image8 pictures;
-};
+/// What one visitor sees, in every way that it is made: an instance judges many projector's pictures.
+class Judge {
+public:
+    Judge(const Truth& truth, const VisitorScene& scene)
+        : scene_(scene), camera_(no_finer_camera(scene)), one_ray_(cast_visitor(truth, scene, camera_, 1)),
+          sixteen_rays_(cast_visitor(truth, scene, camera_, rays_per_side)) {
+        row_.size_px = {camera_.pinhole.width, camera_.pinhole.height};
+        row_.least_span_px = least_span(scene, camera_, 1);
+    }
 
-Look look(const VisitorScene& scene, const VisitorCamera& camera, const Image8& projected,
-          const VisitorTruth& one_ray, const VisitorTruth& sixteen_rays) {
-    const Image8 view = visitor_view(scene, projected, camera, exact_check());
-    VisitorViewOptions smooth = exact_check();
-    smooth.rays_per_side = rays_per_side;
-    Look made;
-    made.row.one_ray = agreement(view, one_ray);
-    made.row.sixteen_rays = agreement(visitor_view(scene, projected, camera, smooth), sixteen_rays);
-    made.row.size_px = {camera.pinhole.width, camera.pinhole.height};
-    made.pictures = side_by_side(view, one_ray);
-    return made;
-}
+    /// The picture for either comparison; `smooth` stays as the visitor's view of 16 rays.
+    [[nodiscard]] ProjectionRow judge(const Image8& for_one_ray, const Image8& for_sixteen_rays) {
+        VisitorViewOptions sixteen = exact_check();
+        sixteen.rays_per_side = rays_per_side;
+        ProjectionRow row = row_;
+        row.one_ray = agreement(visitor_view(scene_, for_one_ray, camera_, exact_check()), one_ray_);
+        smooth_ = visitor_view(scene_, for_sixteen_rays, camera_, sixteen);
+        row.sixteen_rays = agreement(smooth_, sixteen_rays_);
+        return row;
+    }
+    [[nodiscard]] Image8 pictures() const { return side_by_side(smooth_, sixteen_rays_); }
+
+private:
+    VisitorScene scene_;
+    VisitorCamera camera_;
+    VisitorTruth one_ray_;
+    VisitorTruth sixteen_rays_;
+    ProjectionRow row_;
+    Image8 smooth_;
+};
 
 Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
                                  const std::shared_ptr<const SourceMesh>& mesh,
@@ -100,25 +160,27 @@ Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
     ProjectionResult result{set_up.name, std::move(*poses), {}, {}};
     double worst_percent = std::numeric_limits<double>::infinity();
     for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
-        const VisitorScene scene = scene_of(set.stage(), result.poses[pose]);
-        const VisitorCamera camera = no_finer_camera(scene);
-        const double covered = least_covered(scene, camera, 1);
-        const VisitorTruth one_ray = cast_visitor(*truth, scene, camera, 1);
-        const VisitorTruth sixteen_rays = cast_visitor(*truth, scene, camera, rays_per_side);
+        const BenchPose& at = result.poses[pose];
+        Judge judge(*truth, scene_of(set.stage(), at));
+        const TruthPicture cast = truth->cast(set.stage().prop, view_of(set.stage().settings, at), true);
+        const auto add = [&](ProjectionRow row, const std::string& technique, int level) {
+            row.technique = technique;
+            row.level = level;
+            row.pose = static_cast<int>(pose);
+            result.rows.push_back(std::move(row));
+        };
+        add(judge.judge(cast.colour, cast.colour16), ray_cast_technique, -1);
         for (std::size_t k = 0; k < set.results().size(); ++k) {
-            if (set.results()[k].kind != TechniqueKind::PackLevel) {
+            const TechniqueResult& drawn = set.results()[k];
+            if (drawn.kind != TechniqueKind::PackLevel) {
                 continue;
             }
-            Look made = look(scene, camera, set.picture(k, result.poses[pose]), one_ray, sixteen_rays);
-            made.row.technique = set.results()[k].name;
-            made.row.level = set.results()[k].level;
-            made.row.pose = static_cast<int>(pose);
-            made.row.least_covered = covered;
-            if (made.row.one_ray.prop_percent() < worst_percent) {
-                worst_percent = made.row.one_ray.prop_percent();
-                result.worst = std::move(made.pictures);
+            const Image8 picture = set.picture(k, at);
+            add(judge.judge(picture, picture), drawn.name, drawn.level);
+            if (result.rows.back().sixteen_rays.prop_percent() < worst_percent) {
+                worst_percent = result.rows.back().sixteen_rays.prop_percent();
+                result.worst = judge.pictures();
             }
-            result.rows.push_back(std::move(made.row));
         }
         progress(set_up.name + ": visitor's views",
                  static_cast<double>(pose + 1) / static_cast<double>(result.poses.size()));
@@ -191,7 +253,7 @@ Agreement agreement(const Image8& view, const VisitorTruth& truth) {
 }
 
 VisitorCamera no_finer_camera(const VisitorScene& scene) {
-    // A picture half as wide has pixels four times as large; the grid misses little of so smooth a function.
+    // A picture half as wide has pixels twice as wide; the grid misses little of so smooth a function.
     constexpr int grid_px = 4;
     constexpr double margin = 0.99;
     const auto camera = [&scene](double scale) {
@@ -201,23 +263,26 @@ VisitorCamera no_finer_camera(const VisitorScene& scene) {
         return visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, pixels(scene.projector.width),
                               pixels(scene.projector.height));
     };
-    const double covered = least_covered(scene, camera(1.0), grid_px);
-    return camera(std::min(1.0, margin * std::sqrt(covered)));
+    const double span = least_span(scene, camera(1.0), grid_px);
+    return camera(std::min(1.0, margin * span));
 }
 
 Image8 side_by_side(const Image8& view, const VisitorTruth& truth) {
-    Image8 picture(3 * view.width, view.height, black);
-    for (int y = 0; y < view.height; ++y) {
-        for (int x = 0; x < view.width; ++x) {
-            picture.at(x, y) = view.at(x, y);
-            picture.at(view.width + x, y) = truth.colour.at(x, y);
-            if (truth.prop.at(x, y) == 0) {
-                continue;
+    const PixelBox box = box_of(truth.prop);
+    const int width = box.high.x - box.low.x;
+    const int height = box.high.y - box.low.y;
+    const int enlarged = std::clamp(480 / std::max(1, std::max(width, height)), 1, 8);
+    Image8 picture(3 * enlarged * width, enlarged * height, black);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < enlarged * width; ++x) {
+            const glm::ivec2 from(box.low.x + x / enlarged, box.low.y + y / enlarged);
+            const glm::u8vec4& seen = view.at(from.x, from.y);
+            const glm::u8vec4& right = truth.colour.at(from.x, from.y);
+            picture.at(x, y) = seen;
+            picture.at(enlarged * width + x, y) = right;
+            if (truth.prop.at(from.x, from.y) != 0) {
+                picture.at(2 * enlarged * width + x, y) = colour_of_difference(codes_off(seen, right));
             }
-            const int off = codes_off(view.at(x, y), truth.colour.at(x, y));
-            const auto grey = static_cast<std::uint8_t>(24 + std::min(4 * off, 231));
-            picture.at(2 * view.width + x, y) =
-                off > most_codes_off ? glm::u8vec4(255, 40, 30, 255) : glm::u8vec4(grey, grey, grey, 255);
         }
     }
     return picture;

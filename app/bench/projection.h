@@ -8,11 +8,14 @@
 /// misses.
 ///          It knows the prop's place, and neither the projector nor the prop's faces.
 /// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes: with
-/// one
-///          ray a pixel in both pictures, and with 16, averaged in linear light.
-/// Size     of the visitor's picture: the largest, up to the projector's own, whose pixels are nowhere on the
-/// prop
-///          finer than the projector's (`projector_pixels_covered`).
+/// 16
+///          rays a pixel in both pictures, averaged in linear light, and with one ray through its centre,
+///          where a texture finer than a pixel makes any filtered picture differ. A third picture, the
+///          projector's as the ray cast has it, goes the same way: what it loses is lost between the two
+///          grids of pixels, not by us.
+/// Size     of the visitor's picture: the largest, up to the projector's own, with no pixel on the prop finer
+/// than
+///          the projector's: one of its steps, in whichever direction, spans a projector pixel or more.
 /// Frames   table T; metres.
 /// Threads  the one whose context is current; views and rays are cast on every core.
 #pragma once
@@ -52,8 +55,8 @@ struct Agreement {
 /// The camera of the size that the block above asks for.
 [[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
 
-/// View, ray cast and difference side by side; where a pixel is wrong the difference is red, elsewhere it is
-/// grey and four times as bright as it is.
+/// View, ray cast and difference of the prop side by side, enlarged; where a pixel is wrong the difference is
+/// red, elsewhere it is grey and four times as bright as it is.
 [[nodiscard]] Image8 side_by_side(const Image8& view, const VisitorTruth& truth);
 
 struct ProjectionOptions {
@@ -62,13 +65,14 @@ struct ProjectionOptions {
     PictureOptions picture;
 };
 
-/// One level in one pose.
+/// One level, or the ray-cast picture (level -1), in one pose.
 struct ProjectionRow {
     std::string technique;
     int level = -1;
     int pose = 0;
-    glm::ivec2 size_px{0};      ///< of the visitor's picture
-    double least_covered = 0.0; ///< projector pixels in a visitor's pixel, over the prop's pixels
+    glm::ivec2 size_px{0}; ///< of the visitor's picture
+    double least_span_px =
+        0.0; ///< projector pixels in a step of a visitor's pixel, least over prop and directions
     Agreement one_ray;
     Agreement sixteen_rays;
 };
@@ -76,8 +80,8 @@ struct ProjectionRow {
 struct ProjectionResult {
     std::string name; ///< of the set-up
     std::vector<BenchPose> poses;
-    std::vector<ProjectionRow> rows; ///< default and finest level, pose by pose
-    Image8 worst; ///< side by side, one ray: the row with the smallest share of right pixels
+    std::vector<ProjectionRow> rows; ///< ray-cast picture, default and finest level, pose by pose
+    Image8 worst; ///< side by side, 16 rays: the level and pose with the smallest share of right pixels
 };
 
 [[nodiscard]] Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,

@@ -8,66 +8,89 @@ namespace frustumscreen {
 
 namespace {
 
-/// The rows of one level, and what they have in common.
-struct LevelSummary {
-    std::string technique;
-    int poses = 0;
+struct Share {
     double mean_percent = 0.0;
-    const ProjectionRow* worst = nullptr; ///< one ray
-    double worst_sixteen_percent = 100.0;
-    double worst_artifact_percent = 100.0;
+    double worst_percent = 100.0;
+    int worst_pose = 0;
+
+    void add(double percent, int pose) {
+        mean_percent += percent; // a sum until all are in
+        if (percent < worst_percent) {
+            worst_percent = percent;
+            worst_pose = pose;
+        }
+    }
 };
 
-std::vector<LevelSummary> by_level(const ProjectionResult& result) {
-    std::vector<LevelSummary> levels;
+/// The rows of one technique.
+struct Summary {
+    std::string technique;
+    int level = -1;
+    int poses = 0;
+    Share one_ray;
+    Share sixteen_rays;
+    Share artifact; ///< 16 rays
+};
+
+std::vector<Summary> by_technique(const ProjectionResult& result) {
+    std::vector<Summary> summaries;
     for (const ProjectionRow& row : result.rows) {
-        auto level = std::find_if(levels.begin(), levels.end(), [&row](const LevelSummary& summary) {
-            return summary.technique == row.technique;
+        auto summary = std::find_if(summaries.begin(), summaries.end(), [&row](const Summary& other) {
+            return other.technique == row.technique;
         });
-        if (level == levels.end()) {
-            LevelSummary fresh;
+        if (summary == summaries.end()) {
+            Summary fresh;
             fresh.technique = row.technique;
-            level = levels.insert(levels.end(), std::move(fresh));
+            fresh.level = row.level;
+            summary = summaries.insert(summaries.end(), std::move(fresh));
         }
-        level->poses += 1;
-        level->mean_percent += row.one_ray.prop_percent();
-        level->worst_sixteen_percent =
-            std::min(level->worst_sixteen_percent, row.sixteen_rays.prop_percent());
-        level->worst_artifact_percent =
-            std::min(level->worst_artifact_percent, row.one_ray.artifact_percent());
-        if (level->worst == nullptr || row.one_ray.prop_percent() < level->worst->one_ray.prop_percent()) {
-            level->worst = &row;
+        summary->poses += 1;
+        summary->one_ray.add(row.one_ray.prop_percent(), row.pose);
+        summary->sixteen_rays.add(row.sixteen_rays.prop_percent(), row.pose);
+        summary->artifact.add(row.sixteen_rays.artifact_percent(), row.pose);
+    }
+    for (Summary& summary : summaries) {
+        for (Share* share : {&summary.one_ray, &summary.sixteen_rays, &summary.artifact}) {
+            share->mean_percent /= summary.poses;
         }
     }
-    for (LevelSummary& level : levels) {
-        level.mean_percent /= level.poses;
-    }
-    return levels;
+    return summaries;
 }
 
 } // namespace
 
 std::vector<Verdict> judge(const ProjectionResult& result) {
     std::vector<Verdict> verdicts;
-    for (const LevelSummary& level : by_level(result)) {
-        const double worst = level.worst->one_ray.prop_percent();
-        verdicts.push_back({fmt::format("{}: >= {:g} % of the prop's pixels within {} codes", level.technique,
-                                        least_right_percent, most_codes_off),
-                            fmt::format("worst pose {:.2f} %, mean {:.2f} %", worst, level.mean_percent),
-                            worst >= least_right_percent});
+    const std::vector<Summary> summaries = by_technique(result);
+    for (const Summary& summary : summaries) {
+        if (summary.level < 0) {
+            continue;
+        }
+        for (const auto& [share, rays] :
+             {std::pair{&Summary::sixteen_rays, "16 rays"}, std::pair{&Summary::one_ray, "1 ray"}}) {
+            const Share& found = summary.*share;
+            verdicts.push_back(
+                {fmt::format("{}: >= {:g} % of the prop's pixels within {} codes, {} a pixel",
+                             summary.technique, least_right_percent, most_codes_off, rays),
+                 fmt::format("worst pose {:.2f} %, mean {:.2f} %; the ray-cast picture {:.2f} %, {:.2f} %",
+                             found.worst_percent, found.mean_percent,
+                             (summaries.front().*share).worst_percent,
+                             (summaries.front().*share).mean_percent),
+                 found.worst_percent >= least_right_percent});
+        }
     }
-    double covered = result.rows.empty() ? 0.0 : result.rows.front().least_covered;
+    double span = result.rows.empty() ? 0.0 : result.rows.front().least_span_px;
     for (const ProjectionRow& row : result.rows) {
-        covered = std::min(covered, row.least_covered);
+        span = std::min(span, row.least_span_px);
     }
     verdicts.push_back({"the visitor's pixels are no finer than the projector's on the prop",
-                        fmt::format("the finest covers {:.2f} projector pixels", covered), covered >= 1.0});
+                        fmt::format("the finest spans {:.2f} projector pixels", span), span >= 1.0});
     return verdicts;
 }
 
 std::string projection_csv(std::span<const ProjectionResult> results) {
     std::string csv =
-        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,technique,width,height,least_covered,"
+        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,technique,width,height,least_span_px,"
         "prop_pixels,right_percent,artifact_pixels,artifact_right_percent,right_16_rays_percent,"
         "artifact_right_16_rays_percent\n";
     for (const ProjectionResult& result : results) {
@@ -79,7 +102,7 @@ std::string projection_csv(std::span<const ProjectionResult> results) {
                                "{:.4f}\n",
                                result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
                                prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z, row.technique,
-                               row.size_px.x, row.size_px.y, row.least_covered, row.one_ray.prop_pixels,
+                               row.size_px.x, row.size_px.y, row.least_span_px, row.one_ray.prop_pixels,
                                row.one_ray.prop_percent(), row.one_ray.artifact_pixels,
                                row.one_ray.artifact_percent(), row.sixteen_rays.prop_percent(),
                                row.sixteen_rays.artifact_percent());
@@ -90,15 +113,16 @@ std::string projection_csv(std::span<const ProjectionResult> results) {
 
 std::string projection_table(const ProjectionResult& result) {
     std::string table =
-        fmt::format("{} set-up, {} poses; % within {} codes\n{:<20}{:>10}{:>10}{:>14}{:>15}{:>12}"
-                    "{:>13}\n",
-                    result.name, result.poses.size(), most_codes_off, "level", "mean", "worst", "w. 16 rays",
-                    "w. artifact", "worst pose", "visitor px");
-    for (const LevelSummary& level : by_level(result)) {
-        table += fmt::format("{:<20}{:>10.2f}{:>10.2f}{:>14.2f}{:>15.2f}{:>12}{:>13}\n", level.technique,
-                             level.mean_percent, level.worst->one_ray.prop_percent(),
-                             level.worst_sixteen_percent, level.worst_artifact_percent, level.worst->pose,
-                             fmt::format("{} x {}", level.worst->size_px.x, level.worst->size_px.y));
+        fmt::format("{} set-up, {} poses; % within {} codes, mean / worst pose\n{:<20}{:<20}{:<20}"
+                    "{:<22}{}\n",
+                    result.name, result.poses.size(), most_codes_off, "projector's picture", "16 rays",
+                    "1 ray", "artifact's, 16 rays", "worst pose");
+    for (const Summary& summary : by_technique(result)) {
+        const auto text = [](const Share& share) {
+            return fmt::format("{:.2f} / {:.2f}", share.mean_percent, share.worst_percent);
+        };
+        table += fmt::format("{:<20}{:<20}{:<20}{:<22}{}\n", summary.technique, text(summary.sixteen_rays),
+                             text(summary.one_ray), text(summary.artifact), summary.sixteen_rays.worst_pose);
     }
     return table + lines_of(judge(result));
 }

@@ -204,10 +204,7 @@ std::string console_table(const SetUpResult& result) {
         }
         table += "\n";
     }
-    for (const Verdict& verdict : judge(result)) {
-        table += fmt::format("{} {} ({})\n", verdict.held ? "held  " : "MISSED", verdict.what, verdict.found);
-    }
-    return table;
+    return table + lines_of(judge(result));
 }
 
 } // namespace frustumscreen

@@ -91,21 +91,25 @@ Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& p
     return {};
 }
 
+Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
+    techniques_[k]->draw(pose);
+    return read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+}
+
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                           std::size_t first, const Progress& progress) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-        const TruthPicture picture = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), true);
+        const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), true);
         for (std::size_t k = first; k < techniques_.size(); ++k) {
             if (results_[k].kind == TechniqueKind::Floor) {
                 continue;
             }
-            techniques_[k]->draw(poses[pose]);
-            Image8 colour = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+            Image8 colour = picture(k, poses[pose]);
             Result<ImageFloat> points = techniques_[k]->hit_points(poses[pose]);
             if (!points) {
                 return tl::unexpected<Error>(points.error());
             }
-            results_[k].errors.push_back(measure(picture, {std::move(colour), std::move(*points)}));
+            results_[k].errors.push_back(measure(cast, {std::move(colour), std::move(*points)}));
         }
         progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
     }
@@ -127,6 +131,23 @@ void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds
         results_[k].cpu_times_floor = results_[k].cpu_ms / results_[0].cpu_ms;
         results_[k].times_floor = results_[k].time_ms.median / results_[0].time_ms.median;
     }
+}
+
+Result<std::unique_ptr<TechniqueSet>>
+open_default_and_finest(const SetUp& set_up, const Pack& pack, const PictureOptions& options) {
+    Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
+    if (!set) {
+        return set;
+    }
+    const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
+    Result<void> added = (*set)->add_level(pack, pack.default_level, options);
+    if (added && finest != pack.default_level) {
+        added = (*set)->add_level(pack, finest, options);
+    }
+    if (!added) {
+        return tl::unexpected<Error>(added.error());
+    }
+    return set;
 }
 
 } // namespace frustumscreen

@@ -51,6 +51,9 @@ public:
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels);
 
+    /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
+    [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
+
     /// Draws `poses` with techniques [first, end) and measures each picture against the truth.
     [[nodiscard]] Result<void> measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                               std::size_t first, const Progress& progress);
@@ -71,5 +74,9 @@ private:
     std::vector<std::unique_ptr<Technique>> techniques_;
     std::vector<TechniqueResult> results_; ///< one each technique
 };
+
+/// The floor, the pack's default level and, where it is another, its finest. The pack must outlive the set.
+[[nodiscard]] Result<std::unique_ptr<TechniqueSet>>
+open_default_and_finest(const SetUp& set_up, const Pack& pack, const PictureOptions& options);
 
 } // namespace frustumscreen

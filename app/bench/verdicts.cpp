@@ -31,6 +31,14 @@ bool no_larger(const PictureError& a, const PictureError& b) {
 
 } // namespace
 
+std::string lines_of(std::span<const Verdict> verdicts) {
+    std::string lines;
+    for (const Verdict& verdict : verdicts) {
+        lines += fmt::format("{} {} ({})\n", verdict.held ? "held  " : "MISSED", verdict.what, verdict.found);
+    }
+    return lines;
+}
+
 std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
     const PictureError& worst = level.error.worst;
     std::vector<Verdict> verdicts = {

@@ -8,6 +8,8 @@
 
 #include "app/bench/error_time.h"
 
+#include <span>
+
 namespace frustumscreen {
 
 struct Limits {
@@ -29,6 +31,9 @@ struct Verdict {
     std::string found;
     bool held = false;
 };
+
+/// One line each: held or MISSED, the limit, what was found.
+[[nodiscard]] std::string lines_of(std::span<const Verdict> verdicts);
 
 [[nodiscard]] std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits);
 

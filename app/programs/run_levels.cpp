@@ -90,7 +90,6 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         const double ms = median_ms(rung, prop, view, renderer, target);
         times.push_back({rung.samples, work(), ms});
     }
-    governor_ = Governor(rungs_, std::move(times), deadline_ms_);
     if (fades()) { // the driver makes the fade's shaders now and not in the middle of the first one
         PlanView fading = view;
         fading.fade = LevelFade{levels_[1].placed.triangles.get(), levels_[1].placed.id, 0.5};
@@ -98,6 +97,11 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         renderer.draw(plan_, {&levels_[0].gpu, nullptr, &levels_[1].gpu}, target, Redraw::Everything);
         wait_until_drawn();
     }
+    start(times);
+}
+
+void RunLevels::start(const std::vector<RungTime>& times) {
+    governor_ = Governor(rungs_, times, deadline_ms_);
     shown_ = slot_of(governor_.rung().level);
 }
 

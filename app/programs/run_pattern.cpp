@@ -23,12 +23,16 @@ Result<std::unique_ptr<PatternShow>> PatternShow::create(const Settings& setting
 DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const RenderTarget& target,
                              Redraw redraw) {
     const glm::dmat4 pose = situation.table_from_prop.matrix();
-    if (redraw == Redraw::Changes && target.buffer_age > 0 && shown_ == pose) {
+    const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
+    const bool unchanged = target.buffer_age > 0 && shown_ == pose;
+    if (redraw == Redraw::Changes && unchanged) {
         return {};
+    }
+    if (redraw == Redraw::Again && unchanged && target.buffer_age == 1) {
+        return {true, {}, whole, 0};
     }
     shown_ = pose;
     upload_.show(with_prop(table_, scene_, situation.table_from_prop, typesetter_), target.framebuffer);
-    const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
     return {true, whole, whole, 1};
 }
 

@@ -28,7 +28,7 @@ public:
     /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& situation,
                                           const RenderTarget& target, Redraw redraw) = 0;
-    /// What the latest picture drawn took, from the poll until it was done.
+    /// What the latest picture drawn took, from the poll until it was done; no wait for a refresh in it.
     virtual void took(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(MonotonicTime now) const = 0;
 };

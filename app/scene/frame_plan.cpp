@@ -109,12 +109,12 @@ glm::dvec4 row(const glm::dmat4& m, int r) {
 FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
                      const glm::dmat4& clip_from_box) {
     FaceVolume volume;
-    volume.eye = eye_in_prop / metres_per_box;
+    const glm::dvec3 eye = eye_in_prop / metres_per_box;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-        const glm::dvec3 a = face.corners[k] / metres_per_box - volume.eye;
-        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - volume.eye;
+        const glm::dvec3 a = face.corners[k] / metres_per_box - eye;
+        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - eye;
         const glm::dvec3 inward = glm::cross(b, a);
-        volume.add(glm::dvec4(inward, -glm::dot(inward, volume.eye)));
+        volume.add(glm::dvec4(inward, -glm::dot(inward, eye)));
     }
     const glm::dvec4 w = row(clip_from_box, 3);
     volume.add(w);
@@ -219,14 +219,14 @@ PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
 }
 
 /// Adds what the face shows to the plan; returns the pixels around it.
-PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& volume,
-                              const glm::mat4& clip_from_box, const PixelRectangle& face, FramePlan& plan,
-                              IndexRange& range) {
+PixelRectangle show_triangles(const LevelTriangles& level, const FrontTriangles& front,
+                              const FaceVolume& volume, const glm::mat4& clip_from_box,
+                              const PixelRectangle& face, FramePlan& plan, IndexRange& range) {
     range.first = static_cast<std::uint32_t>(plan.indices.size());
     PixelRectangle bounds;
     for (std::size_t k = 0; k < level.clusters.size(); ++k) {
         const std::size_t first = plan.indices.size();
-        if (append_visible(volume, level, level.clusters[k], plan.indices) > 0) {
+        if (append_visible(volume, level, front, k, plan.indices) > 0) {
             bounds = united(bounds, light_tiles(level, k, std::span(plan.indices).subspan(first),
                                                 clip_from_box, face, plan.projector, plan.lit));
         }
@@ -276,11 +276,14 @@ bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePla
 
     const FaceVolume volume = volume_of(face, eye, scale, clip_from_box);
     const glm::mat4 clip32(clip_from_box);
+    plan.front.update(*shared.artifact.triangles, eye / scale);
     face_plan.bounds =
-        show_triangles(*shared.artifact.triangles, volume, clip32, bounds, plan, face_plan.shown);
+        show_triangles(*shared.artifact.triangles, plan.front, volume, clip32, bounds, plan, face_plan.shown);
     if (shared.view.fade) {
-        face_plan.bounds = united(face_plan.bounds, show_triangles(*shared.view.fade->triangles, volume,
-                                                                   clip32, bounds, plan, face_plan.coming));
+        const LevelTriangles& coming = *shared.view.fade->triangles;
+        plan.coming_front.update(coming, eye / scale);
+        face_plan.bounds = united(face_plan.bounds, show_triangles(coming, plan.coming_front, volume, clip32,
+                                                                   bounds, plan, face_plan.coming));
     }
     if (face_plan.shown.count + face_plan.coming.count == 0) {
         return false;
@@ -341,6 +344,8 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices) {
     plan.caption.prop_clip.reserve(prop.faces.size());
     // A triangle may show on every face; memory that is never written is never taken.
     plan.indices.reserve(prop.faces.size() * indices);
+    plan.front.reserve(indices);
+    plan.coming_front.reserve(indices);
     return plan;
 }
 
@@ -356,6 +361,8 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
     }
     plan.faces.clear();
     plan.indices.clear();
+    plan.front.forget();
+    plan.coming_front.forget();
     plan.lit.begin(view.projector.width, view.projector.height);
     plan.prop_from_unit_scale = shared.box.high - shared.box.low;
     plan.prop_from_unit_offset = shared.box.low;

@@ -105,6 +105,7 @@ struct FramePlan {
     std::optional<float> coming_share;
     std::vector<FacePlan> faces;
     std::vector<std::uint32_t> indices; ///< of the triangles that each face shows
+    FrontTriangles front, coming_front; ///< of the eye planned for last
     LitTiles lit;                       ///< hold every pixel that the artifact can light
     CaptionPlan caption;
     glm::dvec3 prop_from_unit_scale{1.0}; ///< metres: prop point = scale * (position / 65535) + offset

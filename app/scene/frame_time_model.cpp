@@ -30,7 +30,7 @@ bool FrameTimeModel::is_time(double ms) {
     return ms > 0.0 && ms <= longest_ms; // false for NaN
 }
 
-FrameTimeModel::FrameTimeModel(std::vector<RungTime> rungs) {
+FrameTimeModel::FrameTimeModel(const std::vector<RungTime>& rungs) {
     for (const RungTime& start : rungs) {
         rungs_.push_back({start});
         if (!is_time(start.ms)) {
@@ -103,8 +103,13 @@ bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms,
     }
     const double surprise =
         std::log(ms / (r.start.ms * relative_work(r, triangles, pixels))) - r.log_own - log_load_;
-    double& learned = learned_s_ < learning_s ? r.log_own : log_load_;
-    learned = bounded(learned + weight * surprise);
+    if (learned_s_ < learning_s) {
+        r.log_own = bounded(r.log_own + weight * surprise);
+    } else {
+        const double forgotten = -std::expm1(-dt / forgetting_s) * r.log_own;
+        r.log_own -= forgotten;
+        log_load_ = bounded(log_load_ + forgotten + weight * surprise);
+    }
     return true;
 }
 

@@ -7,6 +7,8 @@
 /// of the spread that poses make (17 -> 8 % of the mean, four scans on llvmpipe). `load` is common: a GPU
 /// that is throttled or shared is slow for every rung, also for those that are not being drawn. Right after a
 /// change of rung a surprise is put down to the new rung alone (`own`): its proportion was measured wrong.
+/// If it was the load that had changed in that moment, the mistake wears off: `own` of the rung that is drawn
+/// flows into `load` within some `forgetting_s`, and the proportions return to those of the start.
 /// Both are kept as logarithms and follow log(measured / expected) by
 ///   x += (1 - exp(-dt / time_constant)) * log(measured / expected),
 /// the exact solution over a frame: stable for every dt, and split frames give what one frame gives. A single
@@ -14,9 +16,8 @@
 /// and that is forgotten in some tenths of a second.
 ///
 /// Units    milliseconds of wall time.
-/// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame: a
-/// rest
-///          of an hour does not make the next frame's time the whole truth.
+/// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame: after
+///          an hour of rest the next frame's time is not the whole truth.
 /// Threads  values; one caller. `observe` allocates nothing.
 /// Errors   none: what is no time (NaN, infinite, zero, negative, above `longest_ms`) is refused by a false.
 #pragma once
@@ -48,8 +49,9 @@ public:
     static constexpr double most_dt_s = 0.1;
     static constexpr double longest_ms = 10e3; ///< a frame of more than this is a fault, not a time
     static constexpr double learning_s = 0.5;  ///< of frames after a change of rung
+    static constexpr double forgetting_s = 10.0;
 
-    explicit FrameTimeModel(std::vector<RungTime> rungs);
+    explicit FrameTimeModel(const std::vector<RungTime>& rungs);
 
     /// A frame drawn at `rung`; false: `ms` is no time and changed nothing.
     bool observe(std::size_t rung, const FrameWork& work, double ms, MonotonicTime now);

@@ -26,8 +26,10 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
 
 std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box, double tolerance_mm,
                          int samples) {
-    const auto within = [&](const PackLevel& level) {
-        return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm; // false for NaN
+    constexpr double most_over_p95 = 4.0;             // two pixels for half a one
+    const auto within = [&](const PackLevel& level) { // false for NaN
+        return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm &&
+               static_cast<double>(level.error.max_box) * mm_per_box <= most_over_p95 * tolerance_mm;
     };
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
@@ -53,8 +55,8 @@ std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box, d
     return rungs;
 }
 
-Governor::Governor(std::vector<Rung> rungs, std::vector<RungTime> times, double deadline_ms)
-    : rungs_(std::move(rungs)), model_(std::move(times)), deadline_ms_(deadline_ms) {
+Governor::Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms)
+    : rungs_(std::move(rungs)), model_(times), deadline_ms_(deadline_ms) {
     current_ = rungs_.size(); // none: no rung is favoured
     current_ = wanted();
 }

@@ -5,26 +5,24 @@
 /// artifact wants) the one that takes least time, if it meets the deadline; failing that, the finest level
 /// that meets it, with as many samples as fit; failing that, the quickest.
 ///
-/// Tolerance  half a projector pixel as that pixel lands on the face (conventions, Measuring), compared with
-/// a
-///          level's p95 error. The mean would hide a spout or an ear that is off by pixels, where a visitor
-///          looks; the largest error is that of one vertex.
-/// Levers   fewer samples before a coarser level. Measured on six scans (RMSE in codes against the finest
-///          level at 16 samples, milliseconds of llvmpipe): from a level within the tolerance, finer levels
-///          bought 0.3 codes a millisecond and more samples 3; past the tolerance a coarser level cost 6 to
-///          30 codes for each millisecond saved, half the samples 4 to 16.
+/// Tolerance  half a projector pixel as that pixel lands on the face (conventions, Measuring): nearly all
+///          of a level's surface (p95) is off by no more, and all of it (max) by no more than two pixels.
+///          The mean would hide a spout that is off by pixels, where a visitor looks; p95 alone hides a
+///          strap of 3 % of the surface that a level has lost.
+/// Levers   fewer samples before a coarser level: samples leave the tolerance alone. Measured on six scans
+///          (RMSE in codes against the finest level at 16 samples, llvmpipe): past the tolerance a coarser
+///          level cost 2 to 200 codes for each millisecond saved, half the samples 4 to 14: about equal at
+///          best, and far cheaper where a level thins a blade or loses a part.
 /// Steady   a rung is left for a quicker one when it takes more than 90 % of the deadline and entered for
 ///          quality when it takes less than 70 %; a rung that proves too slow soon after it was entered is
 ///          tried again after twice the time; nothing changes within `dwell` of a change. So at most one
 ///          change a `dwell`, and a rung that never fits is tried O(log t) times.
 /// Source   Kim 2008, Eq. (1): the importance I = u P + v / |PA - PO| + w cos + x S of an object decides
-/// whether
-///          it is drawn in images or in polygons. Here one object has many levels: u = 1, and P, pixels for
-///          one texel, becomes pixels for one level's error, measured, not assumed; v, w, x = 0, because one
-///          artifact is shown and its distance is in P. Francken 2007, section 2 and Fig. 4: the tolerance is
-///          adapted while running for a stable frame rate. Here it is adapted in measured steps, with a
-///          model of each step's time, so that a
-///          step is known to fit before it is taken.
+///          whether it is drawn in images or in polygons. Here one object has many levels: u = 1, and P,
+///          pixels for one texel, becomes pixels for one level's error, measured, not assumed; v, w, x = 0,
+///          because one artifact is shown and its distance is in P. Francken 2007, section 2 and Fig. 4: the
+///          tolerance is adapted while running for a stable frame rate. Here it is adapted in measured
+///          steps, with a model of each step's time, so that a step is known to fit before it is taken.
 ///
 /// Units    millimetres on the configured prop; milliseconds.
 /// Time     `now` is a parameter and may stand still or go back.
@@ -73,7 +71,7 @@ public:
     static constexpr Nanoseconds most_patience = std::chrono::seconds(512);
 
     /// `times`: one for each rung, measured on this GPU. At least one rung.
-    Governor(std::vector<Rung> rungs, std::vector<RungTime> times, double deadline_ms);
+    Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms);
 
     [[nodiscard]] std::size_t index() const { return current_; }
     [[nodiscard]] const Rung& rung() const { return rungs_[current_]; }

@@ -102,37 +102,64 @@ void FaceVolume::add(const glm::dvec4& half_space) {
     }
 }
 
-std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const PackCluster& cluster,
-                           std::vector<std::uint32_t>& indices, double margin_box) {
-    const Crossed crossed = crossed_by(cluster, volume, margin_box);
-    if (crossed.outside || looks_away(volume.eye, cluster)) {
-        return 0;
+void FrontTriangles::reserve(std::size_t indices) {
+    indices_.reserve(indices);
+    first_.reserve(indices / 3 + 1); // a cluster has a triangle at least
+}
+
+void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_box) {
+    if (level_ == &level && eye_box_ == eye_box) {
+        return;
     }
-    const glm::vec3 eye(volume.eye);
-    // What one rounding of the products may amount to, for an eye however far.
+    level_ = &level;
+    eye_box_ = eye_box;
+    const glm::vec3 eye(eye_box);
+    // What the products' rounding may amount to, for an eye however far.
     const float slack =
         edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
-    const std::size_t begin = indices.size();
-    indices.resize(begin + cluster.index_count);
-    std::uint32_t* out = indices.data() + begin;
-    const std::size_t first = cluster.first_index / 3;
-    for (std::size_t t = first; t < first + cluster.index_count / 3; ++t) {
-        const float in_front = level.normal_x[t] * eye.x + level.normal_y[t] * eye.y +
-                               level.normal_z[t] * eye.z - level.distance[t];
-        if (in_front < -slack) {
+    indices_.resize(level.indices.size());
+    first_.clear();
+    std::uint32_t* out = indices_.data();
+    for (const PackCluster& cluster : level.clusters) {
+        first_.push_back(static_cast<std::size_t>(out - indices_.data()));
+        if (looks_away(eye_box, cluster)) {
             continue;
         }
-        const std::span<const std::uint32_t> corners(&level.indices[3 * t], 3);
-        if (crossed.count == 0 || !misses(crossed, level, corners)) {
-            out[0] = corners[0];
-            out[1] = corners[1];
-            out[2] = corners[2];
-            out += 3;
+        const std::size_t end = (cluster.first_index + cluster.index_count) / 3;
+        for (std::size_t t = cluster.first_index / 3; t < end; ++t) {
+            const float in_front = level.normal_x[t] * eye.x + level.normal_y[t] * eye.y +
+                                   level.normal_z[t] * eye.z - level.distance[t];
+            out[0] = level.indices[3 * t];
+            out[1] = level.indices[3 * t + 1];
+            out[2] = level.indices[3 * t + 2];
+            out += in_front < -slack ? 0 : 3; // no branch that would be guessed wrong every other time
         }
     }
-    const auto appended = static_cast<std::size_t>(out - (indices.data() + begin));
-    indices.resize(begin + appended);
-    return appended / 3;
+    first_.push_back(static_cast<std::size_t>(out - indices_.data()));
+}
+
+std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const FrontTriangles& front,
+                           std::size_t cluster, std::vector<std::uint32_t>& indices, double margin_box) {
+    const std::span<const std::uint32_t> facing = front.of(cluster);
+    if (facing.empty()) {
+        return 0;
+    }
+    const Crossed crossed = crossed_by(level.clusters[cluster], volume, margin_box);
+    if (crossed.outside) {
+        return 0;
+    }
+    if (crossed.count == 0) {
+        indices.insert(indices.end(), facing.begin(), facing.end());
+        return facing.size() / 3;
+    }
+    const std::size_t begin = indices.size();
+    for (std::size_t k = 0; k < facing.size(); k += 3) {
+        const std::span<const std::uint32_t> corners = facing.subspan(k, 3);
+        if (!misses(crossed, level, corners)) {
+            indices.insert(indices.end(), corners.begin(), corners.end());
+        }
+    }
+    return (indices.size() - begin) / 3;
 }
 
 } // namespace frustumscreen

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace frustumscreen {
@@ -37,16 +38,36 @@ struct LevelTriangles {
 struct FaceVolume {
     std::array<glm::dvec4, 9> half_spaces{};
     std::size_t count = 0;
-    glm::dvec3 eye{0.0};
 
     /// Scales to a unit normal; a degenerate or non-finite half space is left out.
     void add(const glm::dvec4& half_space);
 };
 
+/// A level's triangles that look towards one eye, cluster by cluster: found once for all faces that share it.
+class FrontTriangles {
+public:
+    /// For levels of up to so many indices.
+    void reserve(std::size_t indices);
+    /// Nothing found before counts.
+    void forget() { level_ = nullptr; }
+    /// Finds them again if the eye or the level is another one. A triangle within rounding of edge-on counts.
+    void update(const LevelTriangles& level, const glm::dvec3& eye_box);
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t cluster) const {
+        return std::span(indices_).subspan(first_[cluster], first_[cluster + 1] - first_[cluster]);
+    }
+
+private:
+    const LevelTriangles* level_ = nullptr;
+    glm::dvec3 eye_box_{0.0};
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::size_t> first_; ///< of each cluster, in indices_; one more for the end
+};
+
 /// Appends the indices of the cluster's triangles that may show; returns how many triangles that were.
-/// Conservative: a triangle that is left out has no front-facing point inside the volume, with `margin_box`
-/// to spare for the rasterizer's rounding.
-std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const PackCluster& cluster,
-                           std::vector<std::uint32_t>& indices, double margin_box = 1e-3);
+/// Conservative: a triangle of `front` that is left out has no point inside the volume, with `margin_box` to
+/// spare for the rasterizer's rounding.
+std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const FrontTriangles& front,
+                           std::size_t cluster, std::vector<std::uint32_t>& indices,
+                           double margin_box = 1e-3);
 
 } // namespace frustumscreen

@@ -28,10 +28,13 @@ LevelTriangles scattered(std::mt19937& random, int triangles) {
     return triangles_of(level, glm::dvec3(1.0));
 }
 
-std::vector<std::uint32_t> visible(const FaceVolume& volume, const LevelTriangles& level) {
+std::vector<std::uint32_t> visible(const FaceVolume& volume, const glm::dvec3& eye,
+                                   const LevelTriangles& level) {
     std::vector<std::uint32_t> indices;
-    for (const PackCluster& cluster : level.clusters) {
-        append_visible(volume, level, cluster, indices, 0.0);
+    FrontTriangles front;
+    front.update(level, eye);
+    for (std::size_t cluster = 0; cluster < level.clusters.size(); ++cluster) {
+        append_visible(volume, level, front, cluster, indices, 0.0);
     }
     return indices;
 }
@@ -42,18 +45,17 @@ TEST(VisibleTriangles, AreThoseThatFaceTheEyeAndReachIntoTheVolume) {
     for (int round = 0; round < 20; ++round) {
         const LevelTriangles level = scattered(random, 500);
         FaceVolume volume;
-        volume.eye = glm::dvec3(n(random), n(random), n(random)) * 3.0;
+        const glm::dvec3 eye = glm::dvec3(n(random), n(random), n(random)) * 3.0;
         for (int plane = 0; plane < 3; ++plane) {
             volume.add({n(random), n(random), n(random), 0.3});
         }
-        const std::vector<std::uint32_t> indices = visible(volume, level);
+        const std::vector<std::uint32_t> indices = visible(volume, eye, level);
         std::size_t at = 0;
         for (std::uint32_t first = 0; first < 1500; first += 3) {
             const std::array<glm::dvec3, 3> corner{level.positions[first], level.positions[first + 1],
                                                    level.positions[first + 2]};
-            const double facing =
-                glm::dot(glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0])),
-                         volume.eye - corner[0]);
+            const double facing = glm::dot(
+                glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0])), eye - corner[0]);
             double deepest = 1e9; // into the half space that holds least of the triangle
             for (std::size_t k = 0; k < volume.count; ++k) {
                 double most = -1e9;
@@ -94,10 +96,9 @@ LevelTriangles one_triangle(const glm::vec3& centre, float radius) {
 
 TEST(VisibleTriangles, AClusterOutsideIsLeftOutWhole) {
     FaceVolume volume;
-    volume.eye = {0.0, 0.0, 3.0};
     volume.add({0.0, 0.0, 4.0, -2.0}); // z >= 0.5
-    EXPECT_EQ(visible(volume, one_triangle({0.0F, 0.0F, 0.45F}, 0.2F)).size(), 3U);
-    EXPECT_TRUE(visible(volume, one_triangle({0.0F, 0.0F, 0.29F}, 0.2F)).empty());
+    EXPECT_EQ(visible(volume, {0, 0, 3}, one_triangle({0.0F, 0.0F, 0.45F}, 0.2F)).size(), 3U);
+    EXPECT_TRUE(visible(volume, {0, 0, 3}, one_triangle({0.0F, 0.0F, 0.29F}, 0.2F)).empty());
 }
 
 TEST(VisibleTriangles, ABackFacingConeIsLeftOutWhole) {
@@ -105,10 +106,9 @@ TEST(VisibleTriangles, ABackFacingConeIsLeftOutWhole) {
     level.clusters[0].cone_axis = {0, 0, 1};
     level.clusters[0].cone_cutoff = 0.5F;
     FaceVolume volume;
-    volume.eye = {0, 0, 3};
-    EXPECT_EQ(visible(volume, level).size(), 3U);
+    EXPECT_EQ(visible(volume, {0, 0, 3}, level).size(), 3U);
     level.clusters[0].cone_axis = {0, 0, -1}; // apex - eye runs along it
-    EXPECT_TRUE(visible(volume, level).empty());
+    EXPECT_TRUE(visible(volume, {0, 0, 3}, level).empty());
 }
 
 TEST(VisibleTriangles, ADegenerateHalfSpaceHidesNothing) {
