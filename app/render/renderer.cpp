@@ -90,45 +90,47 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
     return result;
 }
 
+/// The larger picture comes first, so that a tiling GPU goes to the display's framebuffer once. Codes are
+/// written as they are throughout; what is computed in linear light (captions, averages) turns the encoding
+/// on for itself.
 void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                      DrawResult& result) const {
     const int samples = plan.samples > 0 ? std::min(plan.samples, options_.samples) : options_.samples;
+    const bool smooth = samples > 1 && !plan.faces.empty();
+    const glm::ivec2 grid = SampleGrid::of(samples);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    if (smooth) {
+        sample_grid_->begin(plan.lit, grid);
+        draw_caption(plan, shows, intersected(plan.caption.bounds, plan.lit.bounds()), grid, result);
+        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, grid);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, options_.width, options_.height);
     glEnable(GL_SCISSOR_TEST);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_scissor(result.redrawn);
-    const GLbitfield masks = samples > 1 ? 0 : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
-    clear(GL_COLOR_BUFFER_BIT | masks);
-    if (!plan.caption.bounds.empty()) {
-        set_scissor(plan.caption.bounds);
-        result.draw_calls += caption_.draw(plan.caption, shows.caption);
-    }
-    if (!plan.faces.empty()) {
-        if (samples > 1) {
-            draw_smooth(plan, SampleGrid::of(samples), shows, target, result);
-        } else {
-            glDisable(GL_FRAMEBUFFER_SRGB_EXT);
-            result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming});
-            glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-        }
-    }
+    clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
     glDisable(GL_SCISSOR_TEST);
+    draw_caption(plan, shows, plan.caption.bounds, {1, 1}, result);
+    if (smooth) {
+        glEnable(GL_FRAMEBUFFER_SRGB_EXT);
+        sample_grid_->average(plan.lit, grid);
+    } else if (!plan.faces.empty()) {
+        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming});
+    }
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
-/// The artifact's part of the picture, drawn larger, then averaged into the picture.
-void Renderer::draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const Shows& shows,
-                           const RenderTarget& target, DrawResult& result) const {
-    sample_grid_->begin(plan.lit, grid);
-    const PixelRectangle caption = intersected(plan.caption.bounds, plan.lit.bounds());
-    if (!caption.empty()) {
-        glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-        glEnable(GL_SCISSOR_TEST);
-        set_scissor(caption, grid);
-        result.draw_calls += caption_.draw(plan.caption, shows.caption);
-        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+void Renderer::draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
+                            const glm::ivec2& grid, DrawResult& result) const {
+    if (part.empty()) {
+        return;
     }
-    result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, grid);
-    sample_grid_->finish(plan.lit, grid, target.framebuffer);
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
+    glEnable(GL_SCISSOR_TEST);
+    set_scissor(part, grid);
+    result.draw_calls += caption_.draw(plan.caption, shows.caption);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
 } // namespace frustumscreen

@@ -78,8 +78,8 @@ private:
     Renderer(FacePass pass, CaptionPass caption) : pass_(std::move(pass)), caption_(std::move(caption)) {}
     void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                DrawResult& result) const;
-    void draw_smooth(const FramePlan& plan, const glm::ivec2& grid, const Shows& shows,
-                     const RenderTarget& target, DrawResult& result) const;
+    void draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
+                      const glm::ivec2& grid, DrawResult& result) const;
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
 

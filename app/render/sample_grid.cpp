@@ -2,7 +2,6 @@
 
 #include "app/render/gl_program.h"
 
-#include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -157,7 +156,6 @@ void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {
 }
 
 void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
-    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, width_ * grid.x, height_ * grid.y);
     glDisable(GL_SCISSOR_TEST);
@@ -177,11 +175,7 @@ void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
     glDisable(GL_DEPTH_TEST);
 }
 
-void SampleGrid::finish(const LitTiles& tiles, const glm::ivec2& grid, unsigned framebuffer) const {
-    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, width_, height_);
-    glDisable(GL_SCISSOR_TEST);
+void SampleGrid::average(const LitTiles& tiles, const glm::ivec2& grid) const {
     glUseProgram(average_.get());
     glUniform2i(average_grid_, grid.x, grid.y);
     glActiveTexture(GL_TEXTURE0);

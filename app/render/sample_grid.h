@@ -4,7 +4,7 @@
 /// as well as the outlines.
 ///
 /// Colour   averaged in linear light.
-/// Threads  the render thread; `begin` and `finish` allocate nothing.
+/// Threads  the render thread; `begin` and `average` allocate nothing.
 /// Errors   a number of samples that has no grid; a picture larger than the driver draws.
 #pragma once
 
@@ -24,11 +24,10 @@ public:
     /// Samples along a pixel's sides; zero for a number that has no grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
-    /// Binds the larger picture, which takes sRGB codes as they are (GL_FRAMEBUFFER_SRGB_EXT off), and clears
-    /// the tiles in it: black, far, stencil 0.
+    /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
     void begin(const LitTiles& tiles, const glm::ivec2& grid) const;
-    /// Averages the tiles into `framebuffer`, which stays bound and encodes again.
-    void finish(const LitTiles& tiles, const glm::ivec2& grid, unsigned framebuffer) const;
+    /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
+    void average(const LitTiles& tiles, const glm::ivec2& grid) const;
 
 private:
     SampleGrid() = default;
