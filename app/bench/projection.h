@@ -2,22 +2,19 @@
 /// the artifact standing in the prop: proof that the whole chain is right, not only self-consistent.
 ///
 /// View     the exhibit's own picture of a pack's level (unlit, no compensation of the light, sRGB codes)
-/// through
-///          `visitor_view`, which knows neither the artifact nor the collineation.
+///          through `visitor_view`, which knows neither the artifact nor the collineation.
 /// Truth    a ray from the eye through the visitor's pixel straight at the source mesh; black where it
-/// misses.
-///          It knows the prop's place, and neither the projector nor the prop's faces.
-/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes: with
-/// 16
-///          rays a pixel in both pictures, averaged in linear light, and with one ray through its centre,
-///          where a texture finer than a pixel makes any filtered picture differ. A third picture, the
-///          projector's as the ray cast has it, goes the same way: what it loses is lost between the two
-///          grids of pixels, not by us.
-/// Size     of the visitor's picture: the largest, up to the projector's own, with no pixel on the prop finer
-/// than
-///          the projector's: one of its steps, in whichever direction, spans a projector pixel or more.
+///          misses. It knows where the prop stands, and neither the projector nor the prop's faces.
+/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes:
+///          with 16 rays a pixel in both pictures, averaged in linear light; and with one ray through its
+///          centre, where a texture finer than a pixel makes every filtered picture differ. The projector's
+///          picture as the ray cast has it goes the same way: what it loses is lost between the two grids
+///          of pixels, not by us.
+/// Size     of the visitor's picture: the largest, up to the projector's own, with no pixel on the prop
+///          finer than the projector's: a step of one, in whichever direction, spans a projector pixel.
 /// Frames   table T; metres.
 /// Threads  the one whose context is current; views and rays are cast on every core.
+/// Errors   whatever the parts report, with the set-up's name in front.
 #pragma once
 
 #include "app/bench/error_time.h"

@@ -24,13 +24,13 @@ Spans spans(const std::vector<const ShimmerRow*>& rows, double (*figure)(const S
 }
 
 double of_rms(const ShimmerRow& row) {
-    return row.rms_ratio();
+    return row.shimmer.rms_ratio();
 }
 double of_q999(const ShimmerRow& row) {
-    return row.q999_ratio();
+    return row.shimmer.q999_ratio();
 }
 double of_excess(const ShimmerRow& row) {
-    return row.excess_percent();
+    return row.shimmer.excess_percent();
 }
 
 std::vector<std::pair<std::string, std::vector<const ShimmerRow*>>> by_level(const ShimmerResult& result) {
@@ -66,22 +66,26 @@ std::vector<Verdict> judge(const ShimmerResult& result) {
 }
 
 std::string shimmer_csv(std::span<const ShimmerResult> results) {
-    std::string csv = "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,direction,technique,judged_pixels,"
-                      "rms,q999,rms_1_ray,q999_1_ray,rms_16_rays,q999_16_rays,rms_ratio,q999_ratio,excess_pixels\n";
+    std::string csv =
+        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,direction,technique,judged_pixels,"
+        "rms,q999,rms_1_ray,q999_1_ray,rms_16_rays,q999_16_rays,rms_ratio,q999_ratio,excess_pixels\n";
     for (const ShimmerResult& result : results) {
         for (const ShimmerRow& row : result.rows) {
             const BenchPose& pose = result.poses[static_cast<std::size_t>(row.pose)];
             const RigidTransform& prop = pose.table_from_prop;
-            csv += fmt::format("{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{},{:.4f},{:.4f},{:.4f},"
-                               "{:.4f},",
-                               result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
-                               prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z,
-                               row.direction == 0 ? "row" : "column", row.technique, row.judged_pixels,
-                               row.drawn.rms, row.drawn.q999, row.one_ray.rms, row.one_ray.q999);
-            csv += row.sixteen_rays
-                       ? fmt::format("{:.4f},{:.4f},", row.sixteen_rays->rms, row.sixteen_rays->q999)
-                       : std::string(",,");
-            csv += fmt::format("{:.4f},{:.4f},{}\n", row.rms_ratio(), row.q999_ratio(), row.excess_pixels);
+            csv += fmt::format(
+                "{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{},{:.4f},{:.4f},{:.4f},"
+                "{:.4f},",
+                result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
+                prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z,
+                row.direction == PushDirection::Row ? "row" : "column", row.technique,
+                row.shimmer.judged_pixels, row.shimmer.drawn.rms, row.shimmer.drawn.q999,
+                row.shimmer.one_ray.rms, row.shimmer.one_ray.q999);
+            csv += row.shimmer.sixteen_rays ? fmt::format("{:.4f},{:.4f},", row.shimmer.sixteen_rays->rms,
+                                                          row.shimmer.sixteen_rays->q999)
+                                            : std::string(",,");
+            csv += fmt::format("{:.4f},{:.4f},{}\n", row.shimmer.rms_ratio(), row.shimmer.q999_ratio(),
+                               row.shimmer.excess_pixels);
         }
     }
     return csv;
@@ -93,19 +97,21 @@ std::string shimmer_table(const ShimmerResult& result) {
         "{:<20}{:<18}{:<18}{:<18}{}\n",
         result.name, result.poses.size(), "level", "drawn", "1 ray", "16 rays", "excess %, worst");
     for (const auto& [name, rows] : by_level(result)) {
-        const auto text = [&rows = rows](double (*rms)(const ShimmerRow&), double (*q999)(const ShimmerRow&)) {
+        const auto text = [&rows = rows](double (*rms)(const ShimmerRow&),
+                                         double (*q999)(const ShimmerRow&)) {
             return fmt::format("{:.2f} / {:.1f}", spans(rows, rms).mean, spans(rows, q999).mean);
         };
-        const bool sixteen = rows.front()->sixteen_rays.has_value();
-        table += fmt::format("{:<20}{:<18}{:<18}{:<18}{:.3f}\n", name,
-                             text([](const ShimmerRow& row) { return row.drawn.rms; },
-                                  [](const ShimmerRow& row) { return row.drawn.q999; }),
-                             text([](const ShimmerRow& row) { return row.one_ray.rms; },
-                                  [](const ShimmerRow& row) { return row.one_ray.q999; }),
-                             sixteen ? text([](const ShimmerRow& row) { return row.sixteen_rays->rms; },
-                                            [](const ShimmerRow& row) { return row.sixteen_rays->q999; })
-                                     : std::string("-"),
-                             spans(rows, of_excess).worst);
+        const bool sixteen = rows.front()->shimmer.sixteen_rays.has_value();
+        table +=
+            fmt::format("{:<20}{:<18}{:<18}{:<18}{:.3f}\n", name,
+                        text([](const ShimmerRow& row) { return row.shimmer.drawn.rms; },
+                             [](const ShimmerRow& row) { return row.shimmer.drawn.q999; }),
+                        text([](const ShimmerRow& row) { return row.shimmer.one_ray.rms; },
+                             [](const ShimmerRow& row) { return row.shimmer.one_ray.q999; }),
+                        sixteen ? text([](const ShimmerRow& row) { return row.shimmer.sixteen_rays->rms; },
+                                       [](const ShimmerRow& row) { return row.shimmer.sixteen_rays->q999; })
+                                : std::string("-"),
+                        spans(rows, of_excess).worst);
     }
     return table + lines_of(judge(result));
 }

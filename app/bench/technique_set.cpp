@@ -133,8 +133,8 @@ void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds
     }
 }
 
-Result<std::unique_ptr<TechniqueSet>>
-open_default_and_finest(const SetUp& set_up, const Pack& pack, const PictureOptions& options) {
+Result<std::unique_ptr<TechniqueSet>> open_default_and_finest(const SetUp& set_up, const Pack& pack,
+                                                              const PictureOptions& options) {
     Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
     if (!set) {
         return set;

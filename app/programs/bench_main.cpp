@@ -2,6 +2,7 @@
 #include "app/programs/bench_error_time.h"
 #include "app/programs/bench_projection.h"
 #include "app/programs/bench_scaling.h"
+#include "app/programs/bench_shimmer.h"
 
 #include <fmt/format.h>
 
@@ -10,11 +11,13 @@
 
 int main(int argc, char** argv) {
     using namespace frustumscreen;
-    CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view.",
+    CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
+                 " shimmer.",
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
-    const std::array commands = {error_time_command(app), scaling_command(app), projection_command(app)};
+    const std::array commands = {error_time_command(app), scaling_command(app), projection_command(app),
+                                 shimmer_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

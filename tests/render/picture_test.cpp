@@ -170,7 +170,8 @@ TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     std::size_t between = 0;
     for (std::size_t k = 0; k < one.texels.size(); ++k) {
         if (one.texels[k].g > 0) {
-            // Red and green run smoothly over the surface; blue is checked, finer than a pixel on steep faces.
+            // Red and green run smoothly over the surface; blue is checked, finer than a pixel on steep
+            // faces.
             same += glm::distance(glm::vec2(one.texels[k]), glm::vec2(four.texels[k])) < 12.0F ? 1U : 0U;
             between += four.texels[k].g > 0 && four.texels[k].g + 20 < one.texels[k].g ? 1U : 0U;
         }

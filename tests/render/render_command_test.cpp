@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class RenderCommand : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder = fs::current_path() / "render_command_test";
+        folder = fs::temp_directory_path() / "frustumscreen_render_command_test";
         fs::remove_all(folder);
         fs::create_directories(folder);
         Pack pack = rings();

@@ -1,0 +1,97 @@
+// `frustumscreen run` at rest, on a pack made in memory.
+
+#include "app/pack/pack_file.h"
+#include "app/render/probe.h"
+#include "tests/render/synthetic_pack.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunCommand : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::current_path() / "run_command_test";
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        Pack pack = rings();
+        pack.title = "Rings";
+        pack.languages = {"en"};
+        pack.captions = {{"en", "Rings", ""}};
+        pack.provenance.source_name = "rings.glb";
+        pack.provenance.source_sha256 = std::string(64, 'a');
+        pack.relief_size = 512;
+        pack.levels[0].error = {1e-3F, 2e-3F, 3e-3F, 0.0F};
+        for (unsigned k = 0; k < 8; ++k) {
+            pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                       ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                       (k & 4U) != 0 ? pack.box_size.z : 0.0);
+        }
+        const Result<Bytes> bytes = write_pack(pack);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
+        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                                                              "0,1,0.02,0,0,1,0,0,0,1\n")));
+        ASSERT_TRUE(write_file(folder / "kiosk.toml",
+                               as_bytes("[projector]\nwidth = 320\nheight = 200\nrefresh_hz = 20.0\n"
+                                        "[tracker]\nkind = \"replay\"\nposes = \"poses.csv\"\n"
+                                        "[exhibit]\npacks = [\"rings.fspack\"]\n")));
+    }
+    nlohmann::json run(const std::string& more) const {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --fast --json {} "
+                        ">out.json 2>err.txt",
+                        folder.string(), FRUSTUMSCREEN_BIN_DIR, more);
+        const int status = std::system(command.c_str());
+        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << as_text(*read_file(folder / "err.txt"));
+        return nlohmann::json::parse(as_text(*read_file(folder / "out.json")), nullptr, false);
+    }
+    fs::path folder;
+};
+
+TEST_F(RunCommand, AtRestPresentsOneProbeASecondAndDrawsNothing) {
+    const nlohmann::json shorter = run("--seconds 5");
+    const nlohmann::json longer = run("--seconds 15");
+    EXPECT_EQ(longer.at("frames"), 300);
+    EXPECT_EQ(longer.at("drawn"), shorter.at("drawn")); // all in the first seconds: the caption fades in
+    EXPECT_EQ(longer.at("probes").get<int>() - shorter.at("probes").get<int>(), 10);
+    EXPECT_EQ(longer.at("drawn").get<int>() + longer.at("unchanged").get<int>(), 300);
+}
+
+TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
+    const nlohmann::json status = run("--seconds 2 --out pictures --stills 2 --status-file status.json");
+    EXPECT_EQ(status.at("technique"), "auto");
+    EXPECT_EQ(status.at("level"), "level0");
+    EXPECT_GE(status.at("samples"), 1);
+    EXPECT_GT(status.at("estimated_error_mm"), 0.0);
+    EXPECT_GT(status.at("p95_error_mm"), status.at("estimated_error_mm"));
+    EXPECT_GE(status.at("frame_ms").at("p95"), status.at("frame_ms").at("p50"));
+    EXPECT_GE(status.at("frame_ms").at("p99"), status.at("frame_ms").at("p95"));
+    for (const char* key : {"missed_deadlines", "level_switches", "ignored_times", "probes"}) {
+        EXPECT_TRUE(status.at(key).is_number_unsigned()) << key;
+    }
+    const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
+    EXPECT_EQ(file.at("level"), "level0");
+    EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
+}
+
+TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {
+    run("--seconds 2 --out pictures --stills 2");
+    for (const char* name : {"frame_00000.png", "frame_00001.png"}) {
+        const Image8 still = decode_png8(*read_file(folder / "pictures" / name)).value();
+        EXPECT_FALSE(read_probe(still));
+        EXPECT_EQ(still.at(0, 0), glm::u8vec4(0, 0, 0, 255));
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
