@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -26,6 +27,8 @@ struct Request {
     std::filesystem::path poses;
     std::filesystem::path out;
     std::string view = "projector";
+    int width = 0; ///< of the pictures that are written; 0 = as the view has it
+    int height = 0;
     bool no_light = false;
     OfflineOptions options;
 };
@@ -39,13 +42,15 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
     app.add_option("--technique", request.options.technique, "auto, finest, level0, level1, ...")
         ->capture_default_str();
-    CLI::Option* width = app.add_option("--width", request.options.width, "picture's width in pixels")
-                             ->check(CLI::Range(1, 16384));
-    CLI::Option* height = app.add_option("--height", request.options.height, "picture's height in pixels")
-                              ->check(CLI::Range(1, 16384));
+    CLI::Option* width =
+        app.add_option("--width", request.width, "picture's width in pixels")->check(CLI::Range(1, 16384));
+    CLI::Option* height =
+        app.add_option("--height", request.height, "picture's height in pixels")->check(CLI::Range(1, 16384));
     width->needs(height);
     height->needs(width);
-    app.add_option("--view", request.view, "projector: its picture; visitor: what the eye sees of it")
+    app.add_option("--view", request.view,
+                   "projector: its picture; visitor: what the eye sees of it, half as wide and high as the"
+                   " configured projector's picture, or as --width and --height say")
         ->check(CLI::IsMember({"projector", "visitor"}))
         ->capture_default_str();
     app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
@@ -57,6 +62,10 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     request.options.light = !request.no_light;
+    if (request.view == "projector") {
+        request.options.width = request.width;
+        request.options.height = request.height;
+    }
     return 0;
 }
 
@@ -95,8 +104,11 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
     const std::int64_t t_us = to_microseconds(situation.time);
     if (studio.request.view == "visitor") {
         const VisitorScene scene = visitor_scene(studio, situation);
-        const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
-                                                    scene.projector.width, scene.projector.height);
+        const Request& request = studio.request;
+        const VisitorCamera camera =
+            visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
+                           request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
+                           request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
         picture.colour = visitor_view(scene, picture.colour, camera,
                                       studio.request.no_light ? exact_check() : VisitorViewOptions{});
         visitor_frames.push_back({static_cast<int>(frame), t_us, situation.eye_m, camera});

@@ -92,7 +92,10 @@ TEST_F(RenderCommand, TheSameInputGivesTheSameBytes) {
 TEST_F(RenderCommand, ShowsTheVisitorsView) {
     ASSERT_EQ(run(usual("v") + "--width 320 --height 200 --view visitor"), 0) << text("err.txt");
     EXPECT_GT(lit_pixels(picture("v/frame_00000.png")), 1000U);
+    EXPECT_EQ(picture("v/frame_00000.png").width, 320);
     EXPECT_NE(text("v/visitor_cameras.json").find("table_from_camera"), std::string::npos);
+    ASSERT_EQ(run(usual("half") + "--view visitor"), 0) << text("err.txt");
+    EXPECT_EQ(picture("half/frame_00000.png").width, 640); // of the 1280 in near.toml
 }
 
 TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
