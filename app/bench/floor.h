@@ -1,4 +1,5 @@
-/// The floor: the least that any picture on the prop can cost, the unit of every frame time.
+/// The floor: what the plainest picture on the prop costs, the unit of every frame time. A picture that
+/// leaves most of a face dark may cost less.
 ///
 /// The same prop and pixels as the exhibit's picture, each face that it would light one 1024 x 1024 trilinear
 /// texture of its own colour format; the same clear, always a full redraw; the caller calls glFinish.

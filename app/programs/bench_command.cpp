@@ -1,6 +1,7 @@
 #include "app/programs/bench_command.h"
 
 #include "app/pack/pack_file.h"
+#include "app/pack/sha256.h"
 #include "app/settings/settings.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
@@ -69,17 +70,31 @@ void add_artifact_options(CLI::App& command, BenchArtifact& artifact) {
     command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from")->required();
 }
 
+namespace {
+
+void warn(const std::filesystem::path& file, const std::string& of_what) {
+    fmt::print(stderr, "frustumscreen-bench: {}: {}\n", file.string(), of_what);
+}
+
+} // namespace
+
 Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
     Result<VerifiedPack> pack = load_pack(artifact.pack);
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
     }
+    const Result<Bytes> bytes = read_file(artifact.mesh);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
     if (!(*pack)->unlit) {
-        fmt::print(
-            stderr,
-            "frustumscreen-bench: {}: baked with light, so its colour errors say nothing; bake it with "
-            "--unlit\n",
-            artifact.pack.string());
+        warn(artifact.pack, "baked with light, so its colour errors say nothing; bake it with --unlit");
+    }
+    if (sha256_hex(*bytes) != (*pack)->provenance.source_sha256) {
+        warn(artifact.mesh,
+             fmt::format("not the file that {} was baked from (that one was {}); right only if "
+                         "both hold the same surface",
+                         artifact.pack.string(), (*pack)->provenance.source_name));
     }
     Result<SourceMesh> mesh = load_mesh(artifact.mesh);
     if (!mesh) {

@@ -67,7 +67,7 @@ struct LoadedArtifact {
     VerifiedPack pack;
     std::shared_ptr<const SourceMesh> mesh;
 };
-/// Warns on standard error of a pack that was not baked with --unlit.
+/// Warns on standard error of a pack that was not baked with --unlit, and of a mesh that is not its source.
 [[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
 [[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
 

@@ -99,7 +99,8 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
 
 float ArtifactGpu::mip_level(double samples_per_box) const {
     const double texels_per_sample = texels_per_box_ / samples_per_box;
-    return texels_per_sample > 0.0 ? static_cast<float>(std::log2(texels_per_sample)) : 0.0F;
+    // The filter rounds: half a level more, and it takes the first level that no sample skips a texel of.
+    return texels_per_sample > 0.0 ? static_cast<float>(std::log2(texels_per_sample) + 0.5) : 0.0F;
 }
 
 } // namespace frustumscreen
