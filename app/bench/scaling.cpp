@@ -7,77 +7,92 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <list>
 
 namespace frustumscreen {
 
 namespace {
 
 /// Adds default level, finest level and two-pass of one size to the set and measures their errors.
-Result<void> add_size(TechniqueSet& set, const std::shared_ptr<const SourceMesh>& mesh, const Pack& pack,
-                      const std::vector<BenchPose>& poses, const PictureOptions& picture, int two_pass_pixels,
-                      const Progress& progress) {
+Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std::vector<BenchPose>& poses,
+                      const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
-    const glm::dmat4 prop_from_artifact = place(pack, set.stage().prop).prop_from_artifact;
-    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
+    const glm::dmat4 prop_from_artifact = place(source.pack, set.stage().prop).prop_from_artifact;
+    Result<Truth> truth = Truth::build(source.mesh, prop_from_artifact);
     if (!truth) {
         return tl::unexpected<Error>(truth.error());
     }
-    const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
-    for (const std::uint32_t level : {pack.default_level, finest}) {
-        if (Result<void> added = set.add_level(pack, level, picture); !added) {
+    const auto finest = static_cast<std::uint32_t>(source.pack.levels.size() - 1);
+    for (const std::uint32_t level : {source.pack.default_level, finest}) {
+        if (Result<void> added = set.add_level(source.pack, level, options.picture); !added) {
             return added;
         }
     }
-    if (Result<void> added = set.add_peers(*mesh, prop_from_artifact, false, {two_pass_pixels}); !added) {
+    if (Result<void> added =
+            set.add_peers(*source.mesh, prop_from_artifact, false, {options.two_pass_pixels});
+        !added) {
         return added;
     }
     return set.measure_errors(*truth, poses, first, progress);
 }
 
+Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions& options,
+                                   const StepProgress& progress) {
+    const std::string what = fmt::format("{} triangles: ", triangles);
+    Result<SourceMesh> made = make_builtin("amphora", triangles);
+    if (!made) {
+        return tl::unexpected<Error>(made.error());
+    }
+    BakeOptions bake_options;
+    bake_options.size = options.size;
+    bake_options.unlit = true;
+    bake_options.progress = [&](std::string_view step, double done) {
+        progress(what + std::string(step), done);
+    };
+    const auto start = std::chrono::steady_clock::now();
+    Result<Pack> pack = bake(*made, bake_options);
+    const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!pack) {
+        return at(what + "bake", pack.error());
+    }
+    return ScalingSource{std::make_shared<const SourceMesh>(std::move(*made)), std::move(*pack), bake_s};
+}
+
 } // namespace
 
-Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const ScalingOptions& options,
-                                        const StepProgress& progress) {
+Result<std::vector<ScalingSource>> bake_amphoras(const ScalingOptions& options,
+                                                 const StepProgress& progress) {
+    std::vector<ScalingSource> sources;
+    for (const std::int64_t triangles : options.triangles) {
+        Result<ScalingSource> source = bake_amphora(triangles, options, progress);
+        if (!source) {
+            return tl::unexpected<Error>(source.error());
+        }
+        sources.push_back(std::move(*source));
+    }
+    return sources;
+}
+
+Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<ScalingSource>& sources,
+                                        const ScalingOptions& options, const StepProgress& progress) {
     Result<std::unique_ptr<TechniqueSet>> opened = TechniqueSet::open(set_up);
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }
     TechniqueSet& set = **opened;
-    Result<std::vector<BenchPose>> poses =
+    const Result<std::vector<BenchPose>> poses =
         draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed);
     if (!poses) {
         return tl::unexpected<Error>(poses.error());
     }
     std::vector<ScalingRow> rows;
-    std::list<Pack> packs; // the techniques refer to them
-    for (const std::int64_t triangles : options.triangles) {
-        const std::string what = fmt::format("{} triangles: ", triangles);
-        Result<SourceMesh> made = make_builtin("amphora", triangles);
-        if (!made) {
-            return tl::unexpected<Error>(made.error());
-        }
-        const auto mesh = std::make_shared<const SourceMesh>(std::move(*made));
-        BakeOptions bake_options;
-        bake_options.size = options.size;
-        bake_options.unlit = true;
-        bake_options.progress = [&](std::string_view step, double done) {
-            progress(what + std::string(step), done);
-        };
-        const auto start = std::chrono::steady_clock::now();
-        Result<Pack> pack = bake(*mesh, bake_options);
-        const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (!pack) {
-            return at(what + "bake", pack.error());
-        }
-        packs.push_back(std::move(*pack));
-        Result<void> added =
-            add_size(set, mesh, packs.back(), *poses, options.picture, options.two_pass_pixels,
-                     [&](double done) { progress(what + "errors", done); });
+    for (const ScalingSource& source : sources) {
+        const std::string what = fmt::format("{} triangles: errors", source.mesh->triangles.size());
+        const Result<void> added =
+            add_size(set, source, *poses, options, [&](double done) { progress(what, done); });
         if (!added) {
-            return at(what + "measuring", added.error());
+            return at(what, added.error());
         }
-        rows.push_back({mesh->triangles.size(), bake_s, {}, {}, {}});
+        rows.push_back({source.mesh->triangles.size(), source.bake_s, {}, {}, {}});
     }
     set.measure_times(*poses, options.timing_rounds, [&](double done) { progress("times", done); });
     for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -19,6 +19,15 @@ struct ScalingOptions {
     int two_pass_pixels = 1024;
 };
 
+/// One count of triangles, baked.
+struct ScalingSource {
+    std::shared_ptr<const SourceMesh> mesh;
+    Pack pack;
+    double bake_s = 0.0;
+};
+[[nodiscard]] Result<std::vector<ScalingSource>> bake_amphoras(const ScalingOptions& options,
+                                                               const StepProgress& progress);
+
 struct ScalingRow {
     std::uint64_t source_triangles = 0;
     double bake_s = 0.0;
@@ -29,7 +38,9 @@ struct ScalingRow {
 
 inline constexpr double most_growth = 1.25; ///< default level's cost at the largest count over the smallest's
 
-[[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const ScalingOptions& options,
+[[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
+                                                      const std::vector<ScalingSource>& sources,
+                                                      const ScalingOptions& options,
                                                       const StepProgress& progress);
 [[nodiscard]] std::string scaling_csv(std::span<const ScalingRow> rows);
 [[nodiscard]] std::string scaling_svg(std::span<const ScalingRow> rows);

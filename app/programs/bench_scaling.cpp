@@ -2,8 +2,7 @@
 
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
-#include "assets_baked/artifacts/builtin.h"
-#include "assets_baked/bake/bake.h"
+#include "app/bench/verdicts.h"
 
 #include <fmt/format.h>
 
@@ -20,28 +19,45 @@ struct Arguments {
     bool no_peers = false;
 };
 
-/// The amphora of a million triangles against the two-pass method at each of its eye images.
-Result<SetUpResult> against_two_pass(const SetUp& set_up, const Arguments& arguments,
-                                     BenchProgress& progress) {
-    const auto show = [&](const std::string& step, double done) { progress.show(step, done); };
-    Result<SourceMesh> made = make_builtin("amphora", 1'000'000);
-    if (!made) {
-        return tl::unexpected<Error>(made.error());
+/// The files of one set-up: cost against size, and each amphora that is large enough against the two-pass
+/// method at each of its eye images.
+Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sources,
+                     const Arguments& arguments, BenchProgress& progress,
+                     std::vector<std::pair<std::string, std::string>>& files) {
+    const auto show = [&](const std::string& step, double done) {
+        progress.show(set_up.name + ": " + step, done);
+    };
+    const Result<std::vector<ScalingRow>> rows = scaling(set_up, sources, arguments.options, show);
+    if (!rows) {
+        return at(set_up.name, rows.error());
     }
-    const auto mesh = std::make_shared<const SourceMesh>(std::move(*made));
-    BakeOptions options;
-    options.size = arguments.options.size;
-    options.unlit = true;
-    options.progress = [&](std::string_view step, double done) { show("bake: " + std::string(step), done); };
-    const Result<Pack> pack = bake(*mesh, options);
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
+    progress.clear();
+    fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(*rows));
+    std::fflush(stdout);
+    files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(*rows));
+    files.emplace_back("scaling_" + set_up.name + ".svg", scaling_svg(*rows));
+    for (const ScalingSource& source : sources) {
+        if (arguments.no_peers || source.mesh->triangles.size() < least_two_pass_triangles) {
+            continue;
+        }
+        ErrorTimeOptions compared;
+        compared.picture = arguments.options.picture;
+        compared.poses = arguments.options.poses;
+        compared.seed = arguments.options.seed;
+        const Result<SetUpResult> result = error_time(set_up, source.pack, source.mesh, compared, show);
+        if (!result) {
+            return tl::unexpected<Error>(result.error());
+        }
+        progress.clear();
+        const std::string title =
+            fmt::format("Built-in amphora, {} triangles", source.mesh->triangles.size());
+        fmt::print("{}\n{}\n", title, console_table(*result));
+        std::fflush(stdout);
+        const std::string stem = fmt::format("two_pass_{}_{}", set_up.name, source.mesh->triangles.size());
+        files.emplace_back(stem + ".csv", summary_csv({&*result, 1}));
+        files.emplace_back(stem + ".svg", error_time_svg(*result, title));
     }
-    ErrorTimeOptions compared;
-    compared.picture = arguments.options.picture;
-    compared.poses = arguments.options.poses;
-    compared.seed = arguments.options.seed;
-    return error_time(set_up, *pack, mesh, compared, show);
+    return {};
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
@@ -49,32 +65,17 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     if (!set_ups) {
         return tl::unexpected<Error>(set_ups.error());
     }
+    const Result<std::vector<ScalingSource>> sources =
+        bake_amphoras(arguments.options,
+                      [&](const std::string& step, double done) { progress.show("bake: " + step, done); });
+    if (!sources) {
+        return tl::unexpected<Error>(sources.error());
+    }
     std::vector<std::pair<std::string, std::string>> files;
     for (const SetUp& set_up : *set_ups) {
-        const Result<std::vector<ScalingRow>> rows =
-            scaling(set_up, arguments.options, [&](const std::string& step, double done) {
-                progress.show(set_up.name + ": " + step, done);
-            });
-        if (!rows) {
-            return at(set_up.name, rows.error());
+        if (Result<void> measured = measure(set_up, *sources, arguments, progress, files); !measured) {
+            return measured;
         }
-        progress.clear();
-        fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(*rows));
-        std::fflush(stdout);
-        files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(*rows));
-        files.emplace_back("scaling_" + set_up.name + ".svg", scaling_svg(*rows));
-        if (arguments.no_peers) {
-            continue;
-        }
-        const Result<SetUpResult> compared = against_two_pass(set_up, arguments, progress);
-        if (!compared) {
-            return tl::unexpected<Error>(compared.error());
-        }
-        progress.clear();
-        fmt::print("built-in amphora, 1M triangles\n{}\n", console_table(*compared));
-        files.emplace_back("two_pass_" + set_up.name + ".csv", summary_csv({&*compared, 1}));
-        files.emplace_back("two_pass_" + set_up.name + ".svg",
-                           error_time_svg(*compared, "Amphora, 1M triangles"));
     }
     return write_all(arguments.place.out, files);
 }
