@@ -3,6 +3,8 @@
 #include "app/render/hit_points.h"
 #include "app/scene/frame_plan.h"
 
+#include <algorithm>
+
 namespace frustumscreen {
 
 namespace {
@@ -57,7 +59,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(artifact.error());
     }
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    Result<Renderer> renderer = Renderer::create({stage.width(), stage.height(), samples});
+    Result<Renderer> renderer =
+        Renderer::create({stage.width(), stage.height(), std::max(samples, default_samples)});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

@@ -182,6 +182,7 @@ void PeerMesh::draw(const glm::dmat4& clip_from_prop, Output output, GLenum fron
         glUniform1f(glGetUniformLocation(program, "cutoff"), part.cutoff);
         glBindTexture(GL_TEXTURE_2D, textures_[part.texture].get());
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
+                       // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                        reinterpret_cast<const void*>(part.first_index * sizeof(std::uint32_t)));
     }
     glBindVertexArray(0);

@@ -208,8 +208,9 @@ VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene, const V
         picture.hit.at(x, y) = truth.first_hit(rays.eye_m, middle, hit) ? 1 : 0;
         glm::vec3 sum(0.0F);
         for (int k = 0; k < n * n; ++k) {
-            if (truth.first_hit(rays.eye_m, rays.through(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n),
-                                hit)) {
+            const int column = k % n;
+            const int row = k / n;
+            if (truth.first_hit(rays.eye_m, rays.through(x + (column + 0.5) / n, y + (row + 0.5) / n), hit)) {
                 sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
             }
         }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 
@@ -70,7 +71,8 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    Result<Renderer> renderer = Renderer::create({width, height, samples_of(options, *pack)});
+    Result<Renderer> renderer =
+        Renderer::create({width, height, std::max(samples_of(options, *pack), default_samples)});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -87,7 +89,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
     made->estimated_error_mm_ =
         1e3 * metres_per_box * static_cast<double>(pack->levels[*level].error.mean_box);
     made->placed_ = placed(*pack, *level, metres_per_box, *level);
-    made->placed_.samples = 0;
+    made->placed_.samples = samples_of(options, *pack);
     made->plan_ = make_plan(made->prop_, made->placed_);
     return made;
 }

@@ -56,8 +56,9 @@ std::size_t RunLevels::slot_of(std::uint32_t level) const {
         levels_.begin());
 }
 
-FrameWork RunLevels::work() const {
-    return {static_cast<double>(plan_.indices.size()) / 3.0, static_cast<double>(plan_.lit.pixels())};
+FrameWork RunLevels::work(int samples) const {
+    const double more = static_cast<double>(plan_.samples) / samples; // a slanting view takes more
+    return {static_cast<double>(plan_.indices.size()) / 3.0, static_cast<double>(plan_.lit.pixels()) * more};
 }
 
 double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanView& view, Renderer& renderer,
@@ -88,7 +89,7 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     std::vector<RungTime> times;
     for (const Rung& rung : rungs_) {
         const double ms = median_ms(rung, prop, view, renderer, target);
-        times.push_back({rung.samples, work(), ms});
+        times.push_back({rung.samples, work(rung.samples), ms});
     }
     if (fades()) { // the driver makes the fade's shaders now and not in the middle of the first one
         PlanView fading = view;
@@ -134,7 +135,7 @@ void RunLevels::took(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
         return; // two levels, or nothing, were drawn: says little about one
     }
-    governor_.observe(now, work(), ms);
+    governor_.observe(now, work(governor_.rung().samples), ms);
     if (const std::size_t slot = slot_of(governor_.rung().level); slot != shown_) {
         coming_ = slot;
         fade_start_ = now;

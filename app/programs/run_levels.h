@@ -84,7 +84,8 @@ private:
     RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs, double deadline_ms,
               FramePlan plan);
     [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
-    [[nodiscard]] FrameWork work() const;
+    /// Of the plan, for a rung of so many samples.
+    [[nodiscard]] FrameWork work(int samples) const;
     [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
                                    Renderer& renderer, const RenderTarget& target);
 

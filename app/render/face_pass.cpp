@@ -1,7 +1,6 @@
 #include "app/render/face_pass.h"
 
 #include "app/render/gl_program.h"
-#include "app/render/scissor.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -51,13 +50,13 @@ uniform sampler2D colour;
 uniform float mip_level;
 uniform float brightness;
 #if defined(COMPENSATED) || defined(FADING)
-uniform vec2 pixel_per_fragment;
+uniform vec4 pixel_from_fragment; // scale, offset
 #endif
 #ifdef FADING
 uniform vec2 fade; // share of the pixels that the coming level draws; 1 = this is the coming level, 0 = the other
 // Bayer's matrix of 8 x 8: 64 thresholds, each once in every 8 x 8 pixels.
 bool is_other_levels() {
-    ivec2 p = ivec2(gl_FragCoord.xy * pixel_per_fragment);
+    ivec2 p = ivec2(gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw);
     int q = p.x ^ p.y;
     int rank = (q & 1) << 5 | (p.y & 1) << 4 | (q & 2) << 2 | (p.y & 2) << 1 | (q & 4) >> 1 | (p.y & 4) >> 2;
     return ((float(rank) + 0.5) / 64.0 < fade.x) != (fade.y > 0.5);
@@ -68,7 +67,7 @@ uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
 uniform vec3 inverse_depth; // of the face's plane
 uniform vec2 face_gain;     // constant, times d^3
 float compensation() {
-    vec2 pixel = gl_FragCoord.xy * pixel_per_fragment;
+    vec2 pixel = gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw;
     vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
     float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
     float d2 = depth * depth * (1.0 + dot(ray, ray));
@@ -108,7 +107,7 @@ Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_vi
                          glGetUniformLocation(name, "clip_from_unit"),
                          glGetUniformLocation(name, "mip_level"),
                          glGetUniformLocation(name, "brightness"),
-                         glGetUniformLocation(name, "pixel_per_fragment"),
+                         glGetUniformLocation(name, "pixel_from_fragment"),
                          glGetUniformLocation(name, "pinhole"),
                          glGetUniformLocation(name, "inverse_depth"),
                          glGetUniformLocation(name, "face_gain"),
@@ -145,17 +144,17 @@ Result<FacePass> FacePass::create(FaceOutput output, bool level_fades) {
     return pass;
 }
 
-int FacePass::draw(const FramePlan& plan, const Levels& levels, const glm::ivec2& fragments) const {
+int FacePass::draw(const FramePlan& plan, const Levels& levels, const Raster& raster) const {
     if (plan.faces.empty() || levels.artifact == nullptr) {
         return 0;
     }
     glEnable(GL_STENCIL_TEST);
     glEnable(GL_SCISSOR_TEST);
-    mark_faces(plan, fragments);
+    mark_faces(plan, raster);
     upload_indices(plan);
-    int calls = draw_level(plan, *levels.artifact, false, fragments);
+    int calls = draw_level(plan, *levels.artifact, false, raster);
     if (plan.coming_share && levels.coming != nullptr) {
-        calls += draw_level(plan, *levels.coming, true, fragments);
+        calls += draw_level(plan, *levels.coming, true, raster);
     }
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_SCISSOR_TEST);
@@ -173,7 +172,7 @@ void FacePass::upload_indices(const FramePlan& plan) const {
                  GL_STREAM_DRAW);
 }
 
-void FacePass::mark_faces(const FramePlan& plan, const glm::ivec2& fragments) const {
+void FacePass::mark_faces(const FramePlan& plan, const Raster& raster) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -186,7 +185,7 @@ void FacePass::mark_faces(const FramePlan& plan, const glm::ivec2& fragments) co
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         // The prop is convex: faces that the projector sees do not hide each other.
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
-        set_scissor(plan.faces[k].bounds, fragments);
+        set_scissor(plan.faces[k].bounds, raster);
         glUniform4fv(outline_corners_, 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
         glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
     }
@@ -196,7 +195,7 @@ void FacePass::mark_faces(const FramePlan& plan, const glm::ivec2& fragments) co
 }
 
 int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,
-                         const glm::ivec2& fragments) const {
+                         const Raster& raster) const {
     // A renderer that was made without fades draws the first level alone, whole.
     const bool fading = plan.coming_share && programs_[Fading];
     if (coming && !fading) {
@@ -216,8 +215,9 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
     glBindVertexArray(artifact.vertex_array());
     glUniform1f(program.brightness, plan.brightness);
     glUniform2f(program.fade, plan.coming_share.value_or(0.0F), coming ? 1.0F : 0.0F);
-    glUniform2f(program.pixel_per_fragment, 1.0F / static_cast<float>(fragments.x),
-                1.0F / static_cast<float>(fragments.y));
+    const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
+    glUniform4f(program.pixel_from_fragment, scale.x, scale.y, static_cast<float>(raster.corner.x),
+                static_cast<float>(raster.corner.y));
     const Pinhole& pinhole = plan.projector;
     glUniform4f(program.pinhole, static_cast<float>(pinhole.cx), static_cast<float>(pinhole.cy),
                 static_cast<float>(1.0 / pinhole.fx), static_cast<float>(1.0 / pinhole.fy));
@@ -225,7 +225,7 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
                                                   glm::vec3(plan.prop_from_unit_offset)};
     glUniform3fv(program.prop_from_unit, 2, glm::value_ptr(prop_from_unit[0]));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
-    const double samples_along = std::sqrt(static_cast<double>(fragments.x * fragments.y));
+    const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
     int calls = 0;
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         const FacePlan& face = plan.faces[k];
@@ -238,7 +238,7 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
         if (range.count == 0) {
             continue;
         }
-        set_scissor(face.bounds, fragments);
+        set_scissor(face.bounds, raster);
         const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                        // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)

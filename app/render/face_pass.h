@@ -15,6 +15,7 @@
 
 #include "app/render/artifact_gpu.h"
 #include "app/render/gl_handle.h"
+#include "app/render/raster.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
 
@@ -39,8 +40,7 @@ public:
         const ArtifactGpu* coming = nullptr;
     };
     /// Number of draw calls made. No level is touched if the plan has no face.
-    /// `fragments`: of the framebuffer, along the sides of one of the plan's pixels.
-    int draw(const FramePlan& plan, const Levels& levels, const glm::ivec2& fragments = {1, 1}) const;
+    int draw(const FramePlan& plan, const Levels& levels, const Raster& raster = {}) const;
 
 private:
     /// Of the artifact's shader: bits of an index into `programs_`.
@@ -50,7 +50,7 @@ private:
         GLint clip_from_unit = -1;
         GLint mip_level = -1;
         GLint brightness = -1;
-        GLint pixel_per_fragment = -1;
+        GLint pixel_from_fragment = -1;
         GLint pinhole = -1;
         GLint inverse_depth = -1;
         GLint gain = -1;
@@ -60,9 +60,9 @@ private:
     FacePass() = default;
     [[nodiscard]] static Result<ArtifactProgram> make_artifact_program(std::string_view defines);
     void upload_indices(const FramePlan& plan) const;
-    void mark_faces(const FramePlan& plan, const glm::ivec2& fragments) const;
+    void mark_faces(const FramePlan& plan, const Raster& raster) const;
     int draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,
-                   const glm::ivec2& fragments) const;
+                   const Raster& raster) const;
 
     std::array<std::optional<ArtifactProgram>, AllVariants> programs_;
     GlProgram outline_;

@@ -1,6 +1,6 @@
 #include "app/render/renderer.h"
 
-#include "app/render/scissor.h"
+#include "app/render/raster.h"
 
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
@@ -95,14 +95,14 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
 /// on for itself.
 void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                      DrawResult& result) const {
-    const int samples = plan.samples > 0 ? std::min(plan.samples, options_.samples) : options_.samples;
-    const bool smooth = samples > 1 && !plan.faces.empty();
-    const glm::ivec2 grid = SampleGrid::of(samples);
+    const int samples = plan.samples > 0 ? plan.samples : options_.samples;
+    const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty();
+    const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
-        sample_grid_->begin(plan.lit, grid);
-        draw_caption(plan, shows, intersected(plan.caption.bounds, plan.lit.bounds()), grid, result);
-        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, grid);
+        sample_grid_->begin(plan.lit, raster);
+        draw_caption(plan, shows, intersected(plan.caption.bounds, plan.lit.bounds()), raster, result);
+        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, options_.width, options_.height);
@@ -110,10 +110,10 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
     set_scissor(result.redrawn);
     clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
     glDisable(GL_SCISSOR_TEST);
-    draw_caption(plan, shows, plan.caption.bounds, {1, 1}, result);
+    draw_caption(plan, shows, plan.caption.bounds, {}, result);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-        sample_grid_->average(plan.lit, grid);
+        sample_grid_->average(plan.lit, raster);
     } else if (!plan.faces.empty()) {
         result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming});
     }
@@ -121,13 +121,13 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
 }
 
 void Renderer::draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
-                            const glm::ivec2& grid, DrawResult& result) const {
+                            const Raster& raster, DrawResult& result) const {
     if (part.empty()) {
         return;
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     glEnable(GL_SCISSOR_TEST);
-    set_scissor(part, grid);
+    set_scissor(part, raster);
     result.draw_calls += caption_.draw(plan.caption, shows.caption);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);

@@ -29,7 +29,7 @@ struct RendererOptions {
     /// Samples a pixel, on a regular grid, averaged in linear light: 1, 2, 4, 8 or 16. More smooth the
     /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
     /// llvmpipe that takes half the time of the driver's own multisampling.
-    int samples = default_samples; ///< the most; a plan may ask for fewer
+    int samples = default_samples; ///< the most; a plan may ask for fewer, and for more where there is room
     bool level_fades = false;      ///< a plan may fade from one level to another
 };
 
@@ -79,7 +79,7 @@ private:
     void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                DrawResult& result) const;
     void draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
-                      const glm::ivec2& grid, DrawResult& result) const;
+                      const Raster& raster, DrawResult& result) const;
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
 

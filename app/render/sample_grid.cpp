@@ -31,12 +31,12 @@ void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
 // more than 2 x 2 samples takes one fetch for each 2 x 2.
 constexpr std::string_view average_fragment = R"(
 uniform sampler2D enlarged;
-uniform ivec2 grid;
+uniform ivec4 raster; // samples along a pixel's sides, the pixel at the larger picture's corner
 out vec4 result;
 void main() {
     vec2 texel = 1.0 / vec2(textureSize(enlarged, 0));
-    ivec2 fetches = max(grid / 2, ivec2(1));
-    vec2 middle = gl_FragCoord.xy * vec2(grid) * texel;
+    ivec2 fetches = max(raster.xy / 2, ivec2(1));
+    vec2 middle = (gl_FragCoord.xy - vec2(raster.zw)) * vec2(raster.xy) * texel;
     vec2 first = middle - vec2(fetches - 1) * texel;
     vec4 sum = vec4(0.0);
     for (int y = 0; y < fetches.y; ++y) {
@@ -103,7 +103,7 @@ Result<void> SampleGrid::make_programs() {
     }
     clear_rectangles_ = glGetUniformLocation(clear_.get(), "rectangles");
     average_rectangles_ = glGetUniformLocation(average_.get(), "rectangles");
-    average_grid_ = glGetUniformLocation(average_.get(), "grid");
+    average_raster_ = glGetUniformLocation(average_.get(), "raster");
     no_attributes_ = GlVertexArray::generate();
     return {};
 }
@@ -113,6 +113,7 @@ Result<void> SampleGrid::make_target() {
     const int samples = room_.x * room_.y;
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largest_viewport_.x);
     if (std::max(size.x, size.y) > most) {
         return fail(
             ErrorKind::BadConfiguration,
@@ -155,9 +156,24 @@ void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {
     glBindVertexArray(0);
 }
 
-void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
+Raster SampleGrid::raster(const LitTiles& tiles, int samples) const {
+    const PixelRectangle part = tiles.bounds();
+    const glm::ivec2 picture(width_, height_);
+    const auto fits = [&](const glm::ivec2& grid) {
+        return glm::all(glm::lessThanEqual(glm::ivec2(part.width, part.height) * grid, room_ * picture)) &&
+               glm::all(glm::lessThanEqual(picture * grid, largest_viewport_));
+    };
+    const int most = room_.x * room_.y;
+    while (samples > most && !fits(of(samples))) {
+        samples /= 2;
+    }
+    // Where there is room for all, the picture stays where it is: fragments that move round differently.
+    return {of(samples), samples > most ? glm::ivec2(part.x, part.y) : glm::ivec2(0)};
+}
+
+void SampleGrid::begin(const LitTiles& tiles, const Raster& raster) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    glViewport(0, 0, width_ * grid.x, height_ * grid.y);
+    set_viewport({width_, height_}, raster);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -175,9 +191,9 @@ void SampleGrid::begin(const LitTiles& tiles, const glm::ivec2& grid) const {
     glDisable(GL_DEPTH_TEST);
 }
 
-void SampleGrid::average(const LitTiles& tiles, const glm::ivec2& grid) const {
+void SampleGrid::average(const LitTiles& tiles, const Raster& raster) const {
     glUseProgram(average_.get());
-    glUniform2i(average_grid_, grid.x, grid.y);
+    glUniform4i(average_raster_, raster.fragments.x, raster.fragments.y, raster.corner.x, raster.corner.y);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, colour_.get());
     draw_tiles(tiles, average_rectangles_);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "app/render/gl_handle.h"
+#include "app/render/raster.h"
 #include "app/scene/lit_tiles.h"
 #include "firmware_host/base/result.h"
 
@@ -18,16 +19,19 @@ namespace frustumscreen {
 
 class SampleGrid {
 public:
-    /// Room for `most_samples` a pixel: 2, 4, 8 or 16.
+    /// Room for `most_samples` a pixel, 2, 4, 8 or 16, of the whole picture: a smaller part of it may have
+    /// more.
     [[nodiscard]] static Result<SampleGrid> create(int width, int height, int most_samples);
 
     /// Samples along a pixel's sides; zero for a number that has no grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
+    /// How the tiles lie in the larger picture: `samples` a pixel, or as many as it has room for.
+    [[nodiscard]] Raster raster(const LitTiles& tiles, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
-    void begin(const LitTiles& tiles, const glm::ivec2& grid) const;
+    void begin(const LitTiles& tiles, const Raster& raster) const;
     /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
-    void average(const LitTiles& tiles, const glm::ivec2& grid) const;
+    void average(const LitTiles& tiles, const Raster& raster) const;
 
 private:
     SampleGrid() = default;
@@ -36,12 +40,13 @@ private:
     void draw_tiles(const LitTiles& tiles, GLint rectangles) const;
 
     int width_ = 0, height_ = 0; ///< of the picture
-    glm::ivec2 room_{1, 1};      ///< samples along a pixel's sides
+    glm::ivec2 room_{1, 1};      ///< samples along a pixel's sides, if all of the picture is drawn
+    glm::ivec2 largest_viewport_{0, 0};
     GlFramebuffer framebuffer_;
     GlTexture colour_;
     GlRenderbuffer depth_stencil_;
     GlProgram clear_, average_;
-    GLint clear_rectangles_ = -1, average_rectangles_ = -1, average_grid_ = -1;
+    GLint clear_rectangles_ = -1, average_rectangles_ = -1, average_raster_ = -1;
     GlVertexArray no_attributes_;
 };
 

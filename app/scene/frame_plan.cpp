@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace frustumscreen {
 
@@ -296,6 +297,32 @@ bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePla
     return true;
 }
 
+/// Pixels along a metre at the artifact's middle, as a share of those that a surface there would have which
+/// faces the projector; a mean over the faces, by area.
+double pixel_density(const Shared& shared, const FramePlan& plan) {
+    double pixels = 0.0;
+    double area = 0.0;
+    for (const FacePlan& face : plan.faces) {
+        const double share = static_cast<double>(face.bounds.width) * face.bounds.height;
+        pixels += share * face.pixels_per_box / shared.artifact.metres_per_box;
+        area += share;
+    }
+    const glm::dvec3 middle = 0.5 * (shared.box.low + shared.box.high);
+    const double distance_m = glm::distance(middle, shared.projector_in_prop);
+    return area > 0.0 ? pixels / area * distance_m / shared.view.projector.fx : 1.0;
+}
+
+/// Samples are counted by the bake for pictures of half that density and more.
+int samples_at(double density, int samples) {
+    constexpr double least_density = 0.5;
+    constexpr int most = 16;
+    while (samples > 0 && samples < most && density > 0.0 && density < least_density) {
+        samples *= 2;
+        density *= std::numbers::sqrt2;
+    }
+    return samples;
+}
+
 void plan_caption(const TablePicture& picture, const Shared& shared, CaptionPlan& caption) {
     const glm::dmat4 clip_from_table =
         shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
@@ -352,7 +379,6 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices) {
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
     const Shared shared = shared_by_faces(prop, artifact, view);
     plan.projector = view.projector;
-    plan.samples = artifact.samples;
     plan.compensate_light = view.light.has_value();
     plan.brightness = static_cast<float>(view.brightness);
     plan.coming_share = std::nullopt;
@@ -377,6 +403,7 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
         }
     }
     plan.lit.finish();
+    plan.samples = samples_at(pixel_density(shared, plan), artifact.samples);
     if (view.light) {
         compensate(shared, *view.light, plan);
     }

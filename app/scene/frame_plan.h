@@ -35,7 +35,7 @@ struct PlacedLevel {
     glm::dvec3 box_size{1.0};                        ///< extents of the pack's box
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
     std::uint64_t id = 0;                            ///< tells artifacts and levels apart in a plan's hash
-    int samples = 0;                                 ///< Pack::samples; 0 = as many as the renderer takes
+    int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  std::uint64_t id);
@@ -99,7 +99,10 @@ struct CaptionPlan {
 struct FramePlan {
     Pinhole projector;
     bool compensate_light = false;
-    int samples = 0; ///< a pixel, of the artifact; 0 = as many as the renderer takes
+    /// A pixel, of the artifact; 0 = as many as the renderer takes. Where a face is seen or lit so slantingly
+    /// that few pixels show much of the artifact, each takes more samples than the level asked for: a place
+    /// of the artifact keeps its samples, and the fewer pixels pay for them.
+    int samples = 0;
     float brightness = 1.0F;
     /// Of the pixels, those that the level coming in draws; nothing = one level is drawn.
     std::optional<float> coming_share;
