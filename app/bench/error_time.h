@@ -16,6 +16,8 @@ struct SetUpResult {
     std::uint32_t finest_level = 0;
     std::vector<BenchPose> poses;
     std::vector<TechniqueResult> techniques; ///< the floor first
+    /// As `error_picture`: default and finest level, each in the pose of its greatest geometric error.
+    std::vector<std::pair<std::string, Image8>> worst;
 };
 
 struct ErrorTimeOptions {

@@ -1,10 +1,13 @@
 #include "app/bench/projection.h"
 
+#include "app/bench/side_by_side.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -30,28 +33,6 @@ int codes_off(const glm::u8vec4& a, const glm::u8vec4& b) {
 
 double percent_of(std::int64_t part, std::int64_t all) {
     return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 100.0;
-}
-
-struct PixelBox {
-    glm::ivec2 low{0};
-    glm::ivec2 high{0}; ///< one past the end
-};
-
-/// Of all that is not zero, with a rim of two pixels.
-PixelBox box_of(const Image<std::uint8_t>& mask) {
-    constexpr int rim = 2;
-    PixelBox box{{mask.width, mask.height}, {0, 0}};
-    for (int y = 0; y < mask.height; ++y) {
-        for (int x = 0; x < mask.width; ++x) {
-            if (mask.at(x, y) != 0) {
-                box.low = glm::min(box.low, glm::ivec2(x - rim, y - rim));
-                box.high = glm::max(box.high, glm::ivec2(x + 1 + rim, y + 1 + rim));
-            }
-        }
-    }
-    box.low = glm::max(box.low, glm::ivec2(0));
-    box.high = glm::max(box.low, glm::min(box.high, glm::ivec2(mask.width, mask.height)));
-    return box;
 }
 
 glm::u8vec4 colour_of_difference(int codes) {
@@ -269,24 +250,15 @@ VisitorCamera no_finer_camera(const VisitorScene& scene) {
 }
 
 Image8 side_by_side(const Image8& view, const VisitorTruth& truth) {
-    const PixelBox box = box_of(truth.prop);
-    const int width = box.high.x - box.low.x;
-    const int height = box.high.y - box.low.y;
-    const int enlarged = std::clamp(480 / std::max(1, std::max(width, height)), 1, 8);
-    Image8 picture(3 * enlarged * width, enlarged * height, black);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < enlarged * width; ++x) {
-            const glm::ivec2 from(box.low.x + x / enlarged, box.low.y + y / enlarged);
-            const glm::u8vec4& seen = view.at(from.x, from.y);
-            const glm::u8vec4& right = truth.colour.at(from.x, from.y);
-            picture.at(x, y) = seen;
-            picture.at(enlarged * width + x, y) = right;
-            if (truth.prop.at(from.x, from.y) != 0) {
-                picture.at(2 * enlarged * width + x, y) = colour_of_difference(codes_off(seen, right));
+    Image8 difference(view.width, view.height, black);
+    for (int y = 0; y < view.height; ++y) {
+        for (int x = 0; x < view.width; ++x) {
+            if (truth.prop.at(x, y) != 0) {
+                difference.at(x, y) = colour_of_difference(codes_off(view.at(x, y), truth.colour.at(x, y)));
             }
         }
     }
-    return picture;
+    return side_by_side(std::array{&view, &truth.colour, &std::as_const(difference)}, box_of(truth.prop));
 }
 
 Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,

@@ -96,6 +96,15 @@ Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
     return read_colour(stage_.framebuffer, stage_.width(), stage_.height());
 }
 
+Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
+    Image8 colour = picture(k, pose);
+    Result<ImageFloat> points = techniques_[k]->hit_points(pose);
+    if (!points) {
+        return tl::unexpected<Error>(points.error());
+    }
+    return Drawn{std::move(colour), std::move(*points)};
+}
+
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                           std::size_t first, const Progress& progress) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
@@ -104,12 +113,11 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
             if (results_[k].kind == TechniqueKind::Floor) {
                 continue;
             }
-            Image8 colour = picture(k, poses[pose]);
-            Result<ImageFloat> points = techniques_[k]->hit_points(poses[pose]);
-            if (!points) {
-                return tl::unexpected<Error>(points.error());
+            const Result<Drawn> seen = drawn(k, poses[pose]);
+            if (!seen) {
+                return tl::unexpected<Error>(seen.error());
             }
-            results_[k].errors.push_back(measure(cast, {std::move(colour), std::move(*points)}));
+            results_[k].errors.push_back(measure(cast, *seen));
         }
         progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
     }

@@ -54,6 +54,8 @@ public:
     /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
 
+    [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
+
     /// Draws `poses` with techniques [first, end) and measures each picture against the truth.
     [[nodiscard]] Result<void> measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                               std::size_t first, const Progress& progress);

@@ -42,6 +42,10 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         fmt::print("{}\n", console_table(*result));
         std::fflush(stdout);
         files.emplace_back("error_time_" + set_up.name + ".svg", error_time_svg(*result, pack.title));
+        for (const auto& [level, picture] : result->worst) {
+            files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level),
+                               as_text(encode_png(picture)));
+        }
         results.push_back(std::move(*result));
     }
     files.emplace_back("error_time.csv", summary_csv(results));

@@ -17,8 +17,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Simplification tolerances, box units, fine to coarse: on an artifact 0.1 m long 6 um ... 0.32 mm.
-constexpr std::array<float, 7> mesh_tolerances{6e-5F, 2e-4F, 3.5e-4F, 5.5e-4F, 8e-4F, 1.6e-3F, 3.2e-3F};
+/// Simplification tolerances, box units, fine to coarse: on an artifact 0.1 m long 2 um ... 0.26 mm.
+constexpr std::array<float, 7> mesh_tolerances{2e-5F, 1e-4F, 2.2e-4F, 4e-4F, 6.5e-4F, 1.3e-3F, 2.6e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// A level with the picture that it wears.
@@ -170,8 +170,8 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The eyes of seen_error look as low as 12 degrees: their worst is about twice the worst of a kiosk's
     // zone.
-    constexpr double good_mean_mm = 0.17;
-    constexpr double good_silhouette = 0.015;
+    constexpr double good_mean_mm = 0.10;
+    constexpr double good_silhouette = 0.010;
     const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
         const SeenError error = seen_error(pack.levels[k], pack.box_size, bakery.source());

@@ -76,11 +76,10 @@ TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points
     return result;
 }
 
-TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
+namespace {
+
+TriangleMesh simplify_once(const TriangleMesh& mesh, float tolerance_box) {
     TriangleMesh result{mesh.positions, std::vector<std::uint32_t>(mesh.indices.size())};
-    if (mesh.indices.empty()) {
-        return result;
-    }
     const float scale = meshopt_simplifyScale(&mesh.positions[0].x, mesh.positions.size(), sizeof(glm::vec3));
     const std::size_t count = meshopt_simplify(
         result.indices.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
@@ -88,6 +87,21 @@ TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
     result.indices.resize(count);
     drop_repetitions(result.indices);
     compact(result);
+    return result;
+}
+
+} // namespace
+
+TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
+    TriangleMesh result = mesh;
+    std::size_t before = 0;
+    do {
+        before = result.triangle_count();
+        if (before == 0) {
+            break;
+        }
+        result = simplify_once(result, tolerance_box);
+    } while (20 * result.triangle_count() < 19 * before);
     return result;
 }
 
