@@ -20,7 +20,7 @@ struct ShimmerOptions {
     int poses = 3;
     std::uint64_t seed = 1;
     int steps = 20;
-    bool sixteen_rays = true; ///< the slower truth, for information
+    bool sixteen_rays = true; ///< the slower truth too
     PictureOptions picture;
 };
 

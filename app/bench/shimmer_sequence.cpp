@@ -237,8 +237,12 @@ void ShimmerSequence::cast(const Truth& truth, bool sixteen_rays) {
                    [](float hit) { return static_cast<std::uint8_t>(hit > 0.0F ? 1 : 0); });
     one_ray_ = one_ray.per_pixel();
     truth_.one_ray = shimmer_of(one_ray_, judged_);
+    allowed_ = one_ray_;
     if (sixteen_rays) {
-        truth_.sixteen_rays = shimmer_of(many.per_pixel(), judged_);
+        const Image<float> smooth = many.per_pixel();
+        truth_.sixteen_rays = shimmer_of(smooth, judged_);
+        std::transform(smooth.texels.begin(), smooth.texels.end(), one_ray_.texels.begin(),
+                       allowed_.texels.begin(), [](float a, float b) { return std::max(a, b); });
     }
     truth_.judged_pixels = std::count(judged_.texels.begin(), judged_.texels.end(), std::uint8_t{1});
 }
@@ -249,7 +253,7 @@ SequenceShimmer ShimmerSequence::judge(const Draw& draw, ShimmerMaps& maps) cons
         flicker.add(cut(draw(pose)));
     }
     maps = {flicker.per_pixel(), one_ray_, judged_, {}};
-    maps.beyond = excess(maps.drawn, one_ray_, judged_);
+    maps.beyond = excess(maps.drawn, allowed_, judged_);
     SequenceShimmer found = truth_;
     found.drawn = shimmer_of(maps.drawn, judged_);
     found.excess_pixels = std::count(maps.beyond.texels.begin(), maps.beyond.texels.end(), std::uint8_t{1});

@@ -277,7 +277,9 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
             }
             glm::vec3 sum(0.0F);
             for (int sub = 0; sub < 16; ++sub) {
-                if (look(x + (sub % 4 + 0.5) / 4.0, y + (sub / 4 + 0.5) / 4.0, hit) == Seen::Artifact) {
+                const int column = sub % 4;
+                const int row = sub / 4;
+                if (look(x + (column + 0.5) / 4.0, y + (row + 0.5) / 4.0, hit) == Seen::Artifact) {
                     sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
                 }
             }

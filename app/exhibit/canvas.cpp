@@ -127,7 +127,9 @@ void Canvas::picture(const Image8& picture, const glm::dvec2& from, const glm::d
         for (int x = 0; x < target.x; ++x) {
             glm::dvec3 sum(0.0);
             for (int k = 0; k < taps.x * taps.y; ++k) {
-                const glm::dvec2 part((k % taps.x + 0.5) / taps.x, (k / taps.x + 0.5) / taps.y);
+                const int column = k % taps.x;
+                const int row = k / taps.x;
+                const glm::dvec2 part((column + 0.5) / taps.x, (row + 0.5) / taps.y);
                 sum += bilinear(picture, from + (glm::dvec2(x, y) + part) * step);
             }
             const glm::ivec2 at = corner + glm::ivec2(x, y);

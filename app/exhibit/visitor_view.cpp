@@ -178,7 +178,9 @@ Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const Vi
     const auto pixel_colour = [&](int x, int y) {
         glm::dvec3 sum(0.0);
         for (int k = 0; k < rays * rays; ++k) {
-            const glm::dvec2 at(x + (k % rays + 0.5) / rays, y + (k / rays + 0.5) / rays);
+            const int column = k % rays;
+            const int row = k / rays;
+            const glm::dvec2 at(x + (column + 0.5) / rays, y + (row + 0.5) / rays);
             if (const auto place =
                     room.first_place(camera.table_from_camera.direction(camera.pinhole.ray(at)))) {
                 sum += room.sent_back(*place);

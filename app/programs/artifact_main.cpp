@@ -1,4 +1,5 @@
 /// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file.
+#include "app/programs/guarded_main.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/artifacts/write_glb.h"
 #include "firmware_host/base/file.h"
@@ -11,9 +12,8 @@
 #include <filesystem>
 #include <string>
 
+namespace frustumscreen {
 namespace {
-
-using namespace frustumscreen;
 
 int report(const Error& error) {
     fmt::print(stderr, "frustumscreen-artifact: {}\n", error.message);
@@ -28,9 +28,7 @@ int list_artifacts(const std::string& language) {
     return 0;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     std::string name;
     std::string language = "en";
     std::int64_t triangles = 400'000;
@@ -67,4 +65,11 @@ int main(int argc, char** argv) {
     }
     const auto written = write_file(output, *bytes);
     return written ? 0 : report(written.error());
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-artifact", frustumscreen::run, argc, argv);
 }

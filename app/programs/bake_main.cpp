@@ -1,6 +1,7 @@
 /// frustumscreen-bake: a curator's artifact file to a pack.
 #include "app/pack/pack_file.h"
 #include "app/pack/sha256.h"
+#include "app/programs/guarded_main.h"
 #include "app/programs/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/load_mesh.h"
@@ -15,9 +16,8 @@
 #include <string>
 #include <vector>
 
+namespace frustumscreen {
 namespace {
-
-using namespace frustumscreen;
 
 struct Arguments {
     std::filesystem::path input;
@@ -84,9 +84,7 @@ Result<void> work(const Arguments& arguments) {
     return write_file(arguments.output, *bytes);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     Arguments arguments;
     ProgressLine progress("baking, per cent");
     arguments.options.progress = [&](std::string_view, double done) {
@@ -128,4 +126,11 @@ int main(int argc, char** argv) {
         return 1;
     }
     return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-bake", frustumscreen::run, argc, argv);
 }

@@ -127,7 +127,7 @@ Result<void> write_all(const std::filesystem::path& folder,
         return bad_input(folder.string() + ": this folder cannot be made: " + made.message());
     }
     for (const auto& [name, text] : files) {
-        if (const Result<void> written = write_file(folder / name, as_bytes(text)); !written) {
+        if (Result<void> written = write_file(folder / name, as_bytes(text)); !written) {
             return written;
         }
     }

@@ -3,14 +3,17 @@
 #include "app/programs/bench_projection.h"
 #include "app/programs/bench_scaling.h"
 #include "app/programs/bench_shimmer.h"
+#include "app/programs/guarded_main.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cstdio>
 
-int main(int argc, char** argv) {
-    using namespace frustumscreen;
+namespace frustumscreen {
+namespace {
+
+int run(int argc, char** argv) {
     CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
                  " shimmer.",
                  "frustumscreen-bench");
@@ -36,4 +39,11 @@ int main(int argc, char** argv) {
         }
     }
     return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-bench", frustumscreen::run, argc, argv);
 }

@@ -1,4 +1,5 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
+#include "app/programs/guarded_main.h"
 #include "app/programs/render_command.h"
 
 #include <CLI/CLI.hpp>
@@ -13,9 +14,8 @@
 #include "app/settings/config_json.h"
 #include "app/settings/settings.h"
 
+namespace frustumscreen {
 namespace {
-
-using namespace frustumscreen;
 
 int config_command(int argc, char** argv) {
     CLI::App app("Prints the resolved, checked settings.", "frustumscreen config");
@@ -71,12 +71,8 @@ int dispatch(int argc, char** argv) {
 }
 
 } // namespace
+} // namespace frustumscreen
 
 int main(int argc, char** argv) {
-    try {
-        return dispatch(argc, argv);
-    } catch (const std::exception& error) { // out of memory, or a library's
-        fmt::print(stderr, "frustumscreen: {}\n", error.what());
-        return 1;
-    }
+    return frustumscreen::guarded_main("frustumscreen", frustumscreen::dispatch, argc, argv);
 }

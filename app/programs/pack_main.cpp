@@ -1,4 +1,5 @@
 /// frustumscreen-pack: verifies, lists and explains packs.
+#include "app/programs/guarded_main.h"
 #include "app/programs/pack_report.h"
 #include "app/settings/settings.h"
 
@@ -116,10 +117,5 @@ int run(int argc, char** argv) {
 } // namespace frustumscreen
 
 int main(int argc, char** argv) {
-    try {
-        return frustumscreen::run(argc, argv);
-    } catch (...) { // no memory left, or a mistake in the command line's own definition
-        std::fputs("frustumscreen-pack: out of memory\n", stderr);
-        return 1;
-    }
+    return frustumscreen::guarded_main("frustumscreen-pack", frustumscreen::run, argc, argv);
 }

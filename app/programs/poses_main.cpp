@@ -1,4 +1,5 @@
 /// frustumscreen-poses: pose files from recordings of other trackers, and from the simulated visitor.
+#include "app/programs/guarded_main.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -155,10 +156,5 @@ int run(int argc, char** argv) {
 } // namespace frustumscreen
 
 int main(int argc, char** argv) {
-    try {
-        return frustumscreen::run(argc, argv);
-    } catch (...) { // no memory left, or a mistake in the command line's own definition
-        std::fputs("frustumscreen-poses: out of memory\n", stderr);
-        return 1;
-    }
+    return frustumscreen::guarded_main("frustumscreen-poses", frustumscreen::run, argc, argv);
 }

@@ -1,5 +1,6 @@
 /// frustumscreen-sheet: pictures for people, made from the projector's pictures, their poses and the settings
 /// alone.
+#include "app/programs/guarded_main.h"
 #include "app/programs/progress_line.h"
 #include "app/programs/sheet_animation.h"
 #include "app/programs/sheet_frames.h"
@@ -140,24 +141,22 @@ Result<void> make(const Request& request) {
     return {};
 }
 
-} // namespace
-} // namespace frustumscreen
-
-int main(int argc, char** argv) {
-    using namespace frustumscreen;
+int run(int argc, char** argv) {
     Request request;
     bool done = false;
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    try {
-        if (const Result<void> made = make(request); !made) {
-            fmt::print(stderr, "frustumscreen-sheet: {}\n", made.error().message);
-            return 1;
-        }
-    } catch (const std::exception& error) { // out of memory
-        fmt::print(stderr, "frustumscreen-sheet: {}\n", error.what());
+    if (const Result<void> made = make(request); !made) {
+        fmt::print(stderr, "frustumscreen-sheet: {}\n", made.error().message);
         return 1;
     }
     return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-sheet", frustumscreen::run, argc, argv);
 }
