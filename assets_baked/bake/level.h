@@ -37,19 +37,19 @@ struct SourceSamples {
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
 
-/// What a visitor would notice, from several eyes of the viewing zone: the worst eye's mean distance between
-/// what it sees on the level and on the source (box units), and the share of the artifact's rays that hit one
-/// of them alone.
+/// What a visitor would notice: means over several eyes of the viewing zone. (One eye's figure is too much at
+/// the mercy of one strap.)
 struct SeenError {
-    double mean_box = 0.0;
-    double silhouette = 0.0;
+    double mean_box = 0.0; ///< distance between what it sees on the level and on the source
+    /// The rays that hit one of them alone, as an even band along the source's outline: its width.
+    double outline_shift_box = 0.0;
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size,
                                    const SourceScene& source);
 
-/// Samples a pixel (1, 2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that
+/// Samples a pixel (2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies
-/// need one, thin or finely painted ones more.
+/// need two, thin or finely painted ones more.
 [[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box);
 
 } // namespace frustumscreen

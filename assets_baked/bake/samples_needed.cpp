@@ -114,7 +114,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
             worst[g] = std::max(worst[g], errors[g]);
         }
     }
-    std::size_t chosen = 0;
+    std::size_t chosen = 1; // with one sample, outlines are stairs and shimmer as a single ray's do
     while (chosen + 1 < grids.size() && worst[chosen] > good_rmse &&
            pixels * grids[chosen + 1].x * grids[chosen + 1].y <= most_samples) {
         ++chosen;

@@ -10,11 +10,13 @@ namespace frustumscreen {
 
 namespace {
 
+constexpr int side = 320; ///< rays
+
 struct Tally {
     double distance = 0.0;
     std::size_t both = 0;
     std::size_t one = 0;
-    std::size_t source = 0;
+    std::size_t outline = 0; ///< hits of the source beside a miss
 };
 
 /// Rays from one eye over the sphere around the box, one each step of a square grid.
@@ -26,6 +28,10 @@ public:
           extent_(radius / glm::distance(eye, centre) * 1.02F) {}
 
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
+    /// Between neighbouring rays, where they pass the artifact.
+    [[nodiscard]] double spacing_box(double eye_distance_box) const {
+        return 2.0 * static_cast<double>(extent_) * eye_distance_box / side;
+    }
     [[nodiscard]] glm::vec3 direction(int x, int y, int side) const {
         const float u = (2.0F * (static_cast<float>(x) + 0.5F) / static_cast<float>(side) - 1.0F) * extent_;
         const float v = (2.0F * (static_cast<float>(y) + 0.5F) / static_cast<float>(side) - 1.0F) * extent_;
@@ -37,9 +43,21 @@ private:
     float extent_;
 };
 
+/// Hits with a 4-neighbour that misses.
+std::size_t outline_of(const Image<std::uint8_t>& hits) {
+    std::size_t found = 0;
+    for (int y = 1; y + 1 < hits.height; ++y) {
+        for (int x = 1; x + 1 < hits.width; ++x) {
+            const int around = hits.at(x - 1, y) + hits.at(x + 1, y) + hits.at(x, y - 1) + hits.at(x, y + 1);
+            found += hits.at(x, y) != 0 && around < 4 ? 1 : 0;
+        }
+    }
+    return found;
+}
+
 Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& source) {
-    constexpr int side = 320;
     std::vector<Tally> rows(side);
+    Image<std::uint8_t> hits(side, side);
     parallel_for(side, 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
             for (int x = 0; x < side; ++x) {
@@ -47,7 +65,7 @@ Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& 
                 const SurfaceHit true_hit = source.trace(rays.eye(), direction);
                 const SurfaceHit level_hit = level.trace(rays.eye(), direction);
                 Tally& row = rows[y];
-                row.source += true_hit.hit ? 1 : 0;
+                hits.at(x, static_cast<int>(y)) = true_hit.hit ? 1 : 0;
                 row.one += true_hit.hit != level_hit.hit ? 1 : 0;
                 if (true_hit.hit && level_hit.hit) {
                     row.both += 1;
@@ -61,8 +79,8 @@ Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& 
         sum.distance += row.distance;
         sum.both += row.both;
         sum.one += row.one;
-        sum.source += row.source;
     }
+    sum.outline = outline_of(hits);
     return sum;
 }
 
@@ -80,7 +98,7 @@ SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size, const S
     const SourceScene level_scene(level_mesh, level_points);
     const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
     const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
-    SeenError worst;
+    SeenError sum;
     for (int k = 0; k < eyes; ++k) {
         const double elevation =
             (lowest_deg + (highest_deg - lowest_deg) * k / (eyes - 1)) * std::numbers::pi / 180.0;
@@ -89,14 +107,14 @@ SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size, const S
         const EyeRays rays(centre + glm::vec3(away * eye_distance_box), centre, radius);
         const Tally tally = compare(rays, level_scene, source);
         if (tally.both > 0) {
-            worst.mean_box = std::max(worst.mean_box, tally.distance / static_cast<double>(tally.both));
+            sum.mean_box += tally.distance / static_cast<double>(tally.both);
         }
-        if (tally.source > 0) {
-            worst.silhouette = std::max(worst.silhouette,
-                                        static_cast<double>(tally.one) / static_cast<double>(tally.source));
+        if (tally.outline > 0) {
+            const double rays_wide = static_cast<double>(tally.one) / static_cast<double>(tally.outline);
+            sum.outline_shift_box += rays.spacing_box(eye_distance_box) * rays_wide;
         }
     }
-    return worst;
+    return {sum.mean_box / eyes, sum.outline_shift_box / eyes};
 }
 
 } // namespace frustumscreen

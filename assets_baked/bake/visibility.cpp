@@ -168,6 +168,7 @@ TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, c
 
 TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
                                 const SourceScene& finer_scene, float tolerance_box) {
+    const float reach = 12.0F * tolerance_box; // a few places stray much further than the tolerance
     std::vector<std::uint8_t> sides(mesh.triangle_count(), none);
     parallel_for(sides.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -185,7 +186,7 @@ TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& fi
                 // Look along the normal both ways, so that each side of a thin wall finds its own.
                 for (const float sign : {1.0F, -1.0F}) {
                     const glm::vec3 origin = p + normal * (sign * tolerance_box);
-                    const SurfaceHit hit = finer_scene.nearest(origin, 4.0F * tolerance_box);
+                    const SurfaceHit hit = finer_scene.nearest(origin, reach);
                     if (hit.hit) {
                         const glm::vec3 n = finer.area_normal(hit.triangle);
                         sides[t] |= glm::dot(n, normal) > 0.0F ? front : back;
