@@ -59,12 +59,13 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(artifact.error());
     }
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    Result<Renderer> renderer =
-        Renderer::create({stage.width(), stage.height(), std::max(samples, default_samples)});
+    Result<Renderer> renderer = Renderer::create(
+        {stage.width(), stage.height(), std::max(samples, default_samples), {false, artifact->cut_out()}});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    Result<HitPointRenderer> hit_points = HitPointRenderer::create(stage.width(), stage.height());
+    Result<HitPointRenderer> hit_points =
+        HitPointRenderer::create(stage.width(), stage.height(), artifact->cut_out());
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }

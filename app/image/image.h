@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -54,5 +55,11 @@ using ImageFloat = Image<glm::vec3>;
 [[nodiscard]] Bytes encode_png(const Image16& image);
 /// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
 [[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
+
+/// Whether alpha below one half, which a picture leaves out, occurs.
+[[nodiscard]] inline bool has_cut_texels(const Image8& image) {
+    return std::any_of(image.texels.begin(), image.texels.end(),
+                       [](const glm::u8vec4& texel) { return texel.a < 128; });
+}
 
 } // namespace frustumscreen

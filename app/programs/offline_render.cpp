@@ -71,14 +71,17 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    Result<Renderer> renderer =
-        Renderer::create({width, height, std::max(samples_of(options, *pack), default_samples)});
+    Result<Renderer> renderer = Renderer::create({width,
+                                                  height,
+                                                  std::max(samples_of(options, *pack), default_samples),
+                                                  {false, made->artifact_->cut_out()}});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
     made->renderer_ = std::move(*renderer);
     if (options.hit_points) {
-        Result<HitPointRenderer> hit_points = HitPointRenderer::create(width, height);
+        Result<HitPointRenderer> hit_points =
+            HitPointRenderer::create(width, height, made->artifact_->cut_out());
         if (!hit_points) {
             return tl::unexpected<Error>(hit_points.error());
         }

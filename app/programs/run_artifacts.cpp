@@ -119,11 +119,12 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     Loader loader{settings, level_options, prop, std::move(*typesetter), pinhole.fx / lens_height_m};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
-    bool level_fades = false;
+    FacePass::Needs needs;
     for (const std::filesystem::path& file : options.packs) {
         Result<Artifact> artifact = loader.load(file);
         if (artifact) {
-            level_fades = level_fades || artifact->levels.fades();
+            needs.level_fades = needs.level_fades || artifact->levels.fades();
+            needs.cut_out = needs.cut_out || artifact->levels.cut_out();
             artifacts.push_back(std::move(*artifact));
         } else {
             fmt::print(stderr, "frustumscreen: left out: {}\n", artifact.error().message);
@@ -135,8 +136,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
             "make them with frustumscreen-bake");
     }
-    Result<Renderer> renderer =
-        Renderer::create({pinhole.width, pinhole.height, options.samples, level_fades});
+    Result<Renderer> renderer = Renderer::create({pinhole.width, pinhole.height, options.samples, needs});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

@@ -50,6 +50,11 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const PropShape& prop, con
                      make_plan(prop, indices));
 }
 
+bool RunLevels::cut_out() const {
+    return std::any_of(levels_.begin(), levels_.end(),
+                       [](const Level& level) { return level.gpu.cut_out(); });
+}
+
 std::size_t RunLevels::slot_of(std::uint32_t level) const {
     return static_cast<std::size_t>(
         std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.level == level; }) -

@@ -52,6 +52,8 @@ public:
 
     /// Whether a renderer for it must be able to fade.
     [[nodiscard]] bool fades() const { return levels_.size() > 1; }
+    /// Whether a renderer for it must leave out texels that are cut out.
+    [[nodiscard]] bool cut_out() const;
 
     /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
     /// there is nothing to choose. `target` is left with some picture in it, to be presented by nobody.

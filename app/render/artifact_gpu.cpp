@@ -79,6 +79,7 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
     }
     ArtifactGpu artifact;
     artifact.texels_per_box_ = texels_per_box(source, image, pack.box_size);
+    artifact.cut_out_ = has_cut_texels(image);
     artifact.vertex_array_ = GlVertexArray::generate();
     glBindVertexArray(artifact.vertex_array_.get());
     artifact.vertices_ = upload_buffer(GL_ARRAY_BUFFER, source.vertices);

@@ -21,6 +21,8 @@ public:
     /// spends more on finding and mixing two for each pixel than on the rest of it. `samples_per_box` as
     /// FacePlan::pixels_per_box, times the samples along a pixel's side.
     [[nodiscard]] float mip_level(double samples_per_box) const;
+    /// Some of its texels are cut out (alpha below one half): only a renderer made for that leaves them out.
+    [[nodiscard]] bool cut_out() const { return cut_out_; }
 
 private:
     ArtifactGpu() = default;
@@ -29,6 +31,7 @@ private:
     GlBuffer vertices_;
     GlTexture texture_;
     double texels_per_box_ = 0.0;
+    bool cut_out_ = false;
 };
 
 } // namespace frustumscreen

@@ -25,7 +25,8 @@ uniform mat4 clip_from_unit;
 #ifdef HIT_POINT
 uniform vec3 prop_from_unit[2]; // scale, offset
 out vec3 point;
-#else
+#endif
+#if !defined(HIT_POINT) || defined(CUT_OUT)
 layout(location = 1) in vec2 uv;
 out vec2 texel;
 #endif
@@ -33,7 +34,8 @@ void main() {
     gl_Position = clip_from_unit * vec4(position, 1.0);
 #ifdef HIT_POINT
     point = prop_from_unit[0] * position + prop_from_unit[1];
-#else
+#endif
+#if !defined(HIT_POINT) || defined(CUT_OUT)
     texel = uv;
 #endif
 }
@@ -41,13 +43,22 @@ void main() {
 
 constexpr std::string_view artifact_fragment = R"(
 out vec4 result;
-#ifdef HIT_POINT
-in vec3 point;
-void main() { result = vec4(point, 1.0); }
-#else
+#if !defined(HIT_POINT) || defined(CUT_OUT)
 in vec2 texel;
 uniform sampler2D colour;
 uniform float mip_level;
+#endif
+#ifdef HIT_POINT
+in vec3 point;
+void main() {
+#ifdef CUT_OUT
+    if (textureLod(colour, texel, mip_level).a < 0.5) {
+        discard;
+    }
+#endif
+    result = vec4(point, 1.0);
+}
+#else
 uniform float brightness;
 #if defined(COMPENSATED) || defined(FADING)
 uniform vec4 pixel_from_fragment; // scale, offset
@@ -80,7 +91,13 @@ void main() {
         discard;
     }
 #endif
-    vec3 code = textureLod(colour, texel, mip_level).rgb;
+    vec4 seen = textureLod(colour, texel, mip_level);
+#ifdef CUT_OUT
+    if (seen.a < 0.5) {
+        discard;
+    }
+#endif
+    vec3 code = seen.rgb;
     float gain = brightness;
 #ifdef COMPENSATED
     gain *= compensation();
@@ -118,15 +135,19 @@ Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_vi
     return made;
 }
 
-Result<FacePass> FacePass::create(FaceOutput output, bool level_fades) {
+Result<FacePass> FacePass::create(FaceOutput output, const Needs& needs) {
     FacePass pass;
-    const unsigned variants = level_fades ? AllVariants : Fading;
-    for (unsigned variant = 0; variant < variants; ++variant) {
+    const unsigned unneeded = (needs.level_fades ? 0U : Fading) | (needs.cut_out ? 0U : CutOut);
+    for (unsigned variant = 0; variant < AllVariants; ++variant) {
+        if ((variant & unneeded) != 0) {
+            continue;
+        }
         std::string defines = (variant & Compensated) != 0 ? "#define COMPENSATED\n" : "";
         defines += (variant & Fading) != 0 ? "#define FADING\n" : "";
         if (output == FaceOutput::HitPoint) {
             defines = "#define HIT_POINT\n";
         }
+        defines += (variant & CutOut) != 0 ? "#define CUT_OUT\n" : "";
         Result<ArtifactProgram> program = make_artifact_program(defines);
         if (!program) {
             return tl::unexpected<Error>(program.error());
@@ -201,8 +222,9 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
     if (coming && !fading) {
         return 0;
     }
-    const ArtifactProgram& program =
-        *programs_[(plan.compensate_light ? Compensated : 0U) | (fading ? Fading : 0U)];
+    const bool cut_out = artifact.cut_out() && programs_[CutOut];
+    const ArtifactProgram& program = *programs_[(plan.compensate_light ? Compensated : 0U) |
+                                                (fading ? Fading : 0U) | (cut_out ? CutOut : 0U)];
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).

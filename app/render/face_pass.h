@@ -31,8 +31,12 @@ enum class FaceOutput {
 
 class FacePass {
 public:
-    /// `level_fades`: a plan may fade between levels; else its shaders are not made.
-    [[nodiscard]] static Result<FacePass> create(FaceOutput output, bool level_fades = false);
+    /// What plans and artifacts may need; the shaders of anything else are not made.
+    struct Needs {
+        bool level_fades = false; ///< a plan may fade from one level to another
+        bool cut_out = false;     ///< an artifact may have texels that are cut out
+    };
+    [[nodiscard]] static Result<FacePass> create(FaceOutput output, const Needs& needs);
 
     /// The level that the plan is of, and the one that a fade brings in.
     struct Levels {
@@ -44,7 +48,7 @@ public:
 
 private:
     /// Of the artifact's shader: bits of an index into `programs_`.
-    enum Variant : unsigned { Compensated = 1, Fading = 2, AllVariants = 4 };
+    enum Variant : unsigned { Compensated = 1, Fading = 2, CutOut = 4, AllVariants = 8 };
     struct ArtifactProgram {
         GlProgram program;
         GLint clip_from_unit = -1;

@@ -6,8 +6,8 @@
 
 namespace frustumscreen {
 
-Result<HitPointRenderer> HitPointRenderer::create(int width, int height) {
-    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint);
+Result<HitPointRenderer> HitPointRenderer::create(int width, int height, bool cut_out) {
+    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint, {false, cut_out});
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }

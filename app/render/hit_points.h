@@ -12,7 +12,7 @@ namespace frustumscreen {
 class HitPointRenderer {
 public:
     /// Errors: the driver cannot draw into float pictures.
-    [[nodiscard]] static Result<HitPointRenderer> create(int width, int height);
+    [[nodiscard]] static Result<HitPointRenderer> create(int width, int height, bool cut_out = false);
     /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top.
     [[nodiscard]] ImageFloat draw(const FramePlan& plan, const ArtifactGpu* artifact);
 

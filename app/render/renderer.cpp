@@ -43,7 +43,7 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
                 fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
         }
     }
-    Result<FacePass> pass = FacePass::create(FaceOutput::Colour, options.level_fades);
+    Result<FacePass> pass = FacePass::create(FaceOutput::Colour, options.needs);
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }

@@ -30,7 +30,7 @@ struct RendererOptions {
     /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
     /// llvmpipe that takes half the time of the driver's own multisampling.
     int samples = default_samples; ///< the most; a plan may ask for fewer, and for more where there is room
-    bool level_fades = false;      ///< a plan may fade from one level to another
+    FacePass::Needs needs = {};
 };
 
 /// Display::framebuffer and Display::buffer_age.

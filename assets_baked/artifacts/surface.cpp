@@ -38,6 +38,7 @@ void share_columns(const std::vector<Patch>& patches, std::vector<Cells>& cells)
 
 std::vector<Cells> cells_at(const std::vector<Patch>& patches, double cells_per_mm) {
     std::vector<Cells> cells;
+    cells.reserve(patches.size());
     for (const Patch& patch : patches) {
         cells.push_back(
             {std::max<std::int64_t>(patch.least_u, std::llround(patch.length_u_mm * cells_per_mm)),
@@ -63,7 +64,7 @@ std::vector<Cells> share_budget(const std::vector<Patch>& patches, std::int64_t 
         int change = 0;
         for (std::size_t i = 0; i < patches.size(); ++i) {
             for (const int by : {-1, 1}) {
-                const std::int64_t left = std::abs(missing - by * 2 * cells[i].u);
+                const std::int64_t left = std::abs(missing - std::int64_t{by} * 2 * cells[i].u);
                 if (left < nearest && cells[i].v + by >= patches[i].least_v) {
                     nearest = left;
                     chosen = i;

@@ -120,14 +120,16 @@ private:
         const ChartedMesh charted = chart(mesh, texel_box_);
         const Image<AtlasTexel> texels = rasterise(charted);
         const float reach = 4.0F * tolerance + 1e-3F;
-        Image8 texture = lit(charted, texels, bake_colour(charted, texels, source_, reach), reach);
+        Image8 texture = lit(charted, texels, bake_colour(charted, texels, source_, reach), reach,
+                             bake_coverage(charted, texels, source_, reach));
         PackLevel level = make_level(charted, frame_.box_size, LevelTechnique::Mesh);
         level.error = measure(level, texture, frame_.box_size, source_, samples_, options_.unlit);
         return {std::move(level), std::move(texture)};
     }
 
     /// The texture in the museum's light: baked on the finest level, looked up from there for the others.
-    Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach) {
+    Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
+               const Image<float>& coverage = {}) {
         if (!options_.unlit) {
             if (light_.texels.empty()) {
                 light_mesh_ = mesh;
@@ -137,7 +139,7 @@ private:
                 multiply(colour, transfer_light(mesh, texels, light_mesh_, light_, reach));
             }
         }
-        return finish(colour, texels);
+        return finish(colour, texels, coverage);
     }
 
     static void multiply(ImageFloat& colour, const ImageFloat& light) {
@@ -168,11 +170,13 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 /// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The worst of fifty poses in two set-ups shows up to three times as much of either.
-    constexpr double good_mean_mm = 0.058;
+    constexpr double good_mean_mm = 0.050;
     constexpr double good_outline_shift_mm = 0.025;
     const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
-        const SeenError error = seen_error(pack.levels[k], pack.box_size, bakery.source());
+        const PackLevel& level = pack.levels[k];
+        const SeenError error =
+            seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source());
         if (error.mean_box * mm_per_box <= good_mean_mm &&
             error.outline_shift_box * mm_per_box <= good_outline_shift_mm) {
             return k;
@@ -197,6 +201,7 @@ void drop_useless(std::vector<Candidate>& candidates) {
 void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
     drop_useless(candidates);
     std::vector<PackLevel> levels;
+    levels.reserve(candidates.size());
     for (const Candidate& candidate : candidates) {
         levels.push_back(candidate.level);
     }
@@ -211,10 +216,12 @@ void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
             pack.textures.push_back(std::move(candidates[k].texture));
             if (is_relief) {
                 relief_texture = level.texture;
-                pack.relief = std::move(atlas);
             }
         }
         pack.levels.push_back(std::move(level));
+    }
+    if (relief_texture) {
+        pack.relief = std::move(atlas);
     }
 }
 

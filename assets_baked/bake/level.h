@@ -44,7 +44,7 @@ struct SeenError {
     /// The rays that hit one of them alone, as an even band along the source's outline: its width.
     double outline_shift_box = 0.0;
 };
-[[nodiscard]] SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size,
+[[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source);
 
 /// Samples a pixel (2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that

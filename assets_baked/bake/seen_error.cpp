@@ -55,6 +55,20 @@ std::size_t outline_of(const Image<std::uint8_t>& hits) {
     return found;
 }
 
+/// Where the texture's alpha cuts, rays pass the level too.
+SourceMesh cut_out(SourceMesh mesh, const PackLevel& level, const Image8& texture) {
+    if (!has_cut_texels(texture)) {
+        return mesh;
+    }
+    for (const PackVertex& vertex : level.vertices) {
+        mesh.uvs.push_back(glm::vec2(vertex.uv[0], vertex.uv[1]) / 65535.0F);
+    }
+    mesh.textures = {{std::make_shared<Image8>(texture), Wrap::Clamp, Wrap::Clamp}};
+    mesh.materials[0].texture = 0;
+    mesh.materials[0].alpha_mask = true;
+    return mesh;
+}
+
 Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& source) {
     std::vector<Tally> rows(side);
     Image<std::uint8_t> hits(side, side);
@@ -86,14 +100,15 @@ Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& 
 
 } // namespace
 
-SeenError seen_error(const PackLevel& level, const glm::dvec3& box_size, const SourceScene& source) {
+SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                     const SourceScene& source) {
     constexpr int eyes = 10;
     constexpr double golden_angle = 2.399963229728653;
     constexpr double eye_distance_box = 6.0;
     constexpr double lowest_deg = 12.0;
     constexpr double highest_deg = 80.0;
     const TriangleMesh surface = surface_of(level, box_size);
-    const SourceMesh level_mesh = as_source(surface);
+    const SourceMesh level_mesh = cut_out(as_source(surface), level, texture);
     const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
     const SourceScene level_scene(level_mesh, level_points);
     const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);

@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -88,6 +89,39 @@ SurfaceHit find_on_source(const SourceScene& source, const SurfacePoint& at, flo
         near = hit.distance + 1e-6F + hit.distance * 1e-6F;
     }
     return best.hit ? best : source.nearest(at.position, 8.0F * reach);
+}
+
+/// Four points of the texel: its neighbours' half-way points, where they lie on the same triangle.
+std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& texel) {
+    const SurfacePoint centre = surface_at(mesh, texel);
+    const glm::vec3 tangent = glm::normalize(glm::cross(
+        std::abs(centre.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), centre.normal));
+    const glm::vec3 bitangent = glm::cross(centre.normal, tangent);
+    const std::size_t t = 3 * std::size_t{texel.triangle};
+    const float uv_length =
+        glm::distance(mesh.uv_texels[mesh.indices[t]], mesh.uv_texels[mesh.indices[t + 1]]);
+    const float length = glm::distance(mesh.positions[mesh.indices[t]], mesh.positions[mesh.indices[t + 1]]);
+    const float quarter = uv_length > 0.0F ? 0.25F * length / uv_length : 0.0F;
+    std::array<SurfacePoint, 4> parts{centre, centre, centre, centre};
+    for (unsigned k = 0; k < 4; ++k) {
+        parts[k].position +=
+            tangent * ((k & 1U) != 0 ? quarter : -quarter) + bitangent * ((k & 2U) != 0 ? quarter : -quarter);
+    }
+    return parts;
+}
+
+/// Alpha, bent so that the material's cut-off lies at one half.
+float coverage_of(const SourceScene& source, const SurfaceHit& hit) {
+    const SourceMaterial& material = source.mesh().materials[source.mesh().triangle_materials[hit.triangle]];
+    if (!material.alpha_mask) {
+        return 1.0F;
+    }
+    const float alpha = source.colour(hit).w;
+    const float cut = material.alpha_cutoff;
+    if (alpha < cut) {
+        return 0.5F * std::fmax(alpha, 0.0F) / cut;
+    }
+    return cut < 1.0F ? std::fmin(1.0F, 0.5F + 0.5F * (alpha - cut) / (1.0F - cut)) : 1.0F;
 }
 
 glm::vec3 clamped_rgb(const glm::vec4& colour) {
@@ -250,23 +284,9 @@ ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
             colour.at(x, y) = plain;
             return;
         }
-        // Four points of the texel: its neighbours' half-way points, where they lie on the same triangle.
         glm::vec3 sum(0.0F);
         float count = 0.0F;
-        const SurfacePoint centre = surface_at(mesh, texel);
-        const glm::vec3 tangent = glm::normalize(glm::cross(
-            std::abs(centre.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), centre.normal));
-        const glm::vec3 bitangent = glm::cross(centre.normal, tangent);
-        const std::size_t t = 3 * std::size_t{texel.triangle};
-        const float uv_length =
-            glm::distance(mesh.uv_texels[mesh.indices[t]], mesh.uv_texels[mesh.indices[t + 1]]);
-        const float length =
-            glm::distance(mesh.positions[mesh.indices[t]], mesh.positions[mesh.indices[t + 1]]);
-        const float quarter = uv_length > 0.0F ? 0.25F * length / uv_length : 0.0F;
-        for (int k = 0; k < 4; ++k) {
-            SurfacePoint at = centre;
-            at.position += tangent * ((k & 1) != 0 ? quarter : -quarter) +
-                           bitangent * ((k & 2) != 0 ? quarter : -quarter);
+        for (const SurfacePoint& at : parts_of(mesh, texel)) {
             const SurfaceHit hit = find_on_source(source, at, reach_box);
             if (hit.hit) {
                 sum += clamped_rgb(source.colour(hit));
@@ -276,6 +296,28 @@ ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
         colour.at(x, y) = count > 0.0F ? sum / count : plain;
     });
     return colour;
+}
+
+Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
+                           const SourceScene& source, float reach_box) {
+    const std::vector<SourceMaterial>& materials = source.mesh().materials;
+    if (std::none_of(materials.begin(), materials.end(),
+                     [](const SourceMaterial& material) { return material.alpha_mask; })) {
+        return {};
+    }
+    Image<float> coverage(texels.width, texels.height, 0.0F);
+    Image<std::uint8_t> known(texels.width, texels.height, 0);
+    for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
+        float sum = 0.0F;
+        for (const SurfacePoint& at : parts_of(mesh, texel)) {
+            const SurfaceHit hit = source.nearest(at.position, reach_box); // asks no alpha
+            sum += hit.hit ? coverage_of(source, hit) : 1.0F;
+        }
+        coverage.at(x, y) = sum / 4.0F;
+        known.at(x, y) = 1;
+    });
+    spread(coverage, known, chart_gutter_texels);
+    return coverage;
 }
 
 ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source) {
@@ -323,18 +365,21 @@ ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_tex
     return light;
 }
 
-Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels) {
+Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels, const Image<float>& coverage) {
     ImageFloat filled = colour;
     Image<std::uint8_t> known(texels.width, texels.height, 0);
     for (std::size_t k = 0; k < texels.texels.size(); ++k) {
-        known.texels[k] = texels.texels[k].triangle != nothing ? 1 : 0;
+        const bool cut = !coverage.texels.empty() && coverage.texels[k] < 0.5F;
+        known.texels[k] = texels.texels[k].triangle != nothing && !cut ? 1 : 0;
     }
     spread(filled, known, 8);
     Image8 result(colour.width, colour.height, glm::u8vec4(0, 0, 0, 255));
     parallel_for(result.texels.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const glm::vec3& c = filled.texels[k];
-            result.texels[k] = {srgb8_from_linear(c.x), srgb8_from_linear(c.y), srgb8_from_linear(c.z), 255};
+            const float alpha = coverage.texels.empty() ? 1.0F : coverage.texels[k];
+            result.texels[k] = {srgb8_from_linear(c.x), srgb8_from_linear(c.y), srgb8_from_linear(c.z),
+                                static_cast<std::uint8_t>(std::lround(255.0F * alpha))};
         }
     });
     return result;

@@ -28,6 +28,11 @@ struct AtlasTexel {
 [[nodiscard]] ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                      const SourceScene& source, float reach_box);
 
+/// How much of each texel alpha MASK leaves, 0..1, cut where it is below one half; empty for a source that
+/// has no such material.
+[[nodiscard]] Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
+                                         const SourceScene& source, float reach_box);
+
 /// Light that falls on each texel, 1 = an open surface facing the key light; soft dome and key, hidden by the
 /// artifact itself and by the table it stands on (ambient occlusion).
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
@@ -38,7 +43,9 @@ struct AtlasTexel {
                                         const ChartedMesh& from, const ImageFloat& from_light,
                                         float reach_box);
 
-/// To sRGB; what no triangle covers takes its neighbours' colour, so that mipmaps do not bleed.
-[[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels);
+/// To sRGB; what no triangle covers, or alpha cuts, takes its neighbours' colour, so that neither mipmaps nor
+/// the filter bleed. `coverage` becomes alpha; empty = all of it is there.
+[[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels,
+                            const Image<float>& coverage = {});
 
 } // namespace frustumscreen

@@ -41,7 +41,8 @@ std::string lower_extension(const std::filesystem::path& path) {
 /// By content first: a file may have been renamed. STL and OBJ have no sure mark, so the extension decides
 /// there.
 Format format_of(ByteView file, const std::filesystem::path& path) {
-    const std::string_view head = as_text(file.subspan(0, std::min<std::size_t>(file.size(), 64 * 1024)));
+    const std::string_view head =
+        as_text(file.subspan(0, std::min<std::size_t>(file.size(), std::size_t{64} * 1024)));
     const std::string_view first = trimmed(head);
     if (head.starts_with("glTF") || first.starts_with('{') || first.starts_with("\xEF\xBB\xBF{")) {
         return Format::Gltf;

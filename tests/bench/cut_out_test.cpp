@@ -1,0 +1,133 @@
+#include "app/bench/measure.h"
+#include "app/bench/pack_level.h"
+#include "app/bench/truth.h"
+#include "app/render/read_back.h"
+#include "assets_baked/bake/bake.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/bench/near_stage.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+/// An upright rectangle across Y at `y_m`, from the table up; its texture's u runs along X.
+void add_board(SourceMesh& mesh, double y_m, std::int32_t material) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
+        mesh.positions.emplace_back(0.06 * (corner.x - 0.5), y_m, 0.07 * corner.y);
+        mesh.uvs.emplace_back(static_cast<float>(corner.x), static_cast<float>(corner.y));
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.triangle_materials.insert(mesh.triangle_materials.end(), 2, static_cast<std::uint32_t>(material));
+}
+
+/// Red pickets, six in a row, with an arch cut out of their middle; what is cut is bright green, to be seen
+/// by nobody.
+std::shared_ptr<const Image8> pickets() {
+    auto image = std::make_shared<Image8>(192, 192);
+    for (int y = 0; y < 192; ++y) {
+        for (int x = 0; x < 192; ++x) {
+            const bool between = x % 32 >= 18;
+            const bool arch = glm::distance(glm::vec2(x, y), glm::vec2(96, 96)) < 30.0F;
+            image->at(x, y) = between || arch ? glm::u8vec4(0, 255, 0, 20) : glm::u8vec4(200, 40, 30, 255);
+        }
+    }
+    return image;
+}
+
+std::shared_ptr<SourceMesh> fence(bool with_wall) {
+    auto mesh = std::make_shared<SourceMesh>();
+    mesh->textures = {{pickets(), Wrap::Clamp, Wrap::Clamp}};
+    mesh->materials = {{glm::vec4(1.0F), 0, true, 0.3F},
+                       {glm::vec4(0.05F, 0.1F, 0.8F, 1.0F), -1, false, 0.5F}};
+    add_board(*mesh, -0.01, 0);
+    if (with_wall) {
+        add_board(*mesh, 0.01, 1);
+    }
+    mesh->default_up = 'z';
+    return mesh;
+}
+
+class CutOut : public ::testing::Test {
+protected:
+    void SetUp() override {
+        auto display = SurfacelessDisplay::create(640, 400);
+        ASSERT_TRUE(display) << display.error().message;
+        display_ = std::move(*display);
+        stage_ = {near_settings(), make_prop({}), display_->framebuffer()};
+    }
+
+    void bake_fence(bool with_wall) {
+        mesh_ = fence(with_wall);
+        BakeOptions options;
+        options.size = 512;
+        options.unlit = true;
+        Result<Pack> pack = bake(*mesh_, options);
+        ASSERT_TRUE(pack) << pack.error().message;
+        pack_ = std::move(*pack);
+    }
+
+    [[nodiscard]] PictureError error_of(std::uint32_t level, const BenchPose& pose) {
+        auto technique = make_pack_level(stage_, pack_, level, {finest_samples}, "level");
+        EXPECT_TRUE(technique) << technique.error().message;
+        const auto truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact);
+        const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), true);
+        EXPECT_TRUE(truth);
+        (*technique)->draw(pose);
+        Image8 colour = read_colour(stage_.framebuffer, 640, 400);
+        auto points = (*technique)->hit_points(pose);
+        EXPECT_TRUE(points);
+        return measure(picture, {std::move(colour), std::move(*points)});
+    }
+
+    std::unique_ptr<SurfacelessDisplay> display_;
+    Stage stage_;
+    std::shared_ptr<SourceMesh> mesh_;
+    Pack pack_;
+};
+
+TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
+    ASSERT_NO_FATAL_FAILURE(bake_fence(false));
+    const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
+    ASSERT_TRUE(poses);
+    for (const std::uint32_t level :
+         {pack_.default_level, static_cast<std::uint32_t>(pack_.levels.size() - 1)}) {
+        EXPECT_TRUE(has_cut_texels(pack_.textures[pack_.levels[level].texture]));
+        for (const BenchPose& pose : *poses) {
+            const PictureError error = error_of(level, pose);
+            EXPECT_TRUE(error.silhouette_percent <= 0.6 || error.outline_shift_px <= 0.2)
+                << error.silhouette_percent << " % " << error.outline_shift_px << " px";
+        }
+    }
+}
+
+TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
+    ASSERT_NO_FATAL_FAILURE(bake_fence(true));
+    const auto finest = static_cast<std::uint32_t>(pack_.levels.size() - 1);
+    const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
+    ASSERT_TRUE(poses);
+    for (const BenchPose& pose : *poses) {
+        const PictureError error = error_of(finest, pose);
+        EXPECT_GT(error.truth_pixels, 50);
+        EXPECT_LT(error.sixteen_rays.rmse, 14.0); // the green of the cut texels would be 100 and more
+        EXPECT_LT(error.geometric_mean_mm, 0.5);  // the boards stand 20 mm apart
+    }
+}
+
+TEST_F(CutOut, AnArtifactWithoutMaskPaysNothing) {
+    ASSERT_NO_FATAL_FAILURE(bake_fence(true));
+    mesh_->materials[0].alpha_mask = false;
+    BakeOptions options;
+    options.size = 128;
+    options.unlit = true;
+    const Result<Pack> pack = bake(*mesh_, options);
+    ASSERT_TRUE(pack);
+    for (const Image8& texture : pack->textures) {
+        EXPECT_FALSE(has_cut_texels(texture));
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
