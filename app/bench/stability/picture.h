@@ -1,0 +1,56 @@
+/// A frame plan held against the exact picture, point by point.
+///
+/// Points   of small triangles that are scattered through the artifact's box, and of others that are put on
+///          purpose where the eye looks through a face, so that a slanting view has as many as an open one.
+///          Positions are those that a pack stores, 16 bits an axis.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/stability/exact.h"
+#include "app/bench/stability/stability.h"
+#include "app/scene/frame_plan.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A kiosk as shipped: the projector 1.2 m above the table, the usual prop at its centre.
+[[nodiscard]] exact::Stage usual_stage();
+
+/// Triangles that the stage's eye sees through each face that it is above, and as many anywhere in the box.
+struct SeenArtifact {
+    PackLevel level;
+    PlacedLevel placed;
+    double metres_per_box = 0.16;
+    [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
+};
+inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the usual prop's
+[[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
+                                         double metres_per_box = 0.16);
+
+[[nodiscard]] FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
+
+struct PictureFigures {
+    double error_px = 0.0;     ///< largest, of the 64-bit collineation
+    double gpu_error_px = 0.0; ///< largest, of the 32-bit matrix on stored positions
+    double points = 0.0;       ///< compared
+    double missing = 0.0;      ///< triangles that show on a face and are not in its plan
+    double unlit = 0.0;        ///< points that show outside the plan's lit tiles
+    double wrong_faces = 0.0;  ///< planned, although the eye or the lens is not above them
+    double not_finite = 0.0;   ///< numbers in the plan
+
+    void include(const PictureFigures& other); ///< the larger error, the sums
+};
+[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
+                                        const FramePlan& plan);
+[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage); ///< of a seen artifact
+
+/// Nothing missing, unlit, wrong or infinite; errors within the bounds. At least `least_points` were
+/// compared.
+[[nodiscard]] std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where,
+                                                double bound_px, double gpu_bound_px,
+                                                double least_points = 100.0);
+
+} // namespace frustumscreen
