@@ -14,10 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// Measured through the plan with as few faces as can be: what else the eye sees is in it too.
-constexpr double usual_bound_px = 1e-8;
-constexpr double usual_gpu_bound_px = 0.05;
-
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
@@ -39,12 +35,12 @@ StabilityResult slanting(const StabilityOptions&) {
             for (const double distance_m : {0.35, 0.6, 2.0}) {
                 exact::Stage stage = usual_stage();
                 stage.eye_m = eye_above(stage, face, degrees, distance_m);
-                figures.include(figures_of(stage));
+                figures.include(figures_of(stage, face));
             }
         }
         const double per_sine = 1.0 / std::sin(radians(degrees));
-        for (StabilityRow& row :
-             rows_of(figures, fmt::format("{:g} deg: ", degrees), 1e-10 * per_sine, 1e-3 * per_sine)) {
+        for (StabilityRow& row : rows_of(figures, fmt::format("{:g} deg: ", degrees), bound_px * per_sine,
+                                         gpu_bound_px * per_sine)) {
             result.rows.push_back(std::move(row));
         }
     }
@@ -95,7 +91,8 @@ StabilityResult on_and_behind(const StabilityOptions&) {
             }
         }
     }
-    StabilityResult result{rows_of(figures, "the other faces: ", usual_bound_px, 1.0)};
+    StabilityResult result{
+        rows_of(figures, "the other faces: ", bound_px / least_sine, gpu_bound_px / least_sine)};
     result.rows.push_back({"times that the face itself was lit", 0.0, lit});
     return result;
 }
@@ -123,7 +120,7 @@ StabilityResult inside_the_artifact(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage, 4000, 0.8);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    return {rows_of(figures, "", usual_bound_px, 0.2)};
+    return {rows_of(figures, "", bound_px / 0.01, gpu_bound_px / 0.01)};
 }
 
 /// From the projector itself every point is drawn straight where the projector sees it, on any face.
@@ -144,8 +141,8 @@ StabilityResult at_the_projector(const StabilityOptions&) {
                                                               seen->v - (400.0L - 1920.0L * x.y / depth))));
         }
     }
-    StabilityResult result{rows_of(figures_of(stage, artifact, plan_of(stage, artifact)), "", usual_bound_px,
-                                   usual_gpu_bound_px)};
+    StabilityResult result{rows_of(figures_of(stage, artifact, plan_of(stage, artifact)), "", bound_px / 0.1,
+                                   gpu_bound_px / 0.1)};
     result.rows.push_back({"the exact picture, off the projector's own view, px", 1e-12, off_px});
     return result;
 }
@@ -160,9 +157,8 @@ StabilityResult far_away(const StabilityOptions&) {
                                                   std::sin(elevation));
             figures.include(figures_of(stage));
         }
-        for (StabilityRow& row :
-             rows_of(figures, fmt::format("{:g} m: ", distance_m),
-                     usual_bound_px * std::fmax(1.0, distance_m / 1e3), usual_gpu_bound_px)) {
+        for (StabilityRow& row : rows_of(figures, fmt::format("{:g} m: ", distance_m),
+                                         bound_px * std::fmax(10.0, distance_m), gpu_bound_px / 0.1)) {
             result.rows.push_back(std::move(row));
         }
     }

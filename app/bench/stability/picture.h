@@ -10,7 +10,7 @@
 #include "app/bench/stability/stability.h"
 #include "app/scene/frame_plan.h"
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +44,16 @@ struct PictureFigures {
     void include(const PictureFigures& other); ///< the larger error, the sums
 };
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
-                                        const FramePlan& plan);
-[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage); ///< of a seen artifact
+                                        const FramePlan& plan,
+                                        std::optional<std::size_t> only_face = std::nullopt);
+/// Of a seen artifact.
+[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
+                                        std::optional<std::size_t> only_face = std::nullopt);
+
+/// Errors of the usual stage's picture where nothing is seen slantingly: a picture's width times some
+/// roundings of the matrix, 64 of 2^-53 and 4 of 2^-24. At a slant they grow by 1 / sine.
+inline constexpr double bound_px = 64.0 * 1280.0 * 0x1p-53;
+inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 
 /// Nothing missing, unlit, wrong or infinite; errors within the bounds. At least `least_points` were
 /// compared.
