@@ -155,7 +155,9 @@ public:
             return;
         }
         sort_shown();
-        for (std::size_t k = 0; k < artifact_.level.indices.size(); k += 3) {
+        constexpr std::size_t most_triangles = 50'000; // of more, a sample
+        const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * most_triangles) + 1);
+        for (std::size_t k = 0; k < artifact_.level.indices.size(); k += stride) {
             triangle(
                 {artifact_.level.indices[k], artifact_.level.indices[k + 1], artifact_.level.indices[k + 2]});
         }
