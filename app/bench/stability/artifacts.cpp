@@ -93,7 +93,10 @@ StabilityResult placing(const StabilityOptions&) {
     StabilityResult result;
     for (const double offset : {0.0, 1e6}) {
         for (const double scale : scales) {
-            const SourceMesh mesh = sphere({offset, -offset, 0.7 * offset}, scale, 24);
+            SourceMesh mesh = sphere(glm::dvec3(0.0), scale, 24);
+            for (glm::dvec3& p : mesh.positions) { // squat: a side of the prop stops it
+                p = p * glm::dvec3(1.0, 0.9, 0.5) + glm::dvec3(offset, -offset, 0.7 * offset);
+            }
             const PlacingErrors errors = placing_errors(mesh);
             const std::string where = fmt::format("radius {:g}, offset {:g}: ", scale, offset);
             // Rounding of a number of the box's size; the matrix rounds at the origin's distance.
