@@ -8,8 +8,8 @@ namespace frustumscreen {
 
 std::vector<StabilityCase> stability_cases() {
     std::vector<StabilityCase> cases;
-    for (const auto& theme :
-         {eye_cases, prop_cases, projector_cases, artifact_cases, shape_cases, pose_cases, time_cases}) {
+    for (const auto& theme : {eye_cases, prop_cases, projector_cases, artifact_cases, shape_cases, pose_cases,
+                              time_cases, smoother_cases}) {
         for (StabilityCase& one : theme()) {
             cases.push_back(std::move(one));
         }
@@ -28,10 +28,6 @@ StabilityResult measure(const StabilityCase& which, const StabilityOptions& opti
         result.rows.push_back({"kinds of floating-point exceptions raised", 0.0, raised});
     }
     return result;
-}
-
-std::vector<StepError> step_errors() {
-    return {};
 }
 
 } // namespace frustumscreen
