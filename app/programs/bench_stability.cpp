@@ -28,11 +28,12 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     progress.clear();
     fmt::print("{}", stability_table(measured));
     std::fflush(stdout);
-    const std::vector<StepError> errors = step_errors();
+    const std::vector<StepError> smoothers = smoother_step_errors();
+    const std::vector<StepError> program = program_step_errors();
     Result<void> written = write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
                                                      {"stability.json", stability_json(measured)},
-                                                     {"step_error.csv", step_error_csv(errors)},
-                                                     {"step_error.svg", step_error_svg(errors)}});
+                                                     {"step_error.csv", step_error_csv(smoothers, program)},
+                                                     {"step_error.svg", step_error_svg(smoothers, program)}});
     if (!written) {
         return written;
     }

@@ -86,32 +86,48 @@ std::string stability_json(std::span<const MeasuredCase> cases) {
     return nlohmann::ordered_json{{"all_held", all_held(cases)}, {"cases", list}}.dump(2) + "\n";
 }
 
-std::string step_error_csv(std::span<const StepError> errors) {
-    std::string csv = "method,step_per_time_constant,error\n";
-    for (const StepError& error : errors) {
-        csv += fmt::format("{},{:.9g},{:.9g}\n", quoted(error.method), error.step_per_time_constant,
-                           error.error);
+std::string step_error_csv(std::span<const StepError> smoothers, std::span<const StepError> program) {
+    std::string csv = "what,step,step_unit,error\n";
+    for (const auto& [errors, unit] : {std::pair{smoothers, "time constants"}, std::pair{program, "s"}}) {
+        for (const StepError& error : errors) {
+            csv += fmt::format("{},{:.9g},{},{:.9g}\n", quoted(error.what), error.step, unit, error.error);
+        }
     }
     return csv;
 }
 
-std::string step_error_svg(std::span<const StepError> errors) {
-    Plot plot{"A smoother's error against its step",
-              "step / time constant",
-              "error of the step response, of 1",
-              true,
-              true,
-              {},
-              {{1.0, "the whole step"}}};
+namespace {
+
+void add_series(std::span<const StepError> errors, Plot& plot) {
     constexpr double least = 1e-18; // an exact zero has no place on a logarithmic axis
     for (const StepError& error : errors) {
-        if (plot.series.empty() || plot.series.back().name != error.method) {
-            plot.series.push_back({error.method, {}});
+        if (plot.series.empty() || plot.series.back().name != error.what) {
+            plot.series.push_back({error.what, {}});
         }
-        plot.series.back().points.push_back(
-            {{error.step_per_time_constant, std::max(error.error, least)}, {}});
+        plot.series.back().points.push_back({{error.step, std::max(error.error, least)}, {}});
     }
-    return svg_of(std::array{plot});
+}
+
+} // namespace
+
+std::string step_error_svg(std::span<const StepError> smoothers, std::span<const StepError> program) {
+    std::array plots{Plot{"A smoother's error against its step (no error at all: 1e-18)",
+                          "step / time constant",
+                          "error of the step response, of 1",
+                          true,
+                          true,
+                          {},
+                          {{1.0, "all of it"}}},
+                     Plot{"The program's dynamics against the step between frames",
+                          "step, s",
+                          "error",
+                          true,
+                          true,
+                          {},
+                          {}}};
+    add_series(smoothers, plots[0]);
+    add_series(program, plots[1]);
+    return svg_of(plots);
 }
 
 } // namespace frustumscreen

@@ -22,7 +22,9 @@ struct MeasuredCase {
 [[nodiscard]] std::string stability_csv(std::span<const MeasuredCase> cases);
 [[nodiscard]] std::string stability_json(std::span<const MeasuredCase> cases);
 
-[[nodiscard]] std::string step_error_csv(std::span<const StepError> errors);
-[[nodiscard]] std::string step_error_svg(std::span<const StepError> errors);
+[[nodiscard]] std::string step_error_csv(std::span<const StepError> smoothers,
+                                         std::span<const StepError> program);
+[[nodiscard]] std::string step_error_svg(std::span<const StepError> smoothers,
+                                         std::span<const StepError> program);
 
 } // namespace frustumscreen

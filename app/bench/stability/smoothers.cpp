@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,8 +28,6 @@ std::vector<double> decades(double low, double high) {
     }
     return values;
 }
-const auto time_constants = [] { return decades(1e-6, 1e3); };
-const auto steps = [] { return decades(1e-6, 10.0); };
 
 double exact_share(double dt, double time_constant) {
     return static_cast<double>(-std::expm1(-static_cast<long double>(dt) / time_constant));
@@ -38,9 +37,9 @@ StabilityResult closed_form(const StabilityOptions&) {
     double off = 0.0;
     double outside = 0.0;
     double falling = 0.0;
-    for (const double tau : time_constants()) {
+    for (const double tau : decades(1e-6, 1e3)) {
         double before = 0.0;
-        for (const double dt : steps()) {
+        for (const double dt : decades(1e-6, 10.0)) {
             const double share = follow_share(dt, tau);
             off = std::fmax(off, std::abs(share / exact_share(dt, tau) - 1.0));
             outside += share >= 0.0 && share <= 1.0 ? 0.0 : 1.0;
@@ -110,26 +109,39 @@ FrameTimeModel model_of(std::size_t rungs) {
 }
 
 /// The load doubles: log2 of what is expected, over what it was, against 1 - exp(-t / time constant).
-StabilityResult load_response(const StabilityOptions&) {
+struct LoadResponse {
+    double off = 0.0;
+    double back = 0.0; ///< falls, or goes beyond the goal
+    int count = 0;     ///< of steps
+};
+LoadResponse load_response(double dt) {
+    const Nanoseconds step(std::llround(dt * 1e9));
+    FrameTimeModel model = model_of(1);
+    (void)model.observe(0, usual_work, 10.0, at_seconds(0.0));
+    LoadResponse response;
+    response.count = steps_in(FrameTimeModel::time_constant_s, dt);
+    double before = 0.0;
+    for (int k = 1; k <= response.count; ++k) {
+        (void)model.observe(0, usual_work, 20.0, MonotonicTime(k * step));
+        const double now = std::log2(model.expected_ms(0) / 10.0);
+        response.back = std::fmax(response.back, std::fmax(before - now, now - 1.0));
+        before = now;
+    }
+    // A step counts for as long as it was, and at most_dt_s at most.
+    const double counted = std::fmin(to_seconds(step), FrameTimeModel::most_dt_s);
+    response.off = std::abs(before - exact_share(counted * response.count, FrameTimeModel::time_constant_s));
+    return response;
+}
+
+constexpr std::array frame_steps{1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.05, 0.1, 1.0, 10.0};
+
+StabilityResult load_responses(const StabilityOptions&) {
     double off = 0.0;
     double back = 0.0;
-    for (const double dt : {1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.05, 0.1, 1.0, 10.0}) {
-        FrameTimeModel model = model_of(1);
-        (void)model.observe(0, usual_work, 10.0, at_seconds(0.0));
-        const int count = steps_in(0.2, dt);
-        double before = 0.0;
-        for (int k = 1; k <= count; ++k) {
-            (void)model.observe(0, usual_work, 20.0, MonotonicTime(k * Nanoseconds(std::llround(dt * 1e9))));
-            const double now = std::log2(model.expected_ms(0) / 10.0);
-            back = std::fmax(back, std::fmax(before - now, now - 1.0));
-            before = now;
-        }
-        // A step counts for as long as it was, and at most_dt_s at most.
-        const double counted =
-            std::fmin(to_seconds(Nanoseconds(std::llround(dt * 1e9))), FrameTimeModel::most_dt_s);
-        off =
-            std::fmax(off, std::abs(before - exact_share(counted * count, FrameTimeModel::time_constant_s)) /
-                               (4.0 + count));
+    for (const double dt : frame_steps) {
+        const LoadResponse response = load_response(dt);
+        off = std::fmax(off, response.off / (4.0 + response.count));
+        back = std::fmax(back, response.back);
     }
     return {{{"steps of 1 us to 10 s: off the exact response, of each step", 8 * eps, off},
              {"back, or beyond the goal", 8 * eps, back}}};
@@ -215,7 +227,7 @@ StabilityResult garbage(const StabilityOptions&) {
 
 } // namespace
 
-std::vector<StepError> step_errors() {
+std::vector<StepError> smoother_step_errors() {
     std::vector<StepError> errors;
     struct Method {
         std::string name;
@@ -237,13 +249,21 @@ std::vector<StepError> step_errors() {
     return errors;
 }
 
+std::vector<StepError> frame_time_step_errors() {
+    std::vector<StepError> errors;
+    for (const double dt : frame_steps) {
+        errors.push_back({"load of frame times, of 1", dt, load_response(dt).off});
+    }
+    return errors;
+}
+
 std::vector<StabilityCase> smoother_cases() {
     const std::string theme = "smoother";
     return {{theme, "closed form, time constants 1 us to 1e3 s, steps 1 us to 10 s", FloatingPoint::Strict,
              closed_form},
             {theme, "step response, the same", FloatingPoint::Strict, step_response},
             {theme, "goals that jump, the same", FloatingPoint::Strict, no_overshoot},
-            {theme, "frame times: the load doubles", FloatingPoint::Strict, load_response},
+            {theme, "frame times: the load doubles", FloatingPoint::Strict, load_responses},
             {theme, "frame times: a rung was measured wrong", FloatingPoint::Strict, rung_response},
             {theme, "frame times: garbage", FloatingPoint::Free, garbage}};
 }

@@ -53,12 +53,16 @@ struct StabilityCase {
 /// Measures; of a strict case, the last row counts the kinds of floating-point exceptions that were raised.
 [[nodiscard]] StabilityResult measure(const StabilityCase& which, const StabilityOptions& options);
 
-/// How far a smoother is from the exact solution, for each of several ways to step it.
+/// How far something that moves in time is from its exact solution, stepped so.
 struct StepError {
-    std::string method;
-    double step_per_time_constant = 0.0;
-    double error = 0.0; ///< of the step response over one time constant (one step, if that is longer), of 1
+    std::string what;  ///< with the error's unit
+    double step = 0.0; ///< of smoothers: / time constant; else seconds
+    double error = 0.0;
 };
-[[nodiscard]] std::vector<StepError> step_errors();
+/// The step response of a first-order smoother over one time constant (one step, if that is longer), as the
+/// program steps it and by the textbook's other ways.
+[[nodiscard]] std::vector<StepError> smoother_step_errors();
+/// The program's own dynamics at their own time constants.
+[[nodiscard]] std::vector<StepError> program_step_errors();
 
 } // namespace frustumscreen

@@ -18,4 +18,9 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> fade_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 
+/// Parts of program_step_errors.
+[[nodiscard]] std::vector<StepError> frame_time_step_errors();
+[[nodiscard]] std::vector<StepError> governor_step_errors();
+[[nodiscard]] std::vector<StepError> fade_step_errors();
+
 } // namespace frustumscreen
