@@ -52,7 +52,7 @@ double darkest_sine(std::size_t face) {
     exact::Stage stage = usual_stage();
     const SeenArtifact artifact = seen_artifact(stage);
     const PropFace& f = stage.prop.faces[face];
-    const glm::dvec3 centre(0.0, 0.0, 0.5 * seen_box_size.z * artifact.metres_per_box);
+    const glm::dvec3 centre(0.0, 0.0, 0.5 * seen_box_size.z * artifact.placed.metres_per_box);
     const glm::dvec3 foot = centre - f.plane.distance(centre) * f.plane.normal;
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     const Box box{{-0.08, -0.08, 0.0}, {0.08, 0.08, 0.12}};

@@ -163,7 +163,7 @@ StabilityResult captions(const StabilityOptions&) {
 std::vector<StepError> fade_step_errors() {
     std::vector<StepError> errors;
     for (const double step : fade_steps) {
-        errors.push_back({"an artifact's fade, jump of 1", step, exhibit_jump(step)});
+        errors.push_back({"jump in a fade, of 1", step, exhibit_jump(step)});
     }
     return errors;
 }

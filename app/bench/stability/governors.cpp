@@ -183,8 +183,7 @@ StabilityResult deadlines(const StabilityOptions&) {
 std::vector<StepError> governor_step_errors() {
     std::vector<StepError> errors;
     for (const double step : relief_steps) {
-        errors.push_back(
-            {"relief of the governor, s late", step, std::fmax(0.0, relieved_after(step) - exact_relief())});
+        errors.push_back({"late relief, s", step, std::fmax(0.0, relieved_after(step) - exact_relief())});
     }
     return errors;
 }

@@ -1,6 +1,7 @@
 #include "app/bench/stability/picture.h"
 
 #include "app/geometry/collineation.h"
+#include "app/pack/pack_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,8 @@ class Scatter {
 public:
     Scatter(const exact::Stage& stage, SeenArtifact& artifact)
         : artifact_(artifact), eye_(stage.table_from_prop.inverse().point(stage.eye_m)),
-          extent_(seen_box_size * artifact.metres_per_box), low_(-0.5 * extent_.x, -0.5 * extent_.y, 0.0) {}
+          extent_(seen_box_size * artifact.placed.metres_per_box),
+          low_(-0.5 * extent_.x, -0.5 * extent_.y, 0.0) {}
 
     void anywhere() { add(low_ + glm::dvec3(share(), share(), share()) * extent_, usual_size); }
     /// Where the eye looks through `face`, from right behind it to the far end of the box.
@@ -129,7 +131,7 @@ public:
         if (found != plan.faces.end()) {
             planned_ = &*found;
         }
-        const glm::dvec3 extent = seen_box_size * artifact.metres_per_box;
+        const glm::dvec3 extent = artifact.placed.box_size * artifact.placed.metres_per_box;
         const RigidTransform projector_from_prop =
             stage.table_from_projector.inverse() * stage.table_from_prop;
         collineation_ = collineation(
@@ -142,7 +144,8 @@ public:
     void check() {
         const exact::Vector eye = stage_.eye_in_prop();
         const exact::Vector lens = stage_.lens_in_prop();
-        const exact::Vector centre{0, 0, 0.5L * seen_box_size.z * artifact_.metres_per_box};
+        const exact::Vector centre{0, 0,
+                                   0.5L * artifact_.placed.box_size.z * artifact_.placed.metres_per_box};
         const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
         const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
@@ -237,14 +240,15 @@ exact::Stage usual_stage() {
 
 exact::Vector SeenArtifact::corner(std::uint32_t index) const {
     const auto& p = level.vertices[index].position;
-    const exact::Real scale = metres_per_box;
-    return {scale * seen_box_size.x * (p[0] / 65535.0L - 0.5L),
-            scale * seen_box_size.y * (p[1] / 65535.0L - 0.5L), scale * seen_box_size.z * (p[2] / 65535.0L)};
+    const exact::Real scale = placed.metres_per_box;
+    const glm::dvec3& size = placed.box_size;
+    return {scale * size.x * (p[0] / 65535.0L - 0.5L), scale * size.y * (p[1] / 65535.0L - 0.5L),
+            scale * size.z * (p[2] / 65535.0L)};
 }
 
 SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metres_per_box) {
     SeenArtifact artifact;
-    artifact.metres_per_box = metres_per_box;
+    artifact.placed.metres_per_box = metres_per_box;
     Scatter scatter(stage, artifact);
     std::vector<const PropFace*> seen;
     for (const PropFace& face : stage.prop.faces) {
@@ -263,6 +267,11 @@ SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metr
     artifact.placed = {std::make_shared<LevelTriangles>(triangles_of(artifact.level, seen_box_size)),
                        seen_box_size, metres_per_box, 1, 4};
     return artifact;
+}
+
+SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level) {
+    return {pack.levels[level],
+            frustumscreen::placed(pack, level, place(pack, stage.prop).metres_per_box, level)};
 }
 
 FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {

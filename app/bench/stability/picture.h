@@ -23,12 +23,13 @@ namespace frustumscreen {
 struct SeenArtifact {
     PackLevel level;
     PlacedLevel placed;
-    double metres_per_box = 0.16;
     [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
 };
 inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the usual prop's
 [[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
                                          double metres_per_box = 0.16);
+/// A level of a pack, placed in the stage's prop.
+[[nodiscard]] SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level);
 
 [[nodiscard]] FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
 

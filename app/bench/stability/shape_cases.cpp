@@ -1,10 +1,9 @@
 // Shapes at the edge of being none: slivers, coplanar duplicates, a rod and a sheet, one triangle, nothing.
 
-#include "app/bench/stability/exact.h"
+#include "app/bench/stability/picture.h"
 #include "app/bench/stability/shapes.h"
 #include "app/bench/stability/themes.h"
 #include "app/pack/pack_file.h"
-#include "app/scene/frame_plan.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/level.h"
 
@@ -35,32 +34,23 @@ void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
     result.rows.push_back(
         {"pack not written or not verified", 0.0, bytes && verify_pack(*bytes) ? 0.0 : 1.0});
     double not_finite = 0.0;
-    double planned = 0.0;
-    const PropShape prop = make_prop({});
-    const double metres = place(*pack, prop).metres_per_box;
+    PictureFigures picture;
     for (std::uint32_t level = 0; level < pack->levels.size(); ++level) {
         const LevelError& error = pack->levels[level].error;
         for (const float figure : {error.mean_box, error.p95_box, error.max_box, error.colour_rmse}) {
             not_finite += std::isfinite(figure) ? 0.0 : 1.0;
         }
-        const PlacedLevel artifact = placed(*pack, level, metres, 1);
-        const glm::dvec3 eye(0.1, -0.55, 0.5);
-        PlanView view;
-        view.projector = {1280, 800, 1920.0, 1920.0, 640.0, 400.0};
-        view.table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}};
-        view.eyes_m = {&eye, 1};
-        FramePlan plan = make_plan(prop, artifact);
-        plan_frame(prop, artifact, view, plan);
-        planned += static_cast<double>(plan.faces.size());
-        for (const FacePlan& face : plan.faces) {
-            for (int column = 0; column < 4; ++column) {
-                const glm::vec4 c = face.clip_from_unit[column];
-                not_finite += std::isfinite(c.x + c.y + c.z + c.w) ? 0.0 : 1.0;
-            }
+        for (const glm::dvec3& eye : {glm::dvec3(0.1, -0.55, 0.5), glm::dvec3(-0.5, 0.3, 0.2)}) {
+            exact::Stage stage = usual_stage();
+            stage.eye_m = eye;
+            const SeenArtifact artifact = seen_level(stage, *pack, level);
+            picture.include(figures_of(stage, artifact, plan_of(stage, artifact)));
         }
     }
-    result.rows.push_back({"numbers of pack and plan that are not finite", 0.0, not_finite});
-    result.rows.push_back({"levels that show on no face", 0.0, planned > 0.0 ? 0.0 : 1.0});
+    result.rows.push_back({"error figures that are not finite", 0.0, not_finite});
+    for (StabilityRow& row : rows_of(picture, "", bound_px / 0.1, gpu_bound_px / 0.1, 1.0)) {
+        result.rows.push_back(std::move(row));
+    }
 }
 
 /// Largest distance of the finest level's corners from a box that stands on z = 0, box units.

@@ -252,7 +252,7 @@ std::vector<StepError> smoother_step_errors() {
 std::vector<StepError> frame_time_step_errors() {
     std::vector<StepError> errors;
     for (const double dt : frame_steps) {
-        errors.push_back({"load of frame times, of 1", dt, load_response(dt).off});
+        errors.push_back({"modelled load, of 1", dt, load_response(dt).off});
     }
     return errors;
 }

@@ -2,6 +2,7 @@
 // recordings.
 
 #include "app/bench/stability/themes.h"
+#include "app/settings/settings.h"
 #include "app/tracking/pose_frames.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/file.h"
@@ -227,6 +228,22 @@ StabilityResult recordings(const StabilityOptions& options) {
     return result;
 }
 
+/// A panel's script that repeats without end in a frame is refused.
+StabilityResult scripts(const StabilityOptions&) {
+    double wrong = 0.0;
+    for (const std::string repeat : {"1e-9", "1e-6", "0.01", "-1.0", "nan", "inf"}) {
+        wrong +=
+            parse_settings("[panel]\nrepeat_s = " + repeat + "\n[[panel.script]]\nat_s = 0.0\nbutton = 1\n",
+                           "kiosk.toml")
+                ? 1.0
+                : 0.0;
+    }
+    const auto usual =
+        parse_settings("[panel]\nrepeat_s = 2.0\n[[panel.script]]\nat_s = 0.5\nbutton = 1\n", "kiosk.toml");
+    wrong += usual ? 0.0 : 1.0;
+    return {{{"repeated every 1 ns to 10 ms, taken, or a usual one refused", 0.0, wrong}}};
+}
+
 } // namespace
 
 std::vector<StabilityCase> time_cases() {
@@ -235,6 +252,7 @@ std::vector<StabilityCase> time_cases() {
             {theme, "replayed recordings", FloatingPoint::Strict, replays},
             {theme, "the simulated visitor", FloatingPoint::Strict, simulated},
             {theme, "pose files out of order", FloatingPoint::Strict, frames},
+            {theme, "a panel's script", FloatingPoint::Free, scripts},
             {theme, "real recordings", FloatingPoint::Strict, recordings}};
 }
 
