@@ -93,12 +93,14 @@ void check_devices(const Settings& settings, Fitness& fitness) {
         std::is_sorted(script.begin(), script.end(),
                        [](const ScriptedPress& a, const ScriptedPress& b) { return a.at_s < b.at_s; }),
         "panel.script", "goes back in time; sort it by at_s");
-    const double least_s = std::fmax(script.empty() ? 0.0 : script.back().at_s, least_repeat_s);
-    fitness.require(script.empty() || settings.panel.repeat_s == 0.0 || settings.panel.repeat_s > least_s,
-                    "panel.repeat_s",
-                    fmt::format("is {}; allowed are 0 (once) and times after the last press and {} seconds: "
-                                "more than {}",
-                                settings.panel.repeat_s, least_repeat_s, least_s));
+    const double last_s = script.empty() ? 0.0 : script.back().at_s;
+    fitness.require(
+        script.empty() || settings.panel.repeat_s == 0.0 ||
+            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= least_repeat_s),
+        "panel.repeat_s",
+        fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds, of at "
+                    "least {} seconds",
+                    settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
 } // namespace

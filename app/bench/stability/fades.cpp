@@ -1,6 +1,7 @@
 // Fades: of artifacts, captions, levels. Closed forms of time; what is measured is that nothing jumps, that
 // no step matters, and that a fade may turn round at any moment.
 
+#include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/exhibit.h"
@@ -23,9 +24,9 @@ constexpr double steepest = 1.5; ///< of ease
 StabilityResult closed_forms(const StabilityOptions&) {
     double off = 0.0;
     double falling = 0.0;
-    for (double length = 1e-6; length < 2e3; length *= 10.0) {
+    for (const double length : sweep(1e-6, 1e3, 1)) {
         double before = 0.0;
-        for (double t = 1e-6; t < 20.0; t *= 1.05) {
+        for (const double t : sweep(1e-6, 10.0, 50)) {
             const double value = ease(ramp(t, length));
             const long double x = std::min(1.0L, static_cast<long double>(t) / length);
             const long double exact = x * x * (3.0L - 2.0L * x);
@@ -162,6 +163,7 @@ StabilityResult captions(const StabilityOptions&) {
 
 std::vector<StepError> fade_step_errors() {
     std::vector<StepError> errors;
+    errors.reserve(fade_steps.size());
     for (const double step : fade_steps) {
         errors.push_back({"jump in a fade, of 1", step, exhibit_jump(step)});
     }

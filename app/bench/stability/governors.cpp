@@ -1,5 +1,6 @@
 // The governor in a closed loop with a GPU that is simulated without noise, at steps of 1 us to 10 s.
 
+#include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
 #include "app/scene/governor.h"
 
@@ -83,7 +84,7 @@ StabilityResult constant_loads(const StabilityOptions&) {
     double wrong = 0.0;
     double most_changes = 0.0;
     double late_changes = 0.0;
-    for (double load = 0.1; load < 200.0; load *= 1.1) {
+    for (const double load : sweep(0.1, 200.0, 24)) {
         for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0, 10.0}) {
             Governor governor = gpu.governor();
             std::uint64_t early = 0;
@@ -113,7 +114,7 @@ StabilityResult jumping_loads(const StabilityOptions&) {
     double shortest_s = std::numeric_limits<double>::infinity();
     double most_per_s = 0.0;
     for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0}) {
-        for (double period = 1e-3; period < 1e3; period *= 3.0) {
+        for (const double period : sweep(1e-3, 1e3, 2)) {
             Governor governor = gpu.governor();
             double changed = -1e9;
             std::uint64_t before = 0;
@@ -182,6 +183,7 @@ StabilityResult deadlines(const StabilityOptions&) {
 
 std::vector<StepError> governor_step_errors() {
     std::vector<StepError> errors;
+    errors.reserve(relief_steps.size());
     for (const double step : relief_steps) {
         errors.push_back({"late relief, s", step, std::fmax(0.0, relieved_after(step) - exact_relief())});
     }

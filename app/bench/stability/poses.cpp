@@ -72,6 +72,7 @@ StabilityResult into_the_tracker(const StabilityOptions&) {
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
     const RigidTransform before = tracker.at({}).table_from_prop;
     std::vector<PoseSample> bad;
+    bad.reserve(no_rotations.size() + 9);
     for (const glm::dquat& q : no_rotations) {
         bad.push_back(sample_of(q, 1000));
     }
@@ -106,7 +107,7 @@ StabilityResult from_a_file(const StabilityOptions&) {
     for (const std::string numbers :
          {"0,0,0,0,0,0,0", "0,0,0,nan,0,0,1", "0,0,0,inf,0,0,0", "nan,0,0,1,0,0,0", "0,inf,0,1,0,0,0",
           "0,0,0,1e-7,0,0,0", "0,1e30,0,1,0,0,0"}) {
-        taken += parse_poses(header + "0,1," + numbers + ",1\n", "poses.csv") ? 1.0 : 0.0;
+        taken += parse_poses(fmt::format("{}0,1,{},1\n", header, numbers), "poses.csv") ? 1.0 : 0.0;
     }
     return {{{"length 1e-5 to 1e150: a unit point off", 16 * 0x1p-53, off},
              {"rows that are no pose, taken", 0.0, taken}}};

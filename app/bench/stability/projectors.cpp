@@ -93,8 +93,9 @@ StabilityResult light(const StabilityOptions&) {
             const FaceLight planned =
                 face_light(face.plane, stage.projector, projector_from_prop.matrix(), reference, {});
             for (int j = 0; j < 100; ++j) {
+                const int row = j / 10;
                 const double a = (j % 10 + 0.5) / 10.0;
-                const double b = (j / 10 + 0.5) / 10.0;
+                const double b = (row + 0.5) / 10.0;
                 const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
                                               glm::mix(face.corners[3], face.corners[2], a), b);
                 const exact::Vector q = exact::Rigid(stage.table_from_projector).inverse_point(exact::of(s));
@@ -116,7 +117,8 @@ StabilityResult coming_in_sight(const StabilityOptions&) {
     double most = 0.0;
     constexpr double step_deg = 1e-3;
     double before = -1.0;
-    for (double degrees = -0.5; degrees <= 12.0; degrees += step_deg) {
+    for (int k = 0; k <= 12'500; ++k) {
+        const double degrees = -0.5 + step_deg * k;
         const glm::dvec3 n = prop.faces[0].plane.normal;
         const glm::dvec3 along = glm::normalize(glm::dvec3(-n.z, 0.0, n.x)); // up the face
         const glm::dvec3 lens = middle_of(prop.faces[0]) +

@@ -1,5 +1,6 @@
 // First-order followers: the closed form itself, and the model of frame times that is made of it.
 
+#include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
 #include "app/geometry/time_curves.h"
 #include "app/scene/frame_time_model.h"
@@ -19,16 +20,6 @@ namespace {
 
 constexpr double eps = 0x1p-52;
 
-/// 1 us to 1e3 s and 1 us to 10 s, ten a decade.
-std::vector<double> decades(double low, double high) {
-    std::vector<double> values;
-    const auto count = static_cast<int>(std::lround(10.0 * std::log10(high / low)));
-    for (int k = 0; k <= count; ++k) {
-        values.push_back(low * std::pow(10.0, 0.1 * k));
-    }
-    return values;
-}
-
 double exact_share(double dt, double time_constant) {
     return static_cast<double>(-std::expm1(-static_cast<long double>(dt) / time_constant));
 }
@@ -37,9 +28,9 @@ StabilityResult closed_form(const StabilityOptions&) {
     double off = 0.0;
     double outside = 0.0;
     double falling = 0.0;
-    for (const double tau : decades(1e-6, 1e3)) {
+    for (const double tau : sweep(1e-6, 1e3, 10)) {
         double before = 0.0;
-        for (const double dt : decades(1e-6, 10.0)) {
+        for (const double dt : sweep(1e-6, 10.0, 10)) {
             const double share = follow_share(dt, tau);
             off = std::fmax(off, std::abs(share / exact_share(dt, tau) - 1.0));
             outside += share >= 0.0 && share <= 1.0 ? 0.0 : 1.0;
@@ -70,8 +61,8 @@ int steps_in(double time, double step) {
 
 StabilityResult step_response(const StabilityOptions&) {
     double off_per_step = 0.0;
-    for (double tau = 1e-6; tau < 2e3; tau *= 10.0) {
-        for (double dt = 1e-6; dt < 20.0; dt *= 10.0) {
+    for (const double tau : sweep(1e-6, 1e3, 1)) {
+        for (const double dt : sweep(1e-6, 10.0, 1)) {
             const int count = steps_in(tau, dt);
             const double exact = exact_share(dt * count, tau);
             off_per_step = std::fmax(off_per_step, std::abs(stepped(dt, tau, count) - exact) / count);
@@ -85,8 +76,8 @@ StabilityResult no_overshoot(const StabilityOptions&) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> goal(-1.0, 1.0);
     double beyond = 0.0;
-    for (double tau = 1e-6; tau < 2e3; tau *= 10.0) {
-        for (double dt = 1e-6; dt < 20.0; dt *= 10.0) {
+    for (const double tau : sweep(1e-6, 1e3, 1)) {
+        for (const double dt : sweep(1e-6, 10.0, 1)) {
             double x = 0.0;
             for (int k = 0; k < 1000; ++k) {
                 const double to = k % 2 == 0 ? std::copysign(1.0, goal(random)) : goal(random);
@@ -237,7 +228,7 @@ std::vector<StepError> smoother_step_errors() {
                              Method{"implicit Euler", [](double h) { return h / (1.0 + h); }},
                              Method{"explicit Euler", [](double h) { return h; }}};
     for (const Method& method : methods) {
-        for (double h = 1e-5; h < 2e7; h *= std::sqrt(10.0)) {
+        for (const double h : sweep(1e-5, 1e7, 2)) {
             const int count = steps_in(1.0, h);
             double x = 0.0;
             for (int k = 0; k < count; ++k) {
@@ -251,6 +242,7 @@ std::vector<StepError> smoother_step_errors() {
 
 std::vector<StepError> frame_time_step_errors() {
     std::vector<StepError> errors;
+    errors.reserve(frame_steps.size());
     for (const double dt : frame_steps) {
         errors.push_back({"modelled load, of 1", dt, load_response(dt).off});
     }

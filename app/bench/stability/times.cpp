@@ -151,7 +151,8 @@ StabilityResult simulated(const StabilityOptions&) {
 StabilityResult frames(const StabilityOptions&) {
     std::vector<PoseSample> rows;
     for (int k = 0; k < 2000; ++k) {
-        rows.push_back(sample_at(from_microseconds(1000 * (k / 2)), k / 2));
+        const int frame = k / 2;
+        rows.push_back(sample_at(from_microseconds(std::int64_t{1000} * frame), frame));
         rows.back().station = k % 2 == 0 ? prop_station : head_station;
     }
     const std::vector<Situation> sorted = pose_frames(rows, glm::dvec3(0.0));
