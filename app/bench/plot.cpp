@@ -119,7 +119,8 @@ private:
     double high_ = -std::numeric_limits<double>::infinity();
 };
 
-std::string number(double value) {
+/// Of an axis: next to 0 counts as 0 where steps are added up, not where they are multiplied.
+std::string number(double value, bool logarithmic) {
     const double size = std::abs(value);
     if (size >= 1e6) {
         return fmt::format("{:g}M", value / 1e6);
@@ -127,7 +128,7 @@ std::string number(double value) {
     if (size >= 1e4) {
         return fmt::format("{:g}k", value / 1e3);
     }
-    return fmt::format("{:g}", size < 1e-12 ? 0.0 : value);
+    return fmt::format("{:g}", !logarithmic && size < 1e-12 ? 0.0 : value);
 }
 
 /// Draws one plot into a group of its own; keeps the boxes of what is written, so that nothing is written
@@ -188,12 +189,12 @@ private:
         for (const double tick : x_.ticks()) {
             const double x = area_.x + x_.place(tick) * area_.width;
             line({x, area_.y}, {x, bottom}, "stroke=\"#e3e3e3\"");
-            text(x, bottom + 18.0, "middle", number(tick));
+            text(x, bottom + 18.0, "middle", number(tick, plot_.log_x));
         }
         for (const double tick : y_.ticks()) {
             const double y = area_.y + (1.0 - y_.place(tick)) * area_.height;
             line({area_.x, y}, {area_.x + area_.width, y}, "stroke=\"#e3e3e3\"");
-            text(area_.x - 8.0, y + 4.0, "end", number(tick));
+            text(area_.x - 8.0, y + 4.0, "end", number(tick, plot_.log_y));
         }
         out_ +=
             fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "

@@ -1,5 +1,7 @@
 #include "app/exhibit/captions.h"
 
+#include "app/geometry/time_curves.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +22,6 @@ constexpr Nanoseconds between_searches = std::chrono::milliseconds(200);
 constexpr double cost_of_being_hidden = 1.0;
 constexpr double cost_of_later_shape = 0.15;
 constexpr double cost_of_each_metre_too_close = 4.0;
-
-double ease(double x) {
-    x = std::clamp(x, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;

@@ -1,17 +1,13 @@
 #include "app/exhibit/exhibit.h"
 
+#include "app/geometry/time_curves.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
 
 namespace {
-
-/// Symmetric ease: ease(1 - x) = 1 - ease(x), which is what lets a fade turn round without a jump.
-double ease(double x) {
-    x = std::clamp(x, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
 
 std::string_view primary(std::string_view tag) {
     return tag.substr(0, tag.find('-'));

@@ -34,14 +34,21 @@ struct Box {
     glm::dvec3 high{0.0};
 };
 
+/// Sine of the elevation above a face, of the eye or of the projector, below which the face is left dark:
+/// 0.057 degrees. Seen so, a face 0.16 m wide is 1.6 minutes of arc across from 0.35 m, what good eyes just
+/// resolve; lit so, one pixel of 0.6 mm is smeared over 0.6 m. And the picture's condition is 1 / sine: at
+/// this limit clip w spans three decades of the 32-bit matrix's seven, below it the GPU's rounding would
+/// show.
+inline constexpr double least_sine = 1e-3;
+
 /// Clip coordinates (OpenGL) of points X as they must be drawn on `plane` for the eye; the depth row is
 /// fitted so that the part of `box` in front of the eye's own plane fills the depth range. Scaled so that w
 /// is about 1.
 ///
-/// Nothing is returned if the eye is not above the plane by at least `least_eye_height` times its distance
-/// from the box's centre (the face is left dark: seen at less than that sine, it carries no picture).
+/// Nothing is returned if the eye is not above the plane by `least_sine` times its distance from the box's
+/// centre.
 [[nodiscard]] std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
                                                      const glm::dmat4& projector_clip_from_frame,
-                                                     const Box& box, double least_eye_height = 1e-3);
+                                                     const Box& box);
 
 } // namespace frustumscreen

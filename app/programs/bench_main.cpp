@@ -3,6 +3,7 @@
 #include "app/programs/bench_projection.h"
 #include "app/programs/bench_scaling.h"
 #include "app/programs/bench_shimmer.h"
+#include "app/programs/bench_stability.h"
 #include "app/programs/guarded_main.h"
 
 #include <fmt/format.h>
@@ -15,12 +16,12 @@ namespace {
 
 int run(int argc, char** argv) {
     CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
-                 " shimmer.",
+                 " shimmer, numerical stability.",
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
     const std::array commands = {error_time_command(app), scaling_command(app), projection_command(app),
-                                 shimmer_command(app)};
+                                 shimmer_command(app), stability_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,5 +1,6 @@
 #include "app/programs/run_levels.h"
 
+#include "app/geometry/time_curves.h"
 #include "app/programs/offline_render.h"
 #include "app/render/read_back.h"
 
@@ -119,7 +120,7 @@ void RunLevels::enter(MonotonicTime now, double load) {
 
 DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, PlanView view, const CaptionGpu* caption,
                            Renderer& renderer, const RenderTarget& target, Redraw redraw) {
-    const double share = coming_ ? to_seconds(now - fade_start_) / level_fade_s : 0.0;
+    const double share = coming_ ? ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
     if (share >= 1.0) {
         shown_ = *coming_;
         coming_.reset();

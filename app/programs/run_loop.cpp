@@ -127,7 +127,7 @@ private:
         result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
         result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
         for (const PoseSample& sample : samples_) {
-            situation_.take(sample);
+            result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
         }
         for (const PanelEvent& event : events_) {
             if (const std::optional<Wish> wish = wish_of(event.button)) {

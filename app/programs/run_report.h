@@ -65,7 +65,7 @@ struct RunStatus {
     std::uint64_t drawn = 0;
     std::uint64_t unchanged = 0;   ///< nothing had changed: nothing was drawn
     std::uint64_t late = 0;        ///< display times that passed without a new frame
-    std::uint64_t bad_samples = 0; ///< polls that the tracker or the panel answered with an error
+    std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
     double resident_mib = 0.0;
     bool prop_known = false;

@@ -255,7 +255,9 @@ double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
 bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePlan& face_plan) {
     const PropFace& face = shared.prop.faces[index];
     const glm::dvec3 eye = shared.eye(index);
-    if (!(face.plane.distance(shared.projector_in_prop) > 0.0)) {
+    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
+    if (!(face.plane.distance(shared.projector_in_prop) >
+          least_sine * glm::distance(shared.projector_in_prop, middle))) {
         return false;
     }
     const std::optional<glm::dmat4> clip = collineation(face.plane, eye, shared.clip_from_prop, shared.box);

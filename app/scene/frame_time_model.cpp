@@ -1,5 +1,7 @@
 #include "app/scene/frame_time_model.h"
 
+#include "app/geometry/time_curves.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -94,7 +96,7 @@ bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms,
     last_time_ = now;
     const double triangles = relative(work.triangles, r.start.work.triangles);
     const double pixels = relative(work.pixels, r.start.work.pixels);
-    const double weight = -std::expm1(-dt / time_constant_s);
+    const double weight = follow_share(dt, time_constant_s);
     triangles_ += weight * (triangles - triangles_);
     pixels_ += weight * (pixels - pixels_);
     if (!std::isfinite(r.start.ms)) { // never measured before: this is its start
@@ -106,7 +108,7 @@ bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms,
     if (learned_s_ < learning_s) {
         r.log_own = bounded(r.log_own + weight * surprise);
     } else {
-        const double forgotten = -std::expm1(-dt / forgetting_s) * r.log_own;
+        const double forgotten = follow_share(dt, forgetting_s) * r.log_own;
         r.log_own -= forgotten;
         log_load_ = bounded(log_load_ + forgotten + weight * surprise);
     }

@@ -1,5 +1,7 @@
 #include "app/scene/light.h"
 
+#include "app/geometry/time_curves.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +15,7 @@ constexpr double full_sine = 0.2;
 
 double by_degrees(const Plane& face, const glm::dvec3& centre, const glm::dvec3& from) {
     const double sine = face.distance(from) / glm::distance(from, centre);
-    const double t = std::clamp(sine / full_sine, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
+    return ease(sine / full_sine);
 }
 
 glm::dvec3 centre_of(const PropFace& face) {

@@ -15,6 +15,9 @@ namespace {
 constexpr double least_clearance_m = 0.1;
 /// The projector looks down: the sine of its axis below the horizon is at least this (30 degrees).
 constexpr double least_downward = 0.5;
+/// A script that repeats faster presses more often than anybody could, and a microsecond's would press
+/// without end.
+constexpr double least_repeat_s = 0.05;
 
 bool inside(const PropShape& prop, const glm::dvec3& p) {
     return std::all_of(prop.bounds.begin(), prop.bounds.end(),
@@ -90,11 +93,14 @@ void check_devices(const Settings& settings, Fitness& fitness) {
         std::is_sorted(script.begin(), script.end(),
                        [](const ScriptedPress& a, const ScriptedPress& b) { return a.at_s < b.at_s; }),
         "panel.script", "goes back in time; sort it by at_s");
-    fitness.require(script.empty() || settings.panel.repeat_s == 0.0 ||
-                        settings.panel.repeat_s > script.back().at_s,
-                    "panel.repeat_s",
-                    fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds",
-                                settings.panel.repeat_s, script.empty() ? 0.0 : script.back().at_s));
+    const double last_s = script.empty() ? 0.0 : script.back().at_s;
+    fitness.require(
+        script.empty() || settings.panel.repeat_s == 0.0 ||
+            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= least_repeat_s),
+        "panel.repeat_s",
+        fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds, of at "
+                    "least {} seconds",
+                    settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
 } // namespace

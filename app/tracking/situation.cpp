@@ -1,20 +1,27 @@
 #include "app/tracking/situation.h"
 
+#include <cmath>
+
 namespace frustumscreen {
 
 SituationTracker::SituationTracker(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
                                    const SituationLimits& limits)
     : table_from_device_(table_from_device), default_eye_m_(default_eye_m), limits_(limits) {}
 
-void SituationTracker::take(const PoseSample& sample) {
+bool SituationTracker::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
-        return;
+        return true;
+    }
+    const std::optional<glm::dquat> rotation = normalised(sample.rotation);
+    const glm::dvec3& p = sample.position_m;
+    if (!rotation || !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        return false;
     }
     std::optional<Latest>& latest = sample.station == prop_station ? prop_ : head_;
-    if (latest && sample.time < latest->time) {
-        return;
+    if (!latest || sample.time >= latest->time) {
+        latest = Latest{table_from_device_ * RigidTransform{*rotation, p}, sample.time};
     }
-    latest = Latest{table_from_device_ * RigidTransform{sample.rotation, sample.position_m}, sample.time};
+    return true;
 }
 
 Situation SituationTracker::at(MonotonicTime now) const {

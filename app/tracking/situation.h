@@ -35,8 +35,9 @@ public:
                      const SituationLimits& limits = {});
 
     /// Samples with ok = false, of other stations, or older than the last one of their station change
-    /// nothing.
-    void take(const PoseSample& sample);
+    /// nothing. Rotations of any length are made unit. False: a sample that claims to be usable and is no
+    /// pose (not finite, a quaternion of zero); it changes nothing either.
+    bool take(const PoseSample& sample);
     /// The latest pose, neither filtered nor predicted.
     [[nodiscard]] Situation at(MonotonicTime now) const;
 

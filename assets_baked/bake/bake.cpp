@@ -45,6 +45,9 @@ public:
     std::vector<Candidate> mesh_levels() {
         finest_ =
             welded_.triangle_count() > most_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
+        if (finest_.indices.empty()) {
+            finest_ = welded_; // all of it is thinner than the tolerance: a rod, a thread
+        }
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // nothing is seen from the zone: a sheet flat on the table

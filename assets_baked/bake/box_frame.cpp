@@ -89,6 +89,9 @@ Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up) {
     }
     BoxFrame frame;
     frame.file_units_per_box = longest;
+    frame.turned_from_file = *rotation;
+    frame.low = low;
+    frame.extent = size;
     frame.box_size = glm::max(size / longest, glm::dvec3(1e-6));
     const glm::dvec3 foot((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
     frame.box_from_file = glm::dmat4(*rotation / longest);
@@ -97,14 +100,13 @@ Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up) {
 }
 
 std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
-    // Subtract first, then scale: the same map as box_from_file, without its cancellation far from the
-    // origin.
-    const glm::dmat3 rotation = glm::dmat3(frame.box_from_file) * frame.file_units_per_box;
-    const glm::dvec3 foot = -glm::dvec3(frame.box_from_file[3]) * frame.file_units_per_box;
+    // The corner of the bounding box is subtracted first: that loses no digit, however far the origin is.
+    const glm::dvec3 half(0.5 * frame.extent.x / frame.file_units_per_box,
+                          0.5 * frame.extent.y / frame.file_units_per_box, 0.0);
     std::vector<glm::dvec3> points;
     points.reserve(mesh.positions.size());
     for (const glm::dvec3& p : mesh.positions) {
-        points.push_back((rotation * p - foot) / frame.file_units_per_box);
+        points.push_back((frame.turned_from_file * p - frame.low) / frame.file_units_per_box - half);
     }
     return points;
 }

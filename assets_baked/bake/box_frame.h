@@ -24,13 +24,17 @@ namespace frustumscreen {
 struct BoxFrame {
     glm::dmat4 box_from_file{1.0};
     glm::dvec3 box_size{1.0};
-    double file_units_per_box = 1.0; ///< length of the longest edge in the file's units
+    double file_units_per_box = 1.0;  ///< length of the longest edge in the file's units
+    glm::dmat3 turned_from_file{1.0}; ///< up axis to +Z
+    glm::dvec3 low{0.0};              ///< of the turned artifact's bounding box, file units
+    glm::dvec3 extent{1.0};           ///< of that box
 };
 
 /// Of the vertices that triangles use. Errors: every vertex at one point, or extents beyond 1e-30..1e30.
 [[nodiscard]] Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up);
 
-/// Positions in the box frame, one for each of the mesh's positions.
+/// Positions in the box frame, one for each of the mesh's positions: exact to rounding of the box's size,
+/// where box_from_file rounds at the artifact's distance from its origin.
 [[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame);
 
 /// The points that bound the largest scale inside any prop that is symmetric in X and Y with convex outline:

@@ -21,7 +21,21 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
     }
 }
 
+/// Whole rounds that would come at once, more than anybody could have seen, are left out.
+void ReplayTracker::pass_over_rounds(MonotonicTime now) {
+    constexpr auto most_at_once = static_cast<Nanoseconds::rep>(most_rounds_samples);
+    if (recording_.empty() || length_ <= Nanoseconds::zero()) {
+        return;
+    }
+    const Nanoseconds::rep rounds = (now - (recording_.front().time + shift_)) / length_;
+    if (rounds > 1 && rounds > most_at_once / static_cast<Nanoseconds::rep>(recording_.size())) {
+        shift_ += (rounds - 1) * length_;
+        next_ = 0;
+    }
+}
+
 Result<void> ReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
+    pass_over_rounds(now);
     while (next_ < recording_.size() && recording_[next_].time + shift_ <= now) {
         PoseSample sample = recording_[next_];
         sample.time += shift_;

@@ -1,7 +1,9 @@
 /// A tracker that replays poses, normally of a pose file, at the speed they were taken.
 ///
 /// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
-/// end. Threads  one caller.
+///          end. A poll so late that more than `most_rounds_samples` of repeated rounds are due leaves whole
+///          rounds out: a recording of microseconds would fill the memory.
+/// Threads  one caller.
 #pragma once
 
 #include "firmware_host/tracker/tracker.h"
@@ -12,6 +14,8 @@ namespace frustumscreen {
 
 class ReplayTracker final : public Tracker {
 public:
+    static constexpr std::size_t most_rounds_samples = 16384;
+
     /// Samples in any order; they are sorted by time.
     ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat);
 
@@ -19,6 +23,8 @@ public:
     [[nodiscard]] std::string name() const override { return "replay"; }
 
 private:
+    void pass_over_rounds(MonotonicTime now);
+
     std::vector<PoseSample> recording_;
     Nanoseconds shift_{0};  ///< from the recording's clock to ours
     Nanoseconds length_{0}; ///< of one round; 0 = played once

@@ -136,6 +136,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},
+        {"[panel]\nscript = [{at_s = 0}]\nrepeat_s = 1e-6",
+         {":3: panel.repeat_s is 1e-06", "at least 0.05 seconds"}},
         {"[exhibit]\nlanguage = \"e\"", {":2: exhibit.language", "\"de-CH\""}},
         {"[exhibit]\nlanguage = \"../etc\"", {":2: exhibit.language"}},
     });

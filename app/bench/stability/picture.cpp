@@ -1,0 +1,330 @@
+#include "app/bench/stability/picture.h"
+
+#include "app/geometry/collineation.h"
+#include "app/pack/pack_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uint32_t triangles_in_cluster = 64;
+
+/// Turns random numbers into triangles of a level, a cluster at a time.
+class Scatter {
+public:
+    Scatter(const exact::Stage& stage, SeenArtifact& artifact)
+        : artifact_(artifact), eye_(stage.table_from_prop.inverse().point(stage.eye_m)),
+          extent_(seen_box_size * artifact.placed.metres_per_box),
+          low_(-0.5 * extent_.x, -0.5 * extent_.y, 0.0) {}
+
+    void anywhere() { add(low_ + glm::dvec3(share(), share(), share()) * extent_, usual_size); }
+    /// Where the eye looks through `face`, from right behind it to the far end of the box.
+    void behind(const PropFace& face) {
+        const double a = share();
+        const double b = share();
+        const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
+                                      glm::mix(face.corners[3], face.corners[2], a), b);
+        const double depth = std::pow(10.0, -3.0 * share()); // of the box
+        // Small enough not to reach the eye's own height above the face.
+        const double size = 0.1 * face.plane.distance(eye_) / extent_.x;
+        add(s + glm::normalize(s - eye_) * (depth * extent_.x), std::fmin(usual_size, size));
+    }
+    void finish() {
+        PackLevel& level = artifact_.level;
+        for (std::uint32_t first = 0; first < level.indices.size(); first += 3 * triangles_in_cluster) {
+            PackCluster cluster;
+            cluster.first_index = first;
+            cluster.index_count =
+                std::min(3 * triangles_in_cluster, static_cast<std::uint32_t>(level.indices.size()) - first);
+            cluster.centre = {0.0F, 0.0F, 0.5F * static_cast<float>(seen_box_size.z)};
+            cluster.radius = static_cast<float>(glm::length(seen_box_size));
+            level.clusters.push_back(cluster);
+        }
+    }
+
+private:
+    static constexpr double usual_size = 0.004; ///< of the box
+    double share() { return spread_(random_); }
+
+    /// A triangle about `middle` that faces the eye; none outside the box.
+    void add(const glm::dvec3& middle, double box_size) {
+        const glm::dvec3 n = glm::normalize(eye_ - middle);
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(n, std::abs(n.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+        const glm::dvec3 v = glm::cross(n, u);
+        const double size = box_size * extent_.x;
+        const std::array<glm::dvec3, 3> corners{middle + size * u, middle + size * (v - u),
+                                                middle - size * (v + u)};
+        std::array<PackVertex, 3> vertices{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 unit = (corners[k] - low_) / extent_ * 65535.0;
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!(unit[axis] >= 0.0 && unit[axis] <= 65535.0)) {
+                    return;
+                }
+                vertices[k].position[static_cast<std::size_t>(axis)] =
+                    static_cast<std::uint16_t>(std::lround(unit[axis]));
+            }
+        }
+        for (const PackVertex& vertex : vertices) {
+            artifact_.level.indices.push_back(static_cast<std::uint32_t>(artifact_.level.vertices.size()));
+            artifact_.level.vertices.push_back(vertex);
+        }
+    }
+
+    SeenArtifact& artifact_;
+    glm::dvec3 eye_;
+    glm::dvec3 extent_;
+    glm::dvec3 low_;
+    std::mt19937 random_{11};
+    std::uniform_real_distribution<double> spread_{0.0, 1.0};
+};
+
+double pixel_distance(const glm::dvec4& clip, const exact::Seen& seen, const Pinhole& pinhole) {
+    const double u = (clip.x / clip.w + 1.0) / 2.0 * pinhole.width;
+    const double v = (clip.y / clip.w + 1.0) / 2.0 * pinhole.height;
+    return std::hypot(u - static_cast<double>(seen.u), v - static_cast<double>(seen.v));
+}
+
+bool lit_at(const FramePlan& plan, const exact::Seen& seen) {
+    const auto rectangles = plan.lit.rectangles();
+    const auto u = static_cast<int>(seen.u);
+    const auto v = static_cast<int>(seen.v);
+    return std::any_of(rectangles.begin(), rectangles.end(), [&](const PixelRectangle& r) {
+        return u >= r.x && v >= r.y && u <= r.x + r.width && v <= r.y + r.height;
+    });
+}
+
+double not_finite(const FramePlan& plan) {
+    double count = 0.0;
+    const auto add = [&count](double number) { count += std::isfinite(number) ? 0.0 : 1.0; };
+    for (const FacePlan& face : plan.faces) {
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row) {
+                add(static_cast<double>(face.clip_from_unit[column][row]));
+                add(static_cast<double>(face.corners_clip[static_cast<std::size_t>(column)][row]));
+            }
+        }
+        for (int k = 0; k < 3; ++k) {
+            add(static_cast<double>(face.light.inverse_depth[k]));
+        }
+        add(static_cast<double>(face.light.constant));
+        add(static_cast<double>(face.light.per_cubic_metre));
+        add(face.pixels_per_box);
+    }
+    return count;
+}
+
+/// One face of the plan, or of none.
+class FaceCheck {
+public:
+    FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
+              std::size_t face, PictureFigures& figures)
+        : stage_(stage), artifact_(artifact), plan_(plan), face_(stage.prop.faces[face]), figures_(figures) {
+        const auto found = std::find_if(plan.faces.begin(), plan.faces.end(), [face](const FacePlan& f) {
+            return f.face == static_cast<int>(face);
+        });
+        if (found != plan.faces.end()) {
+            planned_ = &*found;
+        }
+        const glm::dvec3 extent = artifact.placed.box_size * artifact.placed.metres_per_box;
+        const RigidTransform projector_from_prop =
+            stage.table_from_projector.inverse() * stage.table_from_prop;
+        collineation_ = collineation(
+            face_.plane, stage.table_from_prop.inverse().point(stage.eye_m),
+            stage.projector.clip_from_point() * projector_from_prop.matrix(),
+            {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}});
+    }
+
+    /// Sines of the eye, seen from the box's centre, and of the lens, seen from the face's middle.
+    void check() {
+        const exact::Vector eye = stage_.eye_in_prop();
+        const exact::Vector lens = stage_.lens_in_prop();
+        const exact::Vector centre{0, 0,
+                                   0.5L * artifact_.placed.box_size.z * artifact_.placed.metres_per_box};
+        const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
+        const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
+        const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
+        constexpr exact::Real hair = 1e-9L; // on the limit itself, both are right
+        if (eye_sine < least_sine - hair || lens_sine < least_sine - hair) {
+            figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
+            return;
+        }
+        if (eye_sine < least_sine + hair || lens_sine < least_sine + hair) {
+            return;
+        }
+        sort_shown();
+        constexpr std::size_t most_triangles = 50'000; // of more, a sample
+        const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * most_triangles) + 1);
+        for (std::size_t k = 0; k < artifact_.level.indices.size(); k += stride) {
+            triangle(
+                {artifact_.level.indices[k], artifact_.level.indices[k + 1], artifact_.level.indices[k + 2]});
+        }
+    }
+
+private:
+    using Corners = std::array<std::uint32_t, 3>;
+
+    void sort_shown() {
+        if (planned_ == nullptr) {
+            return;
+        }
+        const auto range = std::span(plan_.indices).subspan(planned_->shown.first, planned_->shown.count);
+        for (std::size_t k = 0; k < range.size(); k += 3) {
+            shown_.push_back({range[k], range[k + 1], range[k + 2]});
+        }
+        std::sort(shown_.begin(), shown_.end());
+    }
+
+    void triangle(const Corners& corners) {
+        const exact::Vector a = artifact_.corner(corners[0]);
+        const exact::Vector b = artifact_.corner(corners[1]);
+        const exact::Vector c = artifact_.corner(corners[2]);
+        const exact::Vector middle = (1.0L / 3.0L) * (a + b + c);
+        const std::optional<exact::Seen> seen = stage_.see(face_, middle);
+        const bool faces_eye = exact::dot(exact::cross(b - a, c - a), stage_.eye_in_prop() - middle) > 0;
+        if (!seen || !seen->on_face || !seen->in_picture || !faces_eye) {
+            return;
+        }
+        figures_.points += 1.0;
+        figures_.unlit += lit_at(plan_, *seen) ? 0.0 : 1.0;
+        if (planned_ == nullptr || !collineation_ ||
+            !std::binary_search(shown_.begin(), shown_.end(), corners)) {
+            figures_.missing += 1.0;
+            return;
+        }
+        compare(corners[0]);
+    }
+
+    void compare(std::uint32_t corner) {
+        const exact::Vector x = artifact_.corner(corner);
+        const std::optional<exact::Seen> seen = stage_.see(face_, x);
+        if (!seen || !seen->on_face || !seen->in_picture) {
+            return;
+        }
+        const glm::dvec4 clip =
+            *collineation_ *
+            glm::dvec4(static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z), 1.0);
+        figures_.error_px = std::fmax(figures_.error_px, pixel_distance(clip, *seen, stage_.projector));
+        const PackVertex& vertex = artifact_.level.vertices[corner];
+        const glm::vec3 unit =
+            glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0F;
+        const glm::vec4 drawn = planned_->clip_from_unit * glm::vec4(unit, 1.0F);
+        figures_.gpu_error_px =
+            std::fmax(figures_.gpu_error_px, pixel_distance(glm::dvec4(drawn), *seen, stage_.projector));
+    }
+
+    const exact::Stage& stage_;
+    const SeenArtifact& artifact_;
+    const FramePlan& plan_;
+    const PropFace& face_;
+    PictureFigures& figures_;
+    const FacePlan* planned_ = nullptr;
+    std::optional<glm::dmat4> collineation_;
+    std::vector<Corners> shown_;
+};
+
+} // namespace
+
+exact::Stage usual_stage() {
+    return {make_prop({}),
+            {1280, 800, 1920.0, 1920.0, 640.0, 400.0},
+            {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
+            {},
+            {0.0, -0.55, 0.50}};
+}
+
+exact::Vector SeenArtifact::corner(std::uint32_t index) const {
+    const auto& p = level.vertices[index].position;
+    const exact::Real scale = placed.metres_per_box;
+    const glm::dvec3& size = placed.box_size;
+    return {scale * size.x * (p[0] / 65535.0L - 0.5L), scale * size.y * (p[1] / 65535.0L - 0.5L),
+            scale * size.z * (p[2] / 65535.0L)};
+}
+
+SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metres_per_box) {
+    SeenArtifact artifact;
+    artifact.placed.metres_per_box = metres_per_box;
+    Scatter scatter(stage, artifact);
+    std::vector<const PropFace*> seen;
+    for (const PropFace& face : stage.prop.faces) {
+        if (stage.height(face, stage.eye_in_prop()) > 0) {
+            seen.push_back(&face);
+        }
+    }
+    for (int k = 0; k < triangles; ++k) {
+        if (k % 2 == 0 || seen.empty()) {
+            scatter.anywhere();
+        } else {
+            scatter.behind(*seen[static_cast<std::size_t>(k / 2) % seen.size()]);
+        }
+    }
+    scatter.finish();
+    artifact.placed = {std::make_shared<LevelTriangles>(triangles_of(artifact.level, seen_box_size)),
+                       seen_box_size, metres_per_box, 1, 4};
+    return artifact;
+}
+
+SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level) {
+    return {pack.levels[level],
+            frustumscreen::placed(pack, level, place(pack, stage.prop).metres_per_box, level)};
+}
+
+FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {
+    PlanView view;
+    view.projector = stage.projector;
+    view.table_from_projector = stage.table_from_projector;
+    view.table_from_prop = stage.table_from_prop;
+    view.eyes_m = {&stage.eye_m, 1};
+    FramePlan plan = make_plan(stage.prop, artifact.placed);
+    plan_frame(stage.prop, artifact.placed, view, plan);
+    return plan;
+}
+
+void PictureFigures::include(const PictureFigures& other) {
+    error_px = std::fmax(error_px, other.error_px);
+    gpu_error_px = std::fmax(gpu_error_px, other.gpu_error_px);
+    points += other.points;
+    missing += other.missing;
+    unlit += other.unlit;
+    wrong_faces += other.wrong_faces;
+    not_finite += other.not_finite;
+}
+
+PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
+                          std::optional<std::size_t> only_face) {
+    PictureFigures figures;
+    figures.not_finite = not_finite(plan);
+    for (std::size_t face = 0; face < stage.prop.faces.size(); ++face) {
+        if (face == only_face.value_or(face)) {
+            FaceCheck(stage, artifact, plan, face, figures).check();
+        }
+    }
+    return figures;
+}
+
+PictureFigures figures_of(const exact::Stage& stage, std::optional<std::size_t> only_face) {
+    const SeenArtifact artifact = seen_artifact(stage);
+    return figures_of(stage, artifact, plan_of(stage, artifact), only_face);
+}
+
+std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where, double bound_px,
+                                  double gpu_bound_px, double least_points) {
+    std::vector<StabilityRow> rows{
+        {where + "missing, unlit, on a dark face, not finite", 0.0,
+         figures.missing + figures.unlit + figures.wrong_faces + figures.not_finite}};
+    if (figures.points > 0.0) {
+        rows.push_back({where + "64-bit, px", bound_px, figures.error_px});
+        rows.push_back({where + "32-bit, px", gpu_bound_px, figures.gpu_error_px});
+    }
+    if (figures.points < least_points) {
+        rows.push_back({where + "points compared, short of enough", 0.0, least_points - figures.points});
+    }
+    return rows;
+}
+
+} // namespace frustumscreen

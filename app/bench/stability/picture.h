@@ -1,0 +1,65 @@
+/// A frame plan held against the exact picture, point by point.
+///
+/// Points   of small triangles that are scattered through the artifact's box, and of others that are put on
+///          purpose where the eye looks through a face, so that a slanting view has as many as an open one.
+///          Positions are those that a pack stores, 16 bits an axis.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/stability/exact.h"
+#include "app/bench/stability/stability.h"
+#include "app/scene/frame_plan.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A kiosk as shipped: the projector 1.2 m above the table, the usual prop at its centre.
+[[nodiscard]] exact::Stage usual_stage();
+
+/// Triangles that the stage's eye sees through each face that it is above, and as many anywhere in the box.
+struct SeenArtifact {
+    PackLevel level;
+    PlacedLevel placed;
+    [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
+};
+inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the usual prop's
+[[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
+                                         double metres_per_box = 0.16);
+/// A level of a pack, placed in the stage's prop.
+[[nodiscard]] SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level);
+
+[[nodiscard]] FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
+
+struct PictureFigures {
+    double error_px = 0.0;     ///< largest, of the 64-bit collineation
+    double gpu_error_px = 0.0; ///< largest, of the 32-bit matrix on stored positions
+    double points = 0.0;       ///< compared
+    double missing = 0.0;      ///< triangles that show on a face and are not in its plan
+    double unlit = 0.0;        ///< points that show outside the plan's lit tiles
+    double wrong_faces = 0.0;  ///< planned, although the eye or the lens is not above them
+    double not_finite = 0.0;   ///< numbers in the plan
+
+    void include(const PictureFigures& other); ///< the larger error, the sums
+};
+[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
+                                        const FramePlan& plan,
+                                        std::optional<std::size_t> only_face = std::nullopt);
+/// Of a seen artifact.
+[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
+                                        std::optional<std::size_t> only_face = std::nullopt);
+
+/// Errors of the usual stage's picture where nothing is seen slantingly: a picture's width times some
+/// roundings of the matrix, 64 of 2^-53 and 4 of 2^-24. At a slant they grow by 1 / sine.
+inline constexpr double bound_px = 64.0 * 1280.0 * 0x1p-53;
+inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
+
+/// Nothing missing, unlit, wrong or infinite; errors within the bounds. At least `least_points` were
+/// compared.
+[[nodiscard]] std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where,
+                                                double bound_px, double gpu_bound_px,
+                                                double least_points = 100.0);
+
+} // namespace frustumscreen

@@ -1,0 +1,186 @@
+// Poses as they may arrive: quaternions of any length, of either sign, of no length, not finite.
+
+#include "app/bench/stability/exact.h"
+#include "app/bench/stability/picture.h"
+#include "app/bench/stability/themes.h"
+#include "app/tracking/situation.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const glm::dquat turned(0.5, -0.1, 0.7, 0.3); // not unit
+
+const std::array no_rotations{glm::dquat(0.0, 0.0, 0.0, 0.0), glm::dquat(nan, 0.0, 0.0, 1.0),
+                              glm::dquat(1.0, nan, nan, nan), glm::dquat(infinity, 0.0, 0.0, 0.0),
+                              glm::dquat(0.5, 0.5, -infinity, 0.5)};
+
+/// Largest distance of a point of the unit sphere turned by `q` from where `turned` takes it.
+double off_turn(const glm::dquat& q) {
+    const exact::Rigid truth({turned, glm::dvec3(0.0)});
+    double off = 0.0;
+    for (const glm::dvec3& p : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0.0, -0.8)}) {
+        off =
+            std::fmax(off, static_cast<double>(exact::length(exact::of(q * p) - truth.point(exact::of(p)))));
+    }
+    return off;
+}
+
+PoseSample sample_of(const glm::dquat& rotation, std::int64_t t_us = 0) {
+    PoseSample sample;
+    sample.time = from_microseconds(t_us);
+    sample.position_m = {0.1, -0.05, 0.0};
+    sample.rotation = rotation;
+    return sample;
+}
+
+StabilityResult of_any_length(const StabilityOptions&) {
+    double off = 0.0;
+    double off_tracked = 0.0;
+    for (int exponent = -299; exponent <= 307; exponent += 3) {
+        const glm::dquat q = turned * std::pow(10.0, exponent);
+        const auto unit = normalised(q);
+        off = std::fmax(off, unit ? off_turn(*unit) : 1.0);
+        SituationTracker tracker({}, glm::dvec3(0.0));
+        const bool taken = tracker.take(sample_of(q));
+        off_tracked = std::fmax(off_tracked, taken ? off_turn(tracker.at({}).table_from_prop.rotation) : 1.0);
+    }
+    return {{{"normalised, length 1e-299 to 1e307: a unit point off", 16 * 0x1p-53, off},
+             {"through the tracker: a unit point off", 16 * 0x1p-53, off_tracked}}};
+}
+
+StabilityResult of_none(const StabilityOptions&) {
+    double taken = 0.0;
+    for (const glm::dquat& q : no_rotations) {
+        taken += normalised(q) ? 1.0 : 0.0;
+    }
+    return {{{"normalised: zero, NaN, infinite", 0.0, taken}}};
+}
+
+/// The tracker refuses them and keeps what it knew.
+StabilityResult into_the_tracker(const StabilityOptions&) {
+    SituationTracker tracker({}, glm::dvec3(0.0, -0.5, 0.5));
+    double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
+    const RigidTransform before = tracker.at({}).table_from_prop;
+    std::vector<PoseSample> bad;
+    bad.reserve(no_rotations.size() + 9);
+    for (const glm::dquat& q : no_rotations) {
+        bad.push_back(sample_of(q, 1000));
+    }
+    for (const double number : {nan, infinity, -infinity}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            bad.push_back(sample_of(turned, 1000));
+            bad.back().position_m[axis] = number;
+        }
+    }
+    for (const PoseSample& sample : bad) {
+        PoseSample head = sample;
+        head.station = head_station;
+        wrong += tracker.take(sample) || tracker.take(head) ? 1.0 : 0.0;
+    }
+    const Situation after = tracker.at(from_microseconds(2000));
+    wrong += after.table_from_prop.rotation == before.rotation ? 0.0 : 1.0;
+    wrong += after.table_from_prop.translation == before.translation ? 0.0 : 1.0;
+    wrong += after.head_known ? 1.0 : 0.0;
+    return {{{fmt::format("of {} samples that are no pose: taken, or of effect", bad.size()), 0.0, wrong}}};
+}
+
+StabilityResult from_a_file(const StabilityOptions&) {
+    const std::string header = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+    double off = 0.0;
+    for (const double length : {1e-5, 1e-3, 1.0, 1e3, 1e150}) {
+        const glm::dquat q = turned * length;
+        const auto poses = parse_poses(
+            header + fmt::format("0,1,0.1,0.2,0,{},{},{},{},1\n", q.w, q.x, q.y, q.z), "poses.csv");
+        off = std::fmax(off, poses ? off_turn(poses->front().rotation) : 1.0);
+    }
+    double taken = 0.0;
+    for (const std::string numbers :
+         {"0,0,0,0,0,0,0", "0,0,0,nan,0,0,1", "0,0,0,inf,0,0,0", "nan,0,0,1,0,0,0", "0,inf,0,1,0,0,0",
+          "0,0,0,1e-7,0,0,0", "0,1e30,0,1,0,0,0"}) {
+        taken += parse_poses(fmt::format("{}0,1,{},1\n", header, numbers), "poses.csv") ? 1.0 : 0.0;
+    }
+    return {{{"length 1e-5 to 1e150: a unit point off", 16 * 0x1p-53, off},
+             {"rows that are no pose, taken", 0.0, taken}}};
+}
+
+/// q and -q are one pose: the same picture to the last bit.
+StabilityResult of_either_sign(const StabilityOptions&) {
+    double other = 0.0;
+    const auto negated = [](const RigidTransform& t) { return RigidTransform{-t.rotation, t.translation}; };
+    for (int k = 0; k < 50; ++k) {
+        exact::Stage stage = usual_stage();
+        stage.table_from_prop = {
+            glm::normalize(glm::dquat(std::cos(0.1 * k), 0.05 * std::sin(0.3 * k), -0.04, std::sin(0.1 * k))),
+            {0.05, -0.02, 0.0}};
+        const SeenArtifact artifact = seen_artifact(stage, 200);
+        const std::uint64_t hash = plan_of(stage, artifact).hash;
+        exact::Stage flipped = stage;
+        flipped.table_from_prop = negated(stage.table_from_prop);
+        other += plan_of(flipped, artifact).hash == hash ? 0.0 : 1.0;
+        flipped.table_from_projector = negated(stage.table_from_projector);
+        other += plan_of(flipped, artifact).hash == hash ? 0.0 : 1.0;
+    }
+    return {{{"of 100 plans with the sign flipped, other than without", 0.0, other}}};
+}
+
+/// Should such a pose reach the plan all the same, it lights nothing that is not a number, and nothing ends.
+StabilityResult into_the_plan(const StabilityOptions&) {
+    double wrong = 0.0;
+    const SeenArtifact artifact = seen_artifact(usual_stage(), 2000);
+    const auto check = [&](const exact::Stage& stage) {
+        const FramePlan plan = plan_of(stage, artifact);
+        for (const FacePlan& face : plan.faces) {
+            for (int column = 0; column < 4; ++column) {
+                const glm::vec4 c = face.clip_from_unit[column];
+                wrong += std::isfinite(c.x + c.y + c.z + c.w) ? 0.0 : 1.0;
+            }
+        }
+        for (const PixelRectangle& r : plan.lit.rectangles()) {
+            const bool inside = r.x >= 0 && r.y >= 0 && r.x + r.width <= 1280 && r.y + r.height <= 800;
+            wrong += inside ? 0.0 : 1.0;
+        }
+    };
+    for (const glm::dquat& q : no_rotations) {
+        exact::Stage stage = usual_stage();
+        stage.table_from_prop.rotation = q;
+        check(stage);
+        stage = usual_stage();
+        stage.table_from_projector.rotation = q;
+        check(stage);
+    }
+    for (const double number : {nan, infinity, -infinity, 1e300}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            exact::Stage stage = usual_stage();
+            stage.table_from_prop.translation[axis] = number;
+            check(stage);
+            stage = usual_stage();
+            stage.eye_m[axis] = number;
+            check(stage);
+        }
+    }
+    return {{{"numbers not finite, rectangles outside the picture", 0.0, wrong}}};
+}
+
+} // namespace
+
+std::vector<StabilityCase> pose_cases() {
+    const std::string theme = "pose";
+    return {{theme, "quaternions that are not unit", FloatingPoint::Free, of_any_length},
+            {theme, "quaternions that are none", FloatingPoint::Free, of_none},
+            {theme, "samples that are no pose", FloatingPoint::Free, into_the_tracker},
+            {theme, "pose files", FloatingPoint::Free, from_a_file},
+            {theme, "quaternions with the sign flipped", FloatingPoint::Strict, of_either_sign},
+            {theme, "no pose, in the plan", FloatingPoint::Free, into_the_plan}};
+}
+
+} // namespace frustumscreen

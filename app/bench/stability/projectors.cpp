@@ -1,0 +1,195 @@
+// Where the projector is, and what it is: grazing a face, near-singular intrinsics.
+
+#include "app/bench/stability/picture.h"
+#include "app/bench/stability/themes.h"
+#include "app/geometry/collineation.h"
+#include "app/scene/light.h"
+#include "app/settings/settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180.0;
+}
+
+glm::dvec3 middle_of(const PropFace& face) {
+    return 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
+}
+
+/// A projector `degrees` above the plane of a face, along its lower edge, looking at its middle; the eye
+/// square before the face.
+exact::Stage grazing_stage(std::size_t face, double degrees) {
+    exact::Stage stage = usual_stage();
+    const PropFace& f = stage.prop.faces[face];
+    const glm::dvec3 middle = middle_of(f);
+    const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
+    const glm::dvec3 n = f.plane.normal;
+    const glm::dvec3 back = std::cos(radians(degrees)) * along + std::sin(radians(degrees)) * n;
+    const glm::dvec3 down = std::sin(radians(degrees)) * along - std::cos(radians(degrees)) * n;
+    const glm::dmat3 axes(glm::cross(down, -back), down, -back);
+    stage.table_from_projector = {glm::normalize(glm::quat_cast(axes)), middle + 1.2 * back};
+    stage.eye_m = middle + 0.6 * n;
+    return stage;
+}
+
+StabilityResult grazing(const StabilityOptions&) {
+    StabilityResult result;
+    for (const double degrees : {90.0, 45.0, 10.0, 1.0, 0.1, 0.06}) {
+        PictureFigures figures;
+        for (std::size_t face = 0; face < 5; ++face) {
+            figures.include(figures_of(grazing_stage(face, degrees), face));
+        }
+        for (StabilityRow& row :
+             rows_of(figures, fmt::format("{:g} deg: ", degrees), bound_px / 0.1, gpu_bound_px / 0.1)) {
+            result.rows.push_back(std::move(row));
+        }
+    }
+    return result;
+}
+
+/// Below the limit the face is dark.
+StabilityResult below_the_limit(const StabilityOptions&) {
+    double lit = 0.0;
+    for (std::size_t face = 0; face < 5; ++face) {
+        for (const double degrees : {0.05, 1e-3, 1e-9, 0.0, -1e-9, -1.0, -45.0}) {
+            const exact::Stage stage = grazing_stage(face, degrees);
+            for (const FacePlan& planned : plan_of(stage, seen_artifact(stage)).faces) {
+                lit += planned.face == static_cast<int>(face) ? 1.0 : 0.0;
+            }
+        }
+    }
+    return {{{"faces lit at 0.05 degrees and below", 0.0, lit}}};
+}
+
+/// min(1, constant + per_cubic_metre d^3) of a point of the face, the ordinary way.
+exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const exact::Vector& point,
+                       exact::Real reference) {
+    const exact::Vector lens = stage.lens_in_prop();
+    const exact::Real d = exact::length(lens - point);
+    return std::min(1.0L, reference * d * d * d / stage.height(face, lens));
+}
+
+/// The compensation's gain at points of a face, as 32-bit numbers leave for the shader.
+StabilityResult light(const StabilityOptions&) {
+    StabilityResult result;
+    for (const double degrees : {90.0, 10.0, 1.0, 0.1, 0.06}) {
+        double off = 0.0;
+        for (std::size_t k = 0; k < 5; ++k) {
+            const exact::Stage stage = grazing_stage(k, degrees);
+            const PropFace& face = stage.prop.faces[k];
+            const RigidTransform projector_from_prop =
+                stage.table_from_projector.inverse() * stage.table_from_prop;
+            const glm::dvec3 lens = projector_from_prop.inverse().translation;
+            const std::array seen{SeenFace{&face, stage.eye_m}};
+            const double reference = reference_light(seen, lens, {});
+            const FaceLight planned =
+                face_light(face.plane, stage.projector, projector_from_prop.matrix(), reference, {});
+            for (int j = 0; j < 100; ++j) {
+                const int row = j / 10;
+                const double a = (j % 10 + 0.5) / 10.0;
+                const double b = (row + 0.5) / 10.0;
+                const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
+                                              glm::mix(face.corners[3], face.corners[2], a), b);
+                const exact::Vector q = exact::Rigid(stage.table_from_projector).inverse_point(exact::of(s));
+                const glm::dvec2 pixel(static_cast<double>(1920 * q.x / q.z + 640),
+                                       static_cast<double>(1920 * q.y / q.z + 400));
+                const auto exact = static_cast<double>(exact_gain(stage, face, exact::of(s), reference));
+                off = std::fmax(off, std::abs(gain(planned, stage.projector, pixel) - exact));
+            }
+        }
+        result.rows.push_back({fmt::format("{:g} deg: gain off the exact one, of 1", degrees),
+                               std::fmin(0.05, 1e-5 / std::sin(radians(degrees))), off});
+    }
+    return result;
+}
+
+/// A face that comes in sight of the projector changes the others' brightness without a jump.
+StabilityResult coming_in_sight(const StabilityOptions&) {
+    const PropShape prop = make_prop({});
+    double most = 0.0;
+    constexpr double step_deg = 1e-3;
+    double before = -1.0;
+    for (int k = 0; k <= 12'500; ++k) {
+        const double degrees = -0.5 + step_deg * k;
+        const glm::dvec3 n = prop.faces[0].plane.normal;
+        const glm::dvec3 along = glm::normalize(glm::dvec3(-n.z, 0.0, n.x)); // up the face
+        const glm::dvec3 lens = middle_of(prop.faces[0]) +
+                                1.2 * (std::cos(radians(degrees)) * along + std::sin(radians(degrees)) * n);
+        const glm::dvec3 eye(0.4, -0.1, 0.5);
+        const std::array both{SeenFace{&prop.faces[4], eye}, SeenFace{&prop.faces[0], eye}};
+        const bool lit = prop.faces[0].plane.distance(lens) > least_sine * 1.2;
+        const double reference = reference_light(std::span(both).first(lit ? 2 : 1), lens, {});
+        most = before < 0.0 ? most : std::fmax(most, std::abs(reference / before - 1.0));
+        before = reference;
+    }
+    // 90 % of the light goes by a smooth step over 11.5 degrees: at most 1.5 times its mean slope.
+    return {{{"largest change of the reference light in 0.001 deg, relative",
+              1.5 * 0.9 / 11.5 * step_deg * 10.0, most}}};
+}
+
+/// Focal lengths and shifts at the ends of what settings allow, and far past them.
+StabilityResult intrinsics(const StabilityOptions&) {
+    StabilityResult result;
+    struct Lens {
+        std::string name;
+        Pinhole pinhole;
+        double height_m;
+        glm::dvec3 prop_m{0.0}; ///< goes where the picture is
+    };
+    const std::vector<Lens> lenses{
+        {"shortest lens allowed: ", {1280, 800, 50, 50, 640, 400}, 1.2},
+        {"longest: ", {8192, 8192, 200000, 200000, 4096, 4096}, 3.0},
+        {"one axis shortest, one longest: ", {1280, 800, 50, 200000, 640, 400}, 1.2},
+        {"shift of one and a half pictures: ", {1280, 800, 1920, 1920, 2560, -800}, 1.2, {-1.2, -0.7, 0.0}},
+        {"smallest picture: ", {64, 64, 96, 96, 32, 32}, 1.2},
+        {"fx 1e-3: ", {1280, 800, 1e-3, 1920, 640, 400}, 1.2},
+        {"fx and fy 1e9: ", {1280, 800, 1e9, 1e9, 640, 400}, 1.2}};
+    for (const Lens& lens : lenses) {
+        exact::Stage stage = usual_stage();
+        stage.projector = lens.pinhole;
+        stage.table_from_projector.translation.z = lens.height_m;
+        stage.table_from_prop.translation = lens.prop_m;
+        stage.eye_m += lens.prop_m;
+        // A focal length of f pixels tells f x 2^-24 of a pixel from the next.
+        const double size = std::fmax(1280.0, std::fmax(lens.pinhole.fx, lens.pinhole.fy)) / 1280.0;
+        for (StabilityRow& row :
+             rows_of(figures_of(stage), lens.name, size * bound_px / 0.1, size * gpu_bound_px / 0.1, 0.0)) {
+            result.rows.push_back(std::move(row));
+        }
+    }
+    return result;
+}
+
+StabilityResult refused_intrinsics(const StabilityOptions&) {
+    double taken = 0.0;
+    for (const std::string value : {"0.0", "-1920.0", "nan", "inf", "1e-300", "49.9", "200001.0"}) {
+        taken += parse_settings("[projector]\nfx = " + value + "\n", "kiosk.toml") ? 1.0 : 0.0;
+    }
+    for (const std::string shift : {"nan", "inf", "-1281.0", "2561.0"}) {
+        taken += parse_settings("[projector]\ncx = " + shift + "\n", "kiosk.toml") ? 1.0 : 0.0;
+    }
+    taken += parse_settings("[projector]\nfx = 1920.0\n", "kiosk.toml") ? 0.0 : 1.0;
+    return {{{"taken, or a usual one refused", 0.0, taken}}};
+}
+
+} // namespace
+
+std::vector<StabilityCase> projector_cases() {
+    const std::string theme = "projector";
+    return {{theme, "grazing a face, 90 down to 0.06 degrees", FloatingPoint::Strict, grazing},
+            {theme, "below the slant at which a face goes dark", FloatingPoint::Strict, below_the_limit},
+            {theme, "light on a grazed face", FloatingPoint::Strict, light},
+            {theme, "a face that comes in sight", FloatingPoint::Strict, coming_in_sight},
+            {theme, "near-singular intrinsics", FloatingPoint::Strict, intrinsics},
+            {theme, "intrinsics that are none", FloatingPoint::Free, refused_intrinsics}};
+}
+
+} // namespace frustumscreen

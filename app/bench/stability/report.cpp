@@ -1,0 +1,133 @@
+#include "app/bench/stability/report.h"
+
+#include "app/bench/plot.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+std::string_view verdict(const StabilityRow& row) {
+    return row.held() ? "held" : "MISSED";
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return result + "\"";
+}
+
+} // namespace
+
+bool all_held(std::span<const MeasuredCase> cases) {
+    return std::all_of(cases.begin(), cases.end(), [](const MeasuredCase& one) {
+        return std::all_of(one.result.rows.begin(), one.result.rows.end(),
+                           [](const StabilityRow& row) { return row.held(); });
+    });
+}
+
+std::string stability_table(std::span<const MeasuredCase> cases) {
+    std::string table =
+        fmt::format("{:<70}{:>10}{:>12}  {}\n", "case: quantity", "bound", "observed", "verdict");
+    std::size_t rows = 0;
+    std::size_t missed = 0;
+    for (const MeasuredCase& one : cases) {
+        table += fmt::format("{}: {}\n", one.theme, one.name);
+        for (const StabilityRow& row : one.result.rows) {
+            table += fmt::format("  {:<68}{:>10.3g}{:>12.3g}  {}\n", row.quantity, row.bound, row.observed,
+                                 verdict(row));
+            ++rows;
+            missed += row.held() ? 0 : 1;
+        }
+        if (!one.result.left_out.empty()) {
+            table += fmt::format("  left out: {}\n", one.result.left_out);
+        }
+    }
+    return table + fmt::format("{} of {} bounds held\n", rows - missed, rows);
+}
+
+std::string stability_csv(std::span<const MeasuredCase> cases) {
+    std::string csv = "theme,case,quantity,bound,observed,verdict\n";
+    for (const MeasuredCase& one : cases) {
+        for (const StabilityRow& row : one.result.rows) {
+            csv += fmt::format("{},{},{},{:.9g},{:.9g},{}\n", one.theme, quoted(one.name),
+                               quoted(row.quantity), row.bound, row.observed, verdict(row));
+        }
+        if (!one.result.left_out.empty()) {
+            csv += fmt::format("{},{},{},,,left out\n", one.theme, quoted(one.name),
+                               quoted(one.result.left_out));
+        }
+    }
+    return csv;
+}
+
+std::string stability_json(std::span<const MeasuredCase> cases) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const MeasuredCase& one : cases) {
+        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        for (const StabilityRow& row : one.result.rows) {
+            rows.push_back({{"quantity", row.quantity},
+                            {"bound", row.bound},
+                            {"observed", row.observed},
+                            {"held", row.held()}});
+        }
+        list.push_back({{"theme", one.theme}, {"case", one.name}, {"rows", rows}});
+        if (!one.result.left_out.empty()) {
+            list.back()["left_out"] = one.result.left_out;
+        }
+    }
+    return nlohmann::ordered_json{{"all_held", all_held(cases)}, {"cases", list}}.dump(2) + "\n";
+}
+
+std::string step_error_csv(std::span<const StepError> smoothers, std::span<const StepError> program) {
+    std::string csv = "what,step,step_unit,error\n";
+    for (const auto& [errors, unit] : {std::pair{smoothers, "time constants"}, std::pair{program, "s"}}) {
+        for (const StepError& error : errors) {
+            csv += fmt::format("{},{:.9g},{},{:.9g}\n", quoted(error.what), error.step, unit, error.error);
+        }
+    }
+    return csv;
+}
+
+namespace {
+
+void add_series(std::span<const StepError> errors, Plot& plot) {
+    constexpr double least = 1e-18; // an exact zero has no place on a logarithmic axis
+    for (const StepError& error : errors) {
+        if (plot.series.empty() || plot.series.back().name != error.what) {
+            plot.series.push_back({error.what, {}});
+        }
+        plot.series.back().points.push_back({{error.step, std::max(error.error, least)}, {}});
+    }
+}
+
+} // namespace
+
+std::string step_error_svg(std::span<const StepError> smoothers, std::span<const StepError> program) {
+    std::array plots{Plot{"A smoother's error against its step (no error at all: 1e-18)",
+                          "step / time constant",
+                          "error of the step response, of 1",
+                          true,
+                          true,
+                          {},
+                          {{1.0, "all of it"}}},
+                     Plot{"The program's dynamics against the step between frames",
+                          "step, s",
+                          "error",
+                          true,
+                          true,
+                          {},
+                          {}}};
+    add_series(smoothers, plots[0]);
+    add_series(program, plots[1]);
+    return svg_of(plots);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,30 @@
+/// What the stability cases found, as a table for the console, CSV, JSON and SVG.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/stability/stability.h"
+
+#include <span>
+#include <string>
+
+namespace frustumscreen {
+
+struct MeasuredCase {
+    std::string theme;
+    std::string name;
+    StabilityResult result;
+};
+
+[[nodiscard]] bool all_held(std::span<const MeasuredCase> cases);
+/// case, quantity, bound, observed, verdict; and a line that counts them.
+[[nodiscard]] std::string stability_table(std::span<const MeasuredCase> cases);
+[[nodiscard]] std::string stability_csv(std::span<const MeasuredCase> cases);
+[[nodiscard]] std::string stability_json(std::span<const MeasuredCase> cases);
+
+[[nodiscard]] std::string step_error_csv(std::span<const StepError> smoothers,
+                                         std::span<const StepError> program);
+[[nodiscard]] std::string step_error_svg(std::span<const StepError> smoothers,
+                                         std::span<const StepError> program);
+
+} // namespace frustumscreen

@@ -1,0 +1,15 @@
+/// Sources with known geometry.
+///
+/// Frame    the file's own, +Z up. Threads  pure; any.
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+
+namespace frustumscreen {
+
+/// A sphere of rows x 2 rows quads about `centre`; outward, welded at the poles.
+[[nodiscard]] SourceMesh sphere(const glm::dvec3& centre, double radius, int rows);
+[[nodiscard]] SourceMesh box_mesh(const glm::dvec3& size);
+void add_triangle(SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+} // namespace frustumscreen

@@ -1,0 +1,68 @@
+/// Numerical stability on stiff and extreme cases, as a table: what was measured, against which bound, and
+/// whether it held. docs/stability.md says why each bound holds.
+///
+/// Each case is a pure function. It holds the program's 64-bit (or, where the GPU takes over, 32-bit) numbers
+/// against long double arithmetic of its own: rays, planes and pinholes the ordinary way, exponentials from
+/// the library's long double.
+///
+/// Errors   none: what a case cannot find (recordings) it leaves out, with a sentence.
+/// Threads  one caller: floating-point exceptions are flags of the thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct StabilityRow {
+    std::string quantity; ///< with its unit
+    double bound = 0.0;
+    double observed = 0.0;
+    [[nodiscard]] bool held() const { return observed <= bound; } ///< false for NaN
+};
+
+struct StabilityResult {
+    std::vector<StabilityRow> rows;
+    std::string left_out{}; ///< why something was not measured; empty = all was
+};
+
+struct StabilityOptions {
+    std::filesystem::path recordings; ///< of trackers; none or missing: left out
+    int triangles = 200'000;          ///< of the largest artifact
+};
+
+/// What may go in decides whether floating-point exceptions count: a NaN raises them in any comparison.
+enum class FloatingPoint {
+    Strict, ///< no invalid operation, division by zero or overflow anywhere
+    Free,   ///< NaN and infinity go in, or foreign libraries work with them
+};
+
+struct StabilityCase {
+    std::string theme;
+    std::string name;
+    FloatingPoint arithmetic = FloatingPoint::Strict;
+    std::function<StabilityResult(const StabilityOptions&)> measure;
+};
+
+/// Every case, theme by theme.
+[[nodiscard]] std::vector<StabilityCase> stability_cases();
+
+/// Measures; of a strict case, the last row counts the kinds of floating-point exceptions that were raised.
+[[nodiscard]] StabilityResult measure(const StabilityCase& which, const StabilityOptions& options);
+
+/// How far something that moves in time is from its exact solution, stepped so.
+struct StepError {
+    std::string what;  ///< with the error's unit
+    double step = 0.0; ///< of smoothers: / time constant; else seconds
+    double error = 0.0;
+};
+/// The step response of a first-order smoother over one time constant (one step, if that is longer), as the
+/// program steps it and by the textbook's other ways.
+[[nodiscard]] std::vector<StepError> smoother_step_errors();
+/// The program's own dynamics at their own time constants.
+[[nodiscard]] std::vector<StepError> program_step_errors();
+
+} // namespace frustumscreen

@@ -1,0 +1,13 @@
+/// Values to try, evenly spread on a logarithmic axis.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include <vector>
+
+namespace frustumscreen {
+
+/// From `low` to `high`, both included, about `per_decade` a decade.
+[[nodiscard]] std::vector<double> sweep(double low, double high, int per_decade);
+
+} // namespace frustumscreen

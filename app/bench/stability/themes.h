@@ -1,0 +1,26 @@
+/// The cases, one function and one file for each theme.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/stability/stability.h"
+
+namespace frustumscreen {
+
+[[nodiscard]] std::vector<StabilityCase> eye_cases();
+[[nodiscard]] std::vector<StabilityCase> prop_cases();
+[[nodiscard]] std::vector<StabilityCase> projector_cases();
+[[nodiscard]] std::vector<StabilityCase> artifact_cases();
+[[nodiscard]] std::vector<StabilityCase> shape_cases();
+[[nodiscard]] std::vector<StabilityCase> pose_cases();
+[[nodiscard]] std::vector<StabilityCase> time_cases();
+[[nodiscard]] std::vector<StabilityCase> smoother_cases();
+[[nodiscard]] std::vector<StabilityCase> fade_cases();
+[[nodiscard]] std::vector<StabilityCase> governor_cases();
+
+/// Parts of program_step_errors.
+[[nodiscard]] std::vector<StepError> frame_time_step_errors();
+[[nodiscard]] std::vector<StepError> governor_step_errors();
+[[nodiscard]] std::vector<StepError> fade_step_errors();
+
+} // namespace frustumscreen

@@ -1,0 +1,65 @@
+// The cases of `frustumscreen-bench stability`, each as a test, with floating-point exceptions trapped where
+// a case allows none: a NaN ends the program where it is made.
+
+#include "app/bench/stability/report.h"
+#include "app/bench/stability/stability.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cfenv>
+
+namespace frustumscreen {
+namespace {
+
+class Traps {
+public:
+    explicit Traps(bool on) {
+        if (on) {
+            std::feclearexcept(FE_ALL_EXCEPT);
+            ::feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+        }
+    }
+    ~Traps() {
+        ::fedisableexcept(FE_ALL_EXCEPT);
+        std::feclearexcept(FE_ALL_EXCEPT);
+    }
+    Traps(const Traps&) = delete;
+    Traps& operator=(const Traps&) = delete;
+};
+
+class Stability : public ::testing::TestWithParam<StabilityCase> {};
+
+TEST_P(Stability, HoldsItsBounds) {
+    StabilityOptions options;
+    options.recordings = FRUSTUMSCREEN_SHARED_DIR "/data/tracker";
+    StabilityResult result;
+    {
+        const Traps traps(GetParam().arithmetic == FloatingPoint::Strict);
+        result = measure(GetParam(), options);
+    }
+    for (const StabilityRow& row : result.rows) {
+        EXPECT_TRUE(row.held()) << row.quantity << ": " << row.observed << ", allowed " << row.bound;
+    }
+    if (!result.left_out.empty()) {
+        GTEST_SKIP() << result.left_out;
+    }
+    EXPECT_FALSE(result.rows.empty());
+}
+
+std::string name_of(const ::testing::TestParamInfo<StabilityCase>& info) {
+    std::string name;
+    for (const char c : info.param.theme + " " + info.param.name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            name += c;
+        } else if (!name.ends_with('_')) {
+            name += '_';
+        }
+    }
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Case, Stability, ::testing::ValuesIn(stability_cases()), name_of);
+
+} // namespace
+} // namespace frustumscreen
