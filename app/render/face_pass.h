@@ -17,6 +17,7 @@
 #include "app/render/gl_handle.h"
 #include "app/render/raster.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/scene_plan.h"
 #include "firmware_host/base/result.h"
 
 #include <array>
@@ -31,8 +32,16 @@ enum class FaceOutput {
 
 class FacePass {
 public:
-    /// `level_fades`: a plan may fade between levels; else its shaders are not made.
-    [[nodiscard]] static Result<FacePass> create(FaceOutput output, bool level_fades = false);
+    /// The artifact's shader in the variants that plans will ask for; others are not made. A plan of another
+    /// kind is drawn with the nearest that there is.
+    struct Variants {
+        bool plain = true;       ///< colours as they are
+        bool compensated = true; ///< light evened out
+        bool level_fades = false;
+    };
+    [[nodiscard]] static Result<FacePass> create(FaceOutput output, const Variants& variants);
+    /// Appends those that were made.
+    void list_programs(std::vector<Program>& programs) const;
 
     /// The level that the plan is of, and the one that a fade brings in.
     struct Levels {
@@ -59,6 +68,7 @@ private:
     };
     FacePass() = default;
     [[nodiscard]] static Result<ArtifactProgram> make_artifact_program(std::string_view defines);
+    [[nodiscard]] const ArtifactProgram* program_for(bool compensated, bool fading) const;
     void upload_indices(const FramePlan& plan) const;
     void mark_faces(const FramePlan& plan, const Raster& raster) const;
     int draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,

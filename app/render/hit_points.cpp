@@ -7,7 +7,7 @@
 namespace frustumscreen {
 
 Result<HitPointRenderer> HitPointRenderer::create(int width, int height) {
-    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint);
+    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint, {true, false, false});
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -66,7 +67,9 @@ void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) 
         placed.samples = std::max(placed.samples, rung.samples);
     }
     FramePlan frame = make_plan(plan.prop, placed);
-    level.finest_mip = coarsest_mip_level;
+    const Image8& texture = pack.textures[level.mesh.texture];
+    const int mips = std::bit_width(static_cast<unsigned>(std::max(texture.width, texture.height)));
+    level.finest_mip = std::min(coarsest_mip_level, mips - 1);
     level.samples = 1;
     for (const KnownView& view : plan.visibility.views) {
         plan_frame(plan.prop, placed,
