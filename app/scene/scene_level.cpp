@@ -143,6 +143,12 @@ SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& p
     return made;
 }
 
+PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {
+    PassNeeds needs = plan.passes;
+    needs.samples = level.samples > 0 ? std::min(level.samples, needs.samples) : needs.samples;
+    return needs;
+}
+
 std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture) {
     constexpr std::uint64_t bytes_per_texel = 4;
     std::uint64_t bytes = level.mesh.vertices.size() * sizeof(PackVertex);
