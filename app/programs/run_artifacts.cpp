@@ -83,6 +83,7 @@ struct ArtifactShow::Loader {
         }
         next_id += (*pack)->levels.size();
         plan.passes = levels->needs();
+        plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             return at(file.string(), set.error());

@@ -21,6 +21,7 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
     const double mm_per_box = 1e3 * plan.metres_per_box;
     std::vector<Level> levels;
     std::vector<LevelUse> uses;
+    std::vector<LeftOut> left_out;
     std::size_t indices = 0;
     PassNeeds needs = plan.passes;
     needs.samples = 1;
@@ -28,6 +29,9 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
         const SceneLevel kept = scene_level(pack, number, plan);
         needs = united(needs, needs_of(plan, kept));
         const Image8& texture = pack.textures[kept.mesh.texture];
+        for (LeftOut& each : left_out_of(plan, kept, texture)) {
+            left_out.push_back(std::move(each));
+        }
         Result<ArtifactGpu> gpu = ArtifactGpu::upload(kept, texture);
         if (!gpu) {
             return tl::unexpected<Error>(gpu.error());
@@ -46,6 +50,7 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
     RunLevels made(std::move(technique), std::move(levels), plan.rungs, deadline_ms,
                    make_plan(plan.prop, indices));
     made.uses_ = std::move(uses);
+    made.left_out_ = std::move(left_out);
     made.needs_ = needs;
     return made;
 }

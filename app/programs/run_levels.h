@@ -61,6 +61,7 @@ public:
     /// Whether it may change from one level to another.
     [[nodiscard]] bool fades() const;
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
+    [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
     /// What a renderer for it must be able to do.
     [[nodiscard]] const PassNeeds& needs() const { return needs_; }
 
@@ -102,6 +103,7 @@ private:
 
     std::string technique_;
     std::vector<LevelUse> uses_;
+    std::vector<LeftOut> left_out_;
     PassNeeds needs_;
     std::vector<Level> levels_;
     std::vector<Rung> rungs_;

@@ -13,6 +13,11 @@ std::uint64_t bytes_of(int width, int height, int bits) {
 
 } // namespace
 
+std::string renderer_name() {
+    const GLubyte* const name = glGetString(GL_RENDERER);
+    return name != nullptr ? reinterpret_cast<const char*>(name) : "an unnamed GPU";
+}
+
 std::uint64_t bytes_of_buffer(const GlBuffer& buffer) {
     GLint64 bytes = 0;
     glBindBuffer(GL_COPY_READ_BUFFER, buffer.get());

@@ -8,12 +8,16 @@
 #include "app/render/gl_handle.h"
 
 #include <cstdint>
+#include <string>
 
 namespace frustumscreen {
 
 [[nodiscard]] std::uint64_t bytes_of_buffer(const GlBuffer& buffer);
 /// Two-dimensional, all mip levels.
 [[nodiscard]] std::uint64_t bytes_of_texture(const GlTexture& texture);
+/// What the driver calls the GPU.
+[[nodiscard]] std::string renderer_name();
+
 [[nodiscard]] std::uint64_t bytes_of_renderbuffer(const GlRenderbuffer& renderbuffer);
 
 } // namespace frustumscreen

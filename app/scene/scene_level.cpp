@@ -2,6 +2,8 @@
 
 #include "app/scene/frame_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -141,6 +143,34 @@ SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& p
         measure_detail(pack, plan, made);
     }
     return made;
+}
+
+std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level, const Image8& texture) {
+    std::vector<LeftOut> left_out;
+    if (level.unseen_triangles > 0) {
+        left_out.push_back(
+            {UnseenTriangles,
+             fmt::format("{} of the {} triangles of level {}, {} whole clusters among them", level.unseen_triangles,
+                         level.mesh.indices.size() / 3 + level.unseen_triangles, level.level,
+                         level.unseen_clusters),
+             plan.visibility.views.empty() ? "they look away from every eye that the settings allow"
+                                           : "they look away from the eye at every pose there is"});
+    }
+    if (level.finest_mip > 0) {
+        left_out.push_back(
+            {UnusedDetail,
+             fmt::format("the {} x {} texels of level {}'s texture, down to {} x {}", texture.width,
+                         texture.height, level.level, std::max(1, texture.width >> level.finest_mip),
+                         std::max(1, texture.height >> level.finest_mip)),
+             "the projector's pixels are never so fine"});
+    }
+    if (const int samples = needs_of(plan, level).samples; samples < plan.passes.samples) {
+        left_out.push_back({UnusedDetail,
+                            fmt::format("room for {} samples a pixel; there is room for {}", plan.passes.samples,
+                                        samples),
+                            "no pose is seen so slantingly that it takes more"});
+    }
+    return left_out;
 }
 
 PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {

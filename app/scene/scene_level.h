@@ -43,6 +43,10 @@ struct SceneLevel {
 [[nodiscard]] SceneLevel whole_level(const Pack& pack, std::uint32_t level);
 [[nodiscard]] SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
 
+/// What was left out of the level, in words.
+[[nodiscard]] std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
+                                               const Image8& texture);
+
 /// The plan's, with no more room for samples than the level takes. A view that takes more than there is room
 /// for is drawn elsewhere in it, and rounds differently, so the room is never made larger.
 [[nodiscard]] PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
