@@ -144,7 +144,8 @@ Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack
     if (Result<void> good = check_level_count(pack, reader.manifest().levels.size()); !good) {
         return good;
     }
-    const Result<Chosen> chosen = choose ? chosen_by(choose, reader.manifest()) : everything(reader.manifest());
+    const Result<Chosen> chosen =
+        choose ? chosen_by(choose, reader.manifest()) : everything(reader.manifest());
     if (!chosen) {
         return tl::unexpected(chosen.error());
     }

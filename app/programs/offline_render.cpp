@@ -61,8 +61,7 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    Result<Renderer> renderer =
-        Renderer::create(options_of(needs_of(plan, level), width, height));
+    Result<Renderer> renderer = Renderer::create(options_of(needs_of(plan, level), width, height));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -75,10 +74,13 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
         made->hit_points_ = std::move(*hit_points);
     }
     made->technique_ = fmt::format("level{}", number);
-    made->estimated_error_mm_ =
-        1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
-    made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
-                     plan.metres_per_box, number, samples_of(options, *pack), plan.faces};
+    made->estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
+    made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
+                     pack->box_size,
+                     plan.metres_per_box,
+                     number,
+                     samples_of(options, *pack),
+                     plan.faces};
     made->plan_ = make_plan(made->prop_, made->placed_);
     return made;
 }

@@ -46,7 +46,8 @@ struct OfflinePicture {
 
 class OfflineRenderer {
 public:
-    /// `plan`: made by plan_offline for the same options; the pack has its levels and need not outlive the call.
+    /// `plan`: made by plan_offline for the same options; the pack has its levels and need not outlive the
+    /// call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>>
     create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options);
 

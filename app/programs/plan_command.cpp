@@ -26,7 +26,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
                  "frustumscreen plan");
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
-    app.add_option("--technique", request.technique, "auto, finest, level0, level1, ...")->capture_default_str();
+    app.add_option("--technique", request.technique, "auto, finest, level0, level1, ...")
+        ->capture_default_str();
     app.add_flag("--json", request.json, "report as JSON");
     try {
         app.parse(argc, argv);
@@ -52,8 +53,8 @@ Result<void> plan(const Request& request) {
     if (!measured) {
         return tl::unexpected<Error>(measured.error());
     }
-    const PlanReport report{request.config.string(), request.pack.string(), request.technique, **settings,
-                            devices,                 *measured};
+    const PlanReport report{
+        request.config.string(), request.pack.string(), request.technique, **settings, devices, *measured};
     fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
     return {};
 }

@@ -24,7 +24,7 @@ struct SceneCost {
     std::int64_t gpu_bytes = 0;
     std::int64_t ram_bytes = 0;
     double load_ms = 0.0;
-    double frame_us = 0.0; ///< median; of a saving, the median of differences at the same pose
+    double frame_us = 0.0;  ///< median; of a saving, the median of differences at the same pose
     double spread_us = 0.0; ///< of a saving: half the distance between the quartiles of the differences
 };
 

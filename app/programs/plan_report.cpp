@@ -78,7 +78,10 @@ std::string needs_text(const PlanReport& report) {
                        level.triangles, level.texture.x, level.texture.y);
     }
     fmt::format_to(out, "  faces of the prop: {}\n", joined(faces_of(plan)));
-    fmt::format_to(out, "  captions: {}\n", use.captions == 0 ? "none" : fmt::format("{} texts", use.captions));
+    fmt::format_to(out, "  captions: {}\n",
+                   use.captions == 0   ? "none"
+                   : use.captions == 1 ? "one text"
+                                       : fmt::format("{} texts", use.captions));
     fmt::format_to(out, "  samples a pixel, at most: {}\n", use.samples);
     fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.programs)));
     fmt::format_to(out, "  tracker: {}{}\n", name_of(report.devices.tracker),
@@ -159,7 +162,8 @@ Json needs_json(const PlanReport& report) {
 
 std::string plan_text(const PlanReport& report) {
     const PlanMeasurement& measured = report.measured;
-    std::string text = fmt::format("{} with {}, technique {}\n\n", report.pack, report.config, report.technique);
+    std::string text =
+        fmt::format("{} with {}, technique {}\n\n", report.pack, report.config, report.technique);
     text += needs_text(report) + "\n" + left_out_text(report) + "\n";
     const auto out = std::back_inserter(text);
     fmt::format_to(out,
@@ -181,11 +185,13 @@ std::string plan_json(const PlanReport& report) {
     const PlanMeasurement& measured = report.measured;
     Json left_out = Json::array();
     for (const LeftOut& item : measured.show->plan(0).left_out) {
-        left_out.push_back({{"economy", std::string(name_of(item.economy))}, {"what", item.what}, {"why", item.why}});
+        left_out.push_back(
+            {{"economy", std::string(name_of(item.economy))}, {"what", item.what}, {"why", item.why}});
     }
     Json economies = Json::array();
     for (const EconomySaving& each : measured.economies) {
-        economies.push_back({{"economy", std::string(name_of(each.economy))}, {"saves", saving_json(each.saved)}});
+        economies.push_back(
+            {{"economy", std::string(name_of(each.economy))}, {"saves", saving_json(each.saved)}});
     }
     const Json json = {{"config", report.config},
                        {"pack", report.pack},

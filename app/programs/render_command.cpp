@@ -159,8 +159,7 @@ Result<void> render(const Request& request) {
         return bad_input(
             fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer =
-        OfflineRenderer::create(*pack, plan, options);
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*pack, plan, options);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

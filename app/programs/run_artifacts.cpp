@@ -53,8 +53,8 @@ std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
 
 } // namespace
 
-/// Brings what is needed of packs into the GPU's memory, one after the other; nothing of a pack but what culls
-/// stays in ours.
+/// Brings what is needed of packs into the GPU's memory, one after the other; nothing of a pack but what
+/// culls stays in ours.
 struct ArtifactShow::Loader {
     const Settings& settings;
     const DevicePlan& devices;
@@ -76,8 +76,8 @@ struct ArtifactShow::Loader {
         if (!pack) {
             return tl::unexpected<Error>(pack.error());
         }
-        Result<RunLevels> levels = RunLevels::upload(**pack, plan, options.technique,
-                                                     1e3 / settings.projector.refresh_hz, next_id);
+        Result<RunLevels> levels =
+            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, next_id);
         if (!levels) {
             return at(file.string(), levels.error());
         }
@@ -139,7 +139,8 @@ struct ArtifactShow::Loader {
     }
 };
 
-Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings, const DevicePlan& devices,
+Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
+                                                           const DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
                                                            const RenderTarget& target, MonotonicTime now) {
     Loader loader{settings, devices, options, std::nullopt};
@@ -186,7 +187,8 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
 ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
                            std::vector<Artifact> artifacts, MonotonicTime now)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
-      prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)), artifacts_(std::move(artifacts)),
+      prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
+      artifacts_(std::move(artifacts)),
       exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
       placer_(picture_on_table(settings, 0.0)) {}
 

@@ -41,11 +41,9 @@ struct ShowUse {
 class ArtifactShow final : public Show {
 public:
     /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
-    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
-                                                                      const DevicePlan& devices,
-                                                                      const ArtifactShowOptions& options,
-                                                                      const RenderTarget& target,
-                                                                      MonotonicTime now);
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
+    create(const Settings& settings, const DevicePlan& devices, const ArtifactShowOptions& options,
+           const RenderTarget& target, MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,

@@ -167,8 +167,7 @@ Result<void> run(const Request& request) {
         return request.fast ? MonotonicTime{}
                             : std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
     };
-    const DevicePlan devices =
-        plan_devices(**settings, request.changes > 0, !request.status_file.empty());
+    const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
     const Result<std::unique_ptr<Show>> show = make_show(request, **settings, devices, **display, now());
     if (!show) {
         return tl::unexpected<Error>(show.error());

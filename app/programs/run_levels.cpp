@@ -40,7 +40,11 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
                         glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
                         kept.finest_mip, gpu_bytes(kept, texture), gpu->bytes()});
         PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size)),
-                           pack.box_size, plan.metres_per_box, first_id + number, pack.samples, plan.faces};
+                           pack.box_size,
+                           plan.metres_per_box,
+                           first_id + number,
+                           pack.samples,
+                           plan.faces};
         levels.push_back({number, fmt::format("level{}", number),
                           mm_per_box * static_cast<double>(kept.mesh.error.mean_box),
                           mm_per_box * static_cast<double>(kept.mesh.error.p95_box), std::move(placed),

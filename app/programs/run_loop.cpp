@@ -46,8 +46,9 @@ public:
           start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
           head_is_followed_(settings.eye.tracked),
-          situation_(inputs.tracker && !inputs.tracker->reports_table_frame() ? settings.tracker.table_from_tracker
-                                                                              : RigidTransform{},
+          situation_(inputs.tracker && !inputs.tracker->reports_table_frame()
+                         ? settings.tracker.table_from_tracker
+                         : RigidTransform{},
                      settings.eye.default_m),
           times_(window_frames), presented_(start) {
         samples_.reserve(1024);

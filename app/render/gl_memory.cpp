@@ -35,8 +35,9 @@ std::uint64_t bytes_of_texture(const GlTexture& texture) {
         glGetTexLevelParameteriv(GL_TEXTURE_2D, level, what, &value);
         return value;
     };
-    constexpr std::array<GLenum, 6> components{GL_TEXTURE_RED_SIZE,   GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE,
-                                               GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE};
+    constexpr std::array<GLenum, 6> components{GL_TEXTURE_RED_SIZE,   GL_TEXTURE_GREEN_SIZE,
+                                               GL_TEXTURE_BLUE_SIZE,  GL_TEXTURE_ALPHA_SIZE,
+                                               GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE};
     glBindTexture(GL_TEXTURE_2D, texture.get());
     GLint levels = 0;
     glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);

@@ -43,8 +43,8 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
                 fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
         }
     }
-    Result<FacePass> pass = FacePass::create(
-        FaceOutput::Colour, {options.plain, options.compensated, options.level_fades});
+    Result<FacePass> pass =
+        FacePass::create(FaceOutput::Colour, {options.plain, options.compensated, options.level_fades});
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }

@@ -37,8 +37,7 @@ struct RendererOptions {
 };
 
 [[nodiscard]] inline RendererOptions options_of(const PassNeeds& needs, int width, int height) {
-    return {width,       height,           needs.samples, needs.level_fades,
-            needs.plain, needs.compensated, needs.captions};
+    return {width, height, needs.samples, needs.level_fades, needs.plain, needs.compensated, needs.captions};
 }
 
 /// Display::framebuffer and Display::buffer_age.

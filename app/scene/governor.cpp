@@ -26,15 +26,14 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
 
 std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box, double tolerance_mm,
                          int samples) {
-    constexpr double most_over_p95 = 4.0;             // two pixels for half a one
+    constexpr double most_over_p95 = 4.0;                // two pixels for half a one
     const auto within = [&](const LevelOutline& level) { // false for NaN
         return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm &&
                static_cast<double>(level.error.max_box) * mm_per_box <= most_over_p95 * tolerance_mm;
     };
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
-        if (within(levels[k]) &&
-            (!within(levels[best]) || levels[k].triangles <= levels[best].triangles)) {
+        if (within(levels[k]) && (!within(levels[best]) || levels[k].triangles <= levels[best].triangles)) {
             best = k;
         }
     }
@@ -43,7 +42,8 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box
     std::uint64_t last_triangles = levels[best].triangles;
     for (std::size_t k = best + 1; k-- > 0;) {
         const std::uint64_t triangles = levels[k].triangles;
-        if (k != best && static_cast<double>(triangles) > most_of_finer * static_cast<double>(last_triangles)) {
+        if (k != best &&
+            static_cast<double>(triangles) > most_of_finer * static_cast<double>(last_triangles)) {
             continue;
         }
         last_triangles = triangles;

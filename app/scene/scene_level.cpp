@@ -18,14 +18,16 @@ namespace {
 constexpr std::size_t most_planned_views = 64;
 
 /// Whether some eye of the zone may see each triangle.
-std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZone& eyes, double metres_per_box) {
+std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZone& eyes,
+                                 double metres_per_box) {
     // Twice what a frame allows for single precision (visible_triangles.h).
     const double epsilon = std::numeric_limits<float>::epsilon();
     const double slack = 2.0 * (edge_on_box + 4.0 * epsilon * (1.0 + eyes.farthest() / metres_per_box));
     std::vector<bool> seen(triangles.distance.size());
     for (std::size_t t = 0; t < seen.size(); ++t) {
         const glm::dvec3 normal(triangles.normal_x[t], triangles.normal_y[t], triangles.normal_z[t]);
-        seen[t] = !(eyes.reach(normal) / metres_per_box - static_cast<double>(triangles.distance[t]) < -slack);
+        seen[t] =
+            !(eyes.reach(normal) / metres_per_box - static_cast<double>(triangles.distance[t]) < -slack);
     }
     return seen;
 }
@@ -63,8 +65,8 @@ PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
 
 /// What the views take of a level's detail, planned with the most samples that a rung has.
 void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) {
-    PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)), pack.box_size,
-                       plan.metres_per_box, 0, 0};
+    PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)),
+                       pack.box_size, plan.metres_per_box, 0, 0};
     for (const Rung& rung : plan.rungs) {
         placed.samples = std::max(placed.samples, rung.samples);
     }
@@ -75,10 +77,12 @@ void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) 
     level.samples = 1;
     for (const KnownView& view : plan.visibility.views) {
         plan_frame(plan.prop, placed,
-                   {plan.projector, plan.table_from_projector, view.table_from_prop, {&view.eye_m, 1}}, frame);
+                   {plan.projector, plan.table_from_projector, view.table_from_prop, {&view.eye_m, 1}},
+                   frame);
         level.samples = std::max(level.samples, frame.samples);
         for (const FacePlan& face : frame.faces) {
-            const double samples_per_box = std::sqrt(static_cast<double>(frame.samples)) * face.pixels_per_box;
+            const double samples_per_box =
+                std::sqrt(static_cast<double>(frame.samples)) * face.pixels_per_box;
             level.finest_mip = std::min(level.finest_mip, mip_level(level.texels_per_box, samples_per_box));
         }
     }
@@ -150,9 +154,10 @@ std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
     if (level.unseen_triangles > 0) {
         left_out.push_back(
             {UnseenTriangles,
-             fmt::format("{} of the {} triangles of level {}, {} whole clusters among them", level.unseen_triangles,
-                         level.mesh.indices.size() / 3 + level.unseen_triangles, level.level,
-                         level.unseen_clusters),
+             fmt::format("{} of the {} triangles of level {}, {} of its {} clusters as a whole",
+                         level.unseen_triangles, level.mesh.indices.size() / 3 + level.unseen_triangles,
+                         level.level, level.unseen_clusters,
+                         level.mesh.clusters.size() + level.unseen_clusters),
              plan.visibility.views.empty() ? "they look away from every eye that the settings allow"
                                            : "they look away from the eye at every pose there is"});
     }
@@ -165,10 +170,10 @@ std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
              "the projector's pixels are never so fine"});
     }
     if (const int samples = needs_of(plan, level).samples; samples < plan.passes.samples) {
-        left_out.push_back({UnusedDetail,
-                            fmt::format("room for {} samples a pixel; there is room for {}", plan.passes.samples,
-                                        samples),
-                            "no pose is seen so slantingly that it takes more"});
+        left_out.push_back(
+            {UnusedDetail,
+             fmt::format("room for {} samples a pixel; there is room for {}", plan.passes.samples, samples),
+             "no pose is seen so slantingly that it takes more"});
     }
     return left_out;
 }

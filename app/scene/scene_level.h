@@ -21,7 +21,8 @@
 namespace frustumscreen {
 
 /// Texels along one box unit: the edge of the surface's mean texel, inverted.
-[[nodiscard]] double texels_per_box(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size);
+[[nodiscard]] double texels_per_box(const PackLevel& level, const Image8& texture,
+                                    const glm::dvec3& box_size);
 
 /// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
 /// `samples_per_box` as FacePlan::pixels_per_box, times the samples along a pixel's side.

@@ -64,11 +64,10 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
                          plan.levels.front(), tolerance_mm)});
     }
     if (!others.empty()) {
-        plan.left_out.push_back(
-            {UnusedLevels, listed("level", "levels", others),
-             governed ? "coarser, and saves too little time to be worth a change"
-                      : fmt::format("the technique \"{}\" draws level {} alone", request.technique,
-                                    plan.levels.front())});
+        plan.left_out.push_back({UnusedLevels, listed("level", "levels", others),
+                                 governed ? "coarser, and saves too little time to be worth a change"
+                                          : fmt::format("the technique \"{}\" draws level {} alone",
+                                                        request.technique, plan.levels.front())});
     }
 }
 
@@ -86,7 +85,9 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     }
     if (!plan.captions.empty()) {
         if (const std::size_t rest = captions - plan.captions.size(); rest > 0) {
-            plan.left_out.push_back({UnusedCaptions, fmt::format("captions in {} other languages", rest),
+            plan.left_out.push_back({UnusedCaptions,
+                                     rest == 1 ? "the caption in another language"
+                                               : fmt::format("captions in {} other languages", rest),
                                      "no button changes the language"});
         }
         return;
@@ -94,7 +95,8 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     const std::string_view why = !request.live                ? "pictures from poses have no captions"
                                  : !settings.exhibit.captions ? "the settings switch captions off"
                                                               : "the pack has no captions";
-    plan.left_out.push_back({UnusedCaptions, "captions, the typeface and the captions' pass", std::string(why)});
+    plan.left_out.push_back(
+        {UnusedCaptions, "captions, the typeface and the captions' pass", std::string(why)});
 }
 
 void choose_passes(const SceneRequest& request, ScenePlan& plan) {
@@ -118,8 +120,8 @@ void choose_passes(const SceneRequest& request, ScenePlan& plan) {
             {UnusedShaders, "the shader with light compensation", "the light is left as it is"});
     }
     if (!passes.level_fades) {
-        plan.left_out.push_back({UnusedShaders, "the shaders that fade from one level to another",
-                                 "only one level is drawn"});
+        plan.left_out.push_back(
+            {UnusedShaders, "the shaders that fade from one level to another", "only one level is drawn"});
     }
 }
 
@@ -141,10 +143,12 @@ void choose_faces(ScenePlan& plan) {
         }
     }
     if (!unseen.empty()) {
-        plan.left_out.push_back({UnseenFaces, listed("face", "faces", unseen), "no eye can come in front of it"});
+        plan.left_out.push_back(
+            {UnseenFaces, listed("face", "faces", unseen), "no eye can come in front of it"});
     }
     if (!unlit.empty()) {
-        plan.left_out.push_back({UnseenFaces, listed("face", "faces", unlit), "the projector's light never meets it"});
+        plan.left_out.push_back(
+            {UnseenFaces, listed("face", "faces", unlit), "the projector's light never meets it"});
     }
 }
 
@@ -173,7 +177,7 @@ Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view techniq
 }
 
 std::string_view name_of(Economy economy) {
-    constexpr std::array<std::string_view, 6> names{"levels", "captions", "shaders",
+    constexpr std::array<std::string_view, 6> names{"levels", "captions",  "shaders",
                                                     "faces",  "triangles", "detail"};
     return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(economy))));
 }

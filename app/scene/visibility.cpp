@@ -17,7 +17,8 @@ std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_ele
         return radius * glm::dvec2(std::cos(elevation), std::sin(elevation));
     };
     std::vector<glm::dvec2> profile{at(nearest, lowest_elevation), at(farthest, lowest_elevation),
-                                    at(nearest, std::numbers::pi / 2.0), at(farthest, std::numbers::pi / 2.0)};
+                                    at(nearest, std::numbers::pi / 2.0),
+                                    at(farthest, std::numbers::pi / 2.0)};
     for (int k = 0; k < tangents; ++k) { // where the tangents at both ends of a piece of the arc meet
         profile.push_back(at(farthest / std::cos(step / 2.0), lowest_elevation + (k + 0.5) * step));
     }
@@ -91,8 +92,7 @@ Visibility visibility_of(const Settings& settings) {
             shell(eye.nearest_m, eye.farthest_m, glm::radians(eye.lowest_elevation_deg));
         visibility.eyes.rings.insert(visibility.eyes.rings.end(), zone.begin(), zone.end());
     }
-    visibility.lens =
-        fixed_prop ? PointZone{false, {lens}, {}} : seen_from_the_table(settings.table, lens);
+    visibility.lens = fixed_prop ? PointZone{false, {lens}, {}} : seen_from_the_table(settings.table, lens);
     return visibility;
 }
 

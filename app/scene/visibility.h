@@ -1,8 +1,8 @@
 /// From where the prop may be seen and lit, as the settings allow it: what proves that a face or a triangle
 /// never shows.
 ///
-/// Upright on the table, a prop that may be turned sees an eye or the lens at any azimuth; so such a zone is a
-/// profile turned about the prop's axis, and the farthest that it reaches along a direction n is
+/// Upright on the table, a prop that may be turned sees an eye or the lens at any azimuth; so such a zone is
+/// a profile turned about the prop's axis, and the farthest that it reaches along a direction n is
 ///     max over the profile's points of  |(n.x, n.y)| distance + n.z height,
 /// a plane test that is exact for its convex hull: nothing is sampled. A profile's arc is replaced by the
 /// tangents around it, which is farther out by 0.02 % at most, never nearer.

@@ -79,7 +79,10 @@ Json exhibit_json(const ExhibitSettings& exhibit) {
     for (const auto& pack : exhibit.packs) {
         packs.push_back(pack.string());
     }
-    return {{"packs", packs}, {"language", exhibit.language}, {"captions", exhibit.captions}, {"caption_height_m", exhibit.caption_height_m}};
+    return {{"packs", packs},
+            {"language", exhibit.language},
+            {"captions", exhibit.captions},
+            {"caption_height_m", exhibit.caption_height_m}};
 }
 
 } // namespace

@@ -27,8 +27,8 @@ MonotonicTime at_seconds(double seconds) {
 constexpr double deadline_ms = 1000.0 / 60.0;
 
 TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
-    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F), level_of(8000, 9e-4F),
-                                        level_of(30000, 1e-4F)};
+    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F),
+                                           level_of(8000, 9e-4F), level_of(30000, 1e-4F)};
     const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4); // 0.48, 0.24, 0.108, 0.012 mm
     ASSERT_EQ(rungs.size(), 6U);
     EXPECT_EQ(rungs[0].level, 1U);
@@ -45,7 +45,8 @@ TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
 }
 
 TEST(Ladder, OfATighterToleranceThanAnyLevelBeginsWithTheFinest) {
-    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F), level_of(4000, 1e-3F)};
+    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F),
+                                           level_of(4000, 1e-3F)};
     const std::vector<Rung> rungs = ladder(levels, 120.0, 0.01, 1);
     ASSERT_EQ(rungs.size(), 2U); // 1000 triangles are not worth a level of their own beside 1200
     EXPECT_EQ(rungs[0].level, 2U);
