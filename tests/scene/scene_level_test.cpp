@@ -71,9 +71,9 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
     for (int k = 0; k < 400; ++k) { // half of them on the zone's lower edge, where undersides would show
         const double elevation = glm::radians(k % 2 == 0 ? 15.0 : 15.0 + 75.0 * u(random));
         const double azimuth = glm::radians(360.0 * u(random));
-        eyes.push_back((0.35 + 1.65 * u(random)) *
-                       glm::dvec3(std::cos(elevation) * std::cos(azimuth),
-                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation)));
+        eyes.push_back((0.35 + 1.65 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                                                              std::cos(elevation) * std::sin(azimuth),
+                                                              std::sin(elevation)));
     }
     std::size_t next = 0;
     std::size_t seen = 0;

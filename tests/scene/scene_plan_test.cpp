@@ -13,8 +13,8 @@ namespace {
 /// Four levels; the placement makes one box unit 0.06 m. Errors p95: 0.48, 0.24, 0.108, 0.012 mm at 120 mm.
 PackOutline outline() {
     PackOutline pack;
-    for (const auto& [triangles, p95_box] :
-         {std::pair(1000U, 4e-3F), std::pair(2000U, 2e-3F), std::pair(8000U, 9e-4F), std::pair(30000U, 1e-4F)}) {
+    for (const auto& [triangles, p95_box] : {std::pair(1000U, 4e-3F), std::pair(2000U, 2e-3F),
+                                             std::pair(8000U, 9e-4F), std::pair(30000U, 1e-4F)}) {
         LevelOutline level;
         level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
         level.triangles = triangles;
@@ -44,13 +44,15 @@ bool leaves_out(const ScenePlan& plan, Economy economy, const std::string& what)
 TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     const Settings settings;
     SceneRequest asked = request(settings);
-    for (const auto& [technique, level] : {std::pair("level0", 0U), std::pair("level3", 3U), std::pair("finest", 3U)}) {
+    for (const auto& [technique, level] :
+         {std::pair("level0", 0U), std::pair("level3", 3U), std::pair("finest", 3U)}) {
         asked.technique = technique;
         const ScenePlan plan = plan_scene(settings, outline(), asked).value();
         EXPECT_EQ(plan.levels, std::vector<std::uint32_t>{level});
         EXPECT_FALSE(plan.passes.level_fades);
     }
-    EXPECT_TRUE(leaves_out(plan_scene(settings, outline(), asked).value(), UnusedLevels, "levels 0, 1 and 2"));
+    EXPECT_TRUE(
+        leaves_out(plan_scene(settings, outline(), asked).value(), UnusedLevels, "levels 0, 1 and 2"));
     asked.technique = "level4";
     EXPECT_FALSE(plan_scene(settings, outline(), asked));
     asked.technique = "auto";
@@ -132,7 +134,8 @@ TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // it may be turned
     settings.eye.tracked = false;
     settings.tracker.kind = TrackerKind::None;
-    // Sides lean by 0.035 / 0.12. From (0, -0.55, 0.5): -Y and the top; +-X, which lean back far enough; not +Y.
+    // Sides lean by 0.035 / 0.12. From (0, -0.55, 0.5): -Y and the top; +-X, which lean back far enough; not
+    // +Y.
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b11011U);
     settings.eye.default_m = {0.0, -0.55, 0.05}; // low: -Y alone
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b01000U);

@@ -39,12 +39,11 @@ TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
     const Visibility visibility = visibility_of(settings);
     Draw draw;
     const auto eye = [&] {
-        const double elevation =
-            std::asin(draw.between(std::sin(15.0 * std::numbers::pi / 180.0), 1.0));
+        const double elevation = std::asin(draw.between(std::sin(15.0 * std::numbers::pi / 180.0), 1.0));
         const double azimuth = draw.between(0.0, 2.0 * std::numbers::pi);
         const double r = draw.between(0.35, 2.0);
-        return r * glm::dvec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                              std::sin(elevation));
+        return r * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                              std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
     };
     for (int k = 0; k < 40; ++k) {
         const glm::dvec3 n = draw.direction();
@@ -65,8 +64,8 @@ TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
     const auto seen_from_a_prop = [&](const glm::dvec3& point) {
         const glm::dvec3 d = point - glm::dvec3(draw.between(-0.4, 0.4), draw.between(-0.25, 0.25), 0.0);
         const double yaw = draw.between(0.0, 2.0 * std::numbers::pi);
-        return glm::dvec3(std::cos(yaw) * d.x + std::sin(yaw) * d.y, -std::sin(yaw) * d.x + std::cos(yaw) * d.y,
-                          d.z);
+        return glm::dvec3(std::cos(yaw) * d.x + std::sin(yaw) * d.y,
+                          -std::sin(yaw) * d.x + std::cos(yaw) * d.y, d.z);
     };
     for (int k = 0; k < 40; ++k) {
         const glm::dvec3 n = draw.direction();
