@@ -172,7 +172,7 @@ std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
     if (const int samples = needs_of(plan, level).samples; samples < plan.passes.samples) {
         left_out.push_back(
             {UnusedDetail,
-             fmt::format("room for {} samples a pixel; there is room for {}", plan.passes.samples, samples),
+             fmt::format("room for {} samples a pixel; room for {} is enough", plan.passes.samples, samples),
              "no pose is seen so slantingly that it takes more"});
     }
     return left_out;

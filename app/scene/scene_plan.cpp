@@ -184,10 +184,10 @@ std::string_view name_of(Economy economy) {
 
 std::string_view name_of(Program program) {
     constexpr std::array<std::string_view, 8> names{"outline of a face",
-                                                    "artifact",
-                                                    "artifact, light compensated",
-                                                    "artifact, fading",
-                                                    "artifact, light compensated, fading",
+                                                    "artifact in plain light",
+                                                    "artifact in even light",
+                                                    "fading artifact in plain light",
+                                                    "fading artifact in even light",
                                                     "caption",
                                                     "clearing of tiles",
                                                     "averaging of samples"};
