@@ -59,8 +59,9 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(artifact.error());
     }
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    Result<Renderer> renderer = Renderer::create(
-        {stage.width(), stage.height(), std::max(samples, default_samples), {false, artifact->cut_out()}});
+    RendererOptions needed{stage.width(), stage.height(), std::max(samples, default_samples)};
+    needed.cut_out = artifact->cut_out();
+    Result<Renderer> renderer = Renderer::create(needed);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

@@ -45,6 +45,10 @@ using ImageFloat = Image<glm::vec3>;
 /// Nearest 8-bit code; clamps.
 [[nodiscard]] std::uint8_t srgb8_from_linear(double linear01);
 
+/// The next coarser mip level: half as wide and high (rounded down, at least 1), colour averaged by area in
+/// linear light. The same on every machine, which drivers' own are not.
+[[nodiscard]] Image8 half_size(const Image8& image);
+
 /// Errors: not a PNG, damaged, larger than `limit_texels`.
 [[nodiscard]] Result<Image8> decode_png8(std::span<const std::byte> bytes,
                                          std::int64_t limit_texels = 1 << 28);

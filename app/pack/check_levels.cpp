@@ -98,18 +98,26 @@ Result<void> check_mesh(const PackLevel& level) {
     return check_clusters(level);
 }
 
-Result<void> check_levels(const Pack& pack) {
-    if (pack.levels.empty() || pack.levels.size() > most_levels) {
-        return bad_input(
-            fmt::format("the pack has {} levels, allowed are 1 to {}", pack.levels.size(), most_levels));
+Result<void> check_level_count(const Pack& pack, std::size_t levels) {
+    if (levels == 0 || levels > most_levels) {
+        return bad_input(fmt::format("the pack has {} levels, allowed are 1 to {}", levels, most_levels));
     }
-    if (pack.default_level >= pack.levels.size()) {
-        return bad_input(fmt::format("default_level is {}, the pack has {} levels", pack.default_level,
-                                     pack.levels.size()));
+    if (pack.default_level >= levels) {
+        return bad_input(
+            fmt::format("default_level is {}, the pack has {} levels", pack.default_level, levels));
+    }
+    return {};
+}
+
+Result<void> check_levels(const Pack& pack, Read read) {
+    if (auto good = check_level_count(pack, pack.levels.size()); !good) {
+        return good;
     }
     bool uses_relief = false;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
-        if (auto good = check_level(pack, pack.levels[k]); !good) {
+        const bool passed_over = read == Read::Chosen && pack.levels[k].indices.empty();
+        if (auto good = passed_over ? check_errors(pack.levels[k].error) : check_level(pack, pack.levels[k]);
+            !good) {
             return at(fmt::format("level {}", k), good.error());
         }
         uses_relief = uses_relief || pack.levels[k].technique == LevelTechnique::Relief;

@@ -14,10 +14,13 @@ namespace frustumscreen::pack_format {
 [[nodiscard]] Result<void> check_texts(const Pack& pack);
 /// box_size, box_from_file, extremes.
 [[nodiscard]] Result<void> check_placement(const Pack& pack);
-/// Textures, relief and its charts; needs nothing of the levels.
-[[nodiscard]] Result<void> check_pictures(const Pack& pack);
-/// Levels; the pictures are right.
-[[nodiscard]] Result<void> check_levels(const Pack& pack);
+/// The number of levels, and that the default is one of them; needs nothing else of them.
+[[nodiscard]] Result<void> check_level_count(const Pack& pack, std::size_t levels);
+/// Textures, relief and its charts; needs nothing of the levels. `Chosen`: an empty texture was not read.
+enum class Read { All, Chosen };
+[[nodiscard]] Result<void> check_pictures(const Pack& pack, Read read = Read::All);
+/// Levels; the pictures are right. `Chosen`: an empty level was not read.
+[[nodiscard]] Result<void> check_levels(const Pack& pack, Read read = Read::All);
 /// One level's own vertices, indices and clusters.
 [[nodiscard]] Result<void> check_mesh(const PackLevel& level);
 

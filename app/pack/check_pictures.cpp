@@ -20,13 +20,16 @@ template <typename Texel> Result<void> check_size(const std::string& what, const
     return {};
 }
 
-Result<void> check_textures(const Pack& pack) {
+Result<void> check_textures(const Pack& pack, Read read) {
     if (pack.textures.size() > most_textures) {
         return bad_input(
             fmt::format("the pack has {} textures, allowed are {}", pack.textures.size(), most_textures));
     }
     std::int64_t together = 0;
     for (std::size_t k = 0; k < pack.textures.size(); ++k) {
+        if (read == Read::Chosen && pack.textures[k].texels.empty()) {
+            continue;
+        }
         if (auto good = check_size(fmt::format("texture {}", k), pack.textures[k]); !good) {
             return good;
         }
@@ -92,8 +95,8 @@ Result<void> check_relief(const ReliefAtlas& atlas) {
 
 } // namespace
 
-Result<void> check_pictures(const Pack& pack) {
-    if (auto good = check_textures(pack); !good) {
+Result<void> check_pictures(const Pack& pack, Read read) {
+    if (auto good = check_textures(pack, read); !good) {
         return good;
     }
     return check_relief(pack.relief);

@@ -7,6 +7,7 @@
 
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
+#include "app/pack/pack_outline.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
@@ -17,23 +18,27 @@ namespace frustumscreen {
 
 inline constexpr int pack_format_version = 1;
 
-/// A pack that was wholly checked; only `verify_pack` makes one.
+/// A pack of which all that was read was checked; only `verify_pack` makes one. Levels and textures that were
+/// not chosen are there and empty, so that numbers mean what they mean in the file.
 class VerifiedPack {
 public:
     [[nodiscard]] const Pack& operator*() const { return pack_; }
     [[nodiscard]] const Pack* operator->() const { return &pack_; }
 
 private:
-    friend Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes);
+    friend Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseLevels& choose);
     explicit VerifiedPack(Pack pack) : pack_(std::move(pack)) {}
     Pack pack_;
 };
 
 /// Deterministic: the same pack gives the same bytes.
 [[nodiscard]] Result<Bytes> write_pack(const Pack& pack);
-[[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes);
+/// Without `choose`: all of it. Parts of levels that are not chosen are neither unpacked nor hashed.
+[[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes,
+                                               const ChooseLevels& choose = {});
 /// Reads and verifies; messages begin with the file's name.
-[[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file);
+[[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file,
+                                             const ChooseLevels& choose = {});
 
 /// `box_from_file` and the placement of the box in a prop as one matrix: file to prop coordinates.
 struct Placement {

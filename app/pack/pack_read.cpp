@@ -12,9 +12,48 @@ using namespace pack_format;
 
 namespace {
 
-Result<void> read_textures(PackReader& reader, Pack& pack) {
+/// Which levels are read, and what they need.
+struct Chosen {
+    std::vector<bool> levels;
+    std::vector<bool> textures;
+    bool relief = false;
+};
+
+Chosen everything(const Manifest& manifest) {
+    return {std::vector<bool>(manifest.levels.size(), true),
+            std::vector<bool>(manifest.textures.size(), true), true};
+}
+
+Result<Chosen> chosen_by(const ChooseLevels& choose, const Manifest& manifest) {
+    PackOutline outline{manifest.description, {}};
+    for (const LevelRecord& record : manifest.levels) {
+        outline.levels.push_back(
+            {record.technique, record.error, record.triangles, record.vertices, record.texture});
+    }
+    Chosen chosen{std::vector<bool>(manifest.levels.size()), std::vector<bool>(manifest.textures.size())};
+    const Result<std::vector<std::uint32_t>> levels = choose(outline);
+    if (!levels) {
+        return tl::unexpected(levels.error());
+    }
+    for (const std::uint32_t level : *levels) {
+        const LevelRecord& record = manifest.levels.at(level);
+        chosen.levels[level] = true;
+        chosen.textures[record.texture] = true;
+        chosen.relief = chosen.relief || record.technique == LevelTechnique::Relief;
+    }
+    return chosen;
+}
+
+Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack) {
     std::int64_t left = most_texels_together;
     for (const std::string& name : reader.manifest().textures) {
+        if (!chosen.textures[pack.textures.size()]) {
+            if (Result<void> passed = reader.pass_over(name); !passed) {
+                return passed;
+            }
+            pack.textures.emplace_back();
+            continue;
+        }
         const Result<Bytes> bytes = reader.take(name);
         if (!bytes) {
             return tl::unexpected(bytes.error());
@@ -29,10 +68,13 @@ Result<void> read_textures(PackReader& reader, Pack& pack) {
     return {};
 }
 
-Result<void> read_relief(PackReader& reader, Pack& pack) {
+Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
     const std::optional<ReliefRecord>& record = reader.manifest().relief;
     if (!record) {
         return {};
+    }
+    if (!chosen.relief) {
+        return reader.pass_over(record->atlas).and_then([&] { return reader.pass_over(record->charts); });
     }
     const Result<Bytes> atlas = reader.take(record->atlas);
     if (!atlas) {
@@ -73,11 +115,21 @@ Result<PackLevel> read_level(PackReader& reader, const LevelRecord& record, cons
     return level;
 }
 
-Result<void> read_levels(PackReader& reader, Pack& pack) {
+Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
     for (const LevelRecord& record : reader.manifest().levels) {
+        if (!chosen.levels[pack.levels.size()]) {
+            if (Result<void> passed = reader.pass_over(record.mesh); !passed) {
+                return passed;
+            }
+            pack.levels.push_back({record.technique, record.error, record.texture, {}, {}, {}});
+            continue;
+        }
         Result<PackLevel> level = read_level(reader, record, pack);
         if (!level) {
             return tl::unexpected(level.error());
+        }
+        if (level->indices.empty()) { // would count as one that was not read
+            return at(record.mesh, check_mesh(*level).error());
         }
         pack.levels.push_back(std::move(*level));
     }
@@ -85,37 +137,68 @@ Result<void> read_levels(PackReader& reader, Pack& pack) {
 }
 
 /// Each step needs that the ones before it passed.
-Result<void> read_all(PackReader& reader, Pack& pack) {
-    return check_texts(pack)
-        .and_then([&] { return check_placement(pack); })
-        .and_then([&] { return read_textures(reader, pack); })
-        .and_then([&] { return read_relief(reader, pack); })
-        .and_then([&] { return check_pictures(pack); })
-        .and_then([&] { return read_levels(reader, pack); })
-        .and_then([&] { return check_levels(pack); })
+Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack) {
+    if (Result<void> good = check_texts(pack).and_then([&] { return check_placement(pack); }); !good) {
+        return good;
+    }
+    if (Result<void> good = check_level_count(pack, reader.manifest().levels.size()); !good) {
+        return good;
+    }
+    const Result<Chosen> chosen =
+        choose ? chosen_by(choose, reader.manifest()) : everything(reader.manifest());
+    if (!chosen) {
+        return tl::unexpected(chosen.error());
+    }
+    const Read read = choose ? Read::Chosen : Read::All;
+    return read_textures(reader, *chosen, pack)
+        .and_then([&] { return read_relief(reader, *chosen, pack); })
+        .and_then([&] { return check_pictures(pack, read); })
+        .and_then([&] { return read_levels(reader, *chosen, pack); })
+        .and_then([&] { return check_levels(pack, read); })
         .and_then([&] { return reader.finish(); });
 }
 
 } // namespace
 
-Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes) {
+PackOutline outline_of(const Pack& pack) {
+    PackOutline outline;
+    Pack& description = outline.description;
+    description.title = pack.title;
+    description.languages = pack.languages;
+    description.captions = pack.captions;
+    description.prop_kind = pack.prop_kind;
+    description.unlit = pack.unlit;
+    description.samples = pack.samples;
+    description.relief_size = pack.relief_size;
+    description.box_size = pack.box_size;
+    description.box_from_file = pack.box_from_file;
+    description.extremes = pack.extremes;
+    description.default_level = pack.default_level;
+    for (const PackLevel& level : pack.levels) {
+        outline.levels.push_back(
+            {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), level.texture});
+    }
+    return outline;
+}
+
+Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseLevels& choose) {
     Result<PackReader> reader = PackReader::open(bytes);
     if (!reader) {
         return tl::unexpected(reader.error());
     }
     Pack pack = reader->manifest().description;
-    if (auto good = read_all(*reader, pack); !good) {
+    if (auto good = read_all(*reader, choose, pack); !good) {
         return tl::unexpected(good.error());
     }
     return VerifiedPack(std::move(pack));
 }
 
-Result<VerifiedPack> load_pack(const std::filesystem::path& file) {
+Result<VerifiedPack> load_pack(const std::filesystem::path& file, const ChooseLevels& choose) {
     const Result<Bytes> bytes = read_file(file, most_pack_bytes);
     if (!bytes) {
         return tl::unexpected(bytes.error());
     }
-    Result<VerifiedPack> pack = verify_pack(*bytes);
+    Result<VerifiedPack> pack = verify_pack(*bytes, choose);
     if (!pack) {
         return at(file.string(), pack.error());
     }

@@ -84,7 +84,7 @@ Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
     return PackReader(std::move(*zip), std::move(*manifest));
 }
 
-Result<Bytes> PackReader::take(const std::string& name) {
+Result<const PartRecord*> PackReader::use(const std::string& name) {
     const PartRecord* part = find_part(manifest_, name);
     if (part == nullptr) {
         return bad_input(
@@ -93,8 +93,20 @@ Result<Bytes> PackReader::take(const std::string& name) {
     if (!taken_.insert(name).second) {
         return bad_input(fmt::format("the manifest uses the part {} twice", name));
     }
+    return part;
+}
+
+Result<void> PackReader::pass_over(const std::string& name) {
+    return use(name).map([](const PartRecord*) {});
+}
+
+Result<Bytes> PackReader::take(const std::string& name) {
+    const Result<const PartRecord*> part = use(name);
+    if (!part) {
+        return tl::unexpected(part.error());
+    }
     Result<Bytes> bytes = zip_.read(*zip_.find(name));
-    if (bytes && sha256_hex(*bytes) != part->sha256) {
+    if (bytes && sha256_hex(*bytes) != (*part)->sha256) {
         return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
     }
     return bytes;

@@ -23,6 +23,8 @@ public:
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
     /// A part's bytes; each part can be taken once.
     [[nodiscard]] Result<Bytes> take(const std::string& name);
+    /// Counts a part as used without a look at its bytes; each part can be taken or passed over once.
+    [[nodiscard]] Result<void> pass_over(const std::string& name);
     /// Refuses parts that nothing refers to.
     [[nodiscard]] Result<void> finish() const;
 
@@ -30,6 +32,7 @@ private:
     PackReader(ZipReader zip, Manifest manifest) : zip_(std::move(zip)), manifest_(std::move(manifest)) {}
     ZipReader zip_;
     Manifest manifest_;
+    [[nodiscard]] Result<const PartRecord*> use(const std::string& name);
     std::set<std::string> taken_;
 };
 

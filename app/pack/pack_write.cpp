@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace frustumscreen {
 
 using namespace pack_format;
@@ -24,13 +22,10 @@ struct Part {
 };
 
 Result<void> check(const Pack& pack) {
-    const std::array checks{check_texts, check_placement, check_pictures, check_levels};
-    for (const auto& check_one : checks) {
-        if (auto good = check_one(pack); !good) {
-            return good;
-        }
-    }
-    return {};
+    return check_texts(pack)
+        .and_then([&] { return check_placement(pack); })
+        .and_then([&] { return check_pictures(pack); })
+        .and_then([&] { return check_levels(pack); });
 }
 
 void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {

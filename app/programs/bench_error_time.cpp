@@ -1,6 +1,7 @@
 #include "app/programs/bench_error_time.h"
 
 #include "app/bench/error_time.h"
+#include "app/bench/figures.h"
 #include "app/bench/report.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,15 @@ struct Arguments {
     bool no_peers = false;
 };
 
+/// The pack's own figures, measured again; in mm on the first set-up's prop.
+void print_figures(const LoadedArtifact& artifact, const SetUp& set_up, BenchProgress& progress) {
+    progress.show("the pack's own figures", 0.0);
+    const std::vector<LevelFigures> figures = measure_figures(*artifact.pack, *artifact.mesh);
+    progress.clear();
+    const double mm_per_box = 1e3 * place(*artifact.pack, make_prop(set_up.settings.prop)).metres_per_box;
+    fmt::print("Are the pack's own figures true?\n{}\n", lines_of(judge(figures, mm_per_box)));
+}
+
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
     if (!set_ups) {
@@ -29,6 +39,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         return tl::unexpected<Error>(artifact.error());
     }
     const Pack& pack = *artifact->pack;
+    print_figures(*artifact, set_ups->front(), progress);
     std::vector<SetUpResult> results;
     std::vector<std::pair<std::string, std::string>> files;
     for (const SetUp& set_up : *set_ups) {

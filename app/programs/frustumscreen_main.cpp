@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string_view>
 #ifdef FRUSTUMSCREEN_HAS_RUN
+#include "app/programs/plan_command.h"
 #include "app/programs/run_command.h"
 #endif
 #include "app/settings/config_json.h"
@@ -38,9 +39,10 @@ int config_command(int argc, char** argv) {
 }
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen run|render|config [--help] ...\n"
+    fmt::print(to, "usage: frustumscreen run|render|plan|config [--help] ...\n"
                    "  run     the exhibit\n"
                    "  render  a pose file into pictures, without devices\n"
+                   "  plan    what a scene needs, what it leaves out, and what that saves\n"
                    "  config  the resolved, checked settings\n"
                    "  --version\n");
 }
@@ -56,6 +58,9 @@ int dispatch(int argc, char** argv) {
 #ifdef FRUSTUMSCREEN_HAS_RUN
     if (command == "run") {
         return run_command(argc - 1, argv + 1);
+    }
+    if (command == "plan") {
+        return plan_command(argc - 1, argv + 1);
     }
 #endif
     if (command == "--help" || command == "-h") {

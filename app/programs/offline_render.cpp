@@ -4,61 +4,49 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <chrono>
 
 namespace frustumscreen {
 
-Result<std::uint32_t> level_of(const Pack& pack, std::string_view technique) {
-    const auto levels = static_cast<std::uint32_t>(pack.levels.size());
-    if (technique == "auto") {
-        return pack.default_level;
-    }
-    if (technique == "finest") {
-        return levels - 1;
-    }
-    constexpr std::string_view prefix = "level";
-    if (technique.substr(0, prefix.size()) == prefix) {
-        std::uint32_t level = 0;
-        const char* const begin = technique.data() + prefix.size();
-        const char* const end = technique.data() + technique.size();
-        const std::from_chars_result read = std::from_chars(begin, end, level);
-        if (read.ec == std::errc{} && read.ptr == end && level < levels) {
-            return level;
-        }
-    }
-    return bad_input(fmt::format("technique '{}'; this pack has auto, finest and level0 to level{}",
-                                 technique, levels - 1));
-}
-
 namespace {
+
 /// The finest level is for those who do not count the cost: it gets the smoothest outlines too.
 int samples_of(const OfflineOptions& options, const Pack& pack) {
     const int usual = options.technique == "finest" ? finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;
 }
+
 } // namespace
 
-OfflineRenderer::OfflineRenderer(const CheckedSettings& settings, const OfflineOptions& options)
-    : projector_(settings->projector.pinhole),
-      table_from_projector_(settings->projector.table_from_projector), prop_(make_prop(settings->prop)) {
-    if (options.width > 0 && options.height > 0) {
-        projector_ = projector_.scaled_to(options.width, options.height);
+Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutline& pack,
+                               const OfflineOptions& options) {
+    SceneRequest request;
+    request.technique = options.technique;
+    request.live = false;
+    request.light = options.light;
+    request.samples = samples_of(options, pack.description);
+    request.room = default_samples;
+    request.economies = options.economies;
+    if (!options.views.empty()) {
+        request.visibility = visibility_of(*settings, options.views);
     }
+    Result<ScenePlan> plan = plan_scene(*settings, pack, request);
+    if (plan && options.width > 0 && options.height > 0) {
+        plan->projector = plan->projector.scaled_to(options.width, options.height);
+    }
+    return plan;
+}
+
+OfflineRenderer::OfflineRenderer(const ScenePlan& plan, const OfflineOptions& options)
+    : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop) {
     if (options.light) {
         light_ = LightCompensation{};
     }
 }
 
-Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSettings& settings,
-                                                                 const VerifiedPack& pack,
-                                                                 const OfflineOptions& options) {
-    const Result<std::uint32_t> level = level_of(*pack, options.technique);
-    if (!level) {
-        return tl::unexpected<Error>(level.error());
-    }
-    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(settings, options));
+Result<std::unique_ptr<OfflineRenderer>>
+OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options) {
+    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan, options));
     const int width = made->projector_.width;
     const int height = made->projector_.height;
     Result<std::unique_ptr<SurfacelessDisplay>> display = SurfacelessDisplay::create(width, height);
@@ -66,15 +54,16 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
         return tl::unexpected<Error>(display.error());
     }
     made->display_ = std::move(*display);
-    Result<ArtifactGpu> artifact = ArtifactGpu::upload(*pack, *level);
+    const std::uint32_t number = plan.rungs.front().level;
+    const SceneLevel level = scene_level(*pack, number, plan);
+    Result<ArtifactGpu> artifact = ArtifactGpu::upload(level, pack->textures[level.mesh.texture]);
     if (!artifact) {
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    Result<Renderer> renderer = Renderer::create({width,
-                                                  height,
-                                                  std::max(samples_of(options, *pack), default_samples),
-                                                  {false, made->artifact_->cut_out()}});
+    PassNeeds needs = needs_of(plan, level);
+    needs.cut_out = made->artifact_->cut_out();
+    Result<Renderer> renderer = Renderer::create(options_of(needs, width, height));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -87,12 +76,14 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const CheckedSe
         }
         made->hit_points_ = std::move(*hit_points);
     }
-    const double metres_per_box = place(*pack, made->prop_).metres_per_box;
-    made->technique_ = fmt::format("level{}", *level);
-    made->estimated_error_mm_ =
-        1e3 * metres_per_box * static_cast<double>(pack->levels[*level].error.mean_box);
-    made->placed_ = placed(*pack, *level, metres_per_box, *level);
-    made->placed_.samples = samples_of(options, *pack);
+    made->technique_ = fmt::format("level{}", number);
+    made->estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
+    made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
+                     pack->box_size,
+                     plan.metres_per_box,
+                     number,
+                     samples_of(options, *pack),
+                     plan.faces};
     made->plan_ = make_plan(made->prop_, made->placed_);
     return made;
 }

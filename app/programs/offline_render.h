@@ -10,6 +10,7 @@
 #include "app/render/hit_points.h"
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/scene_level.h"
 #include "app/settings/settings.h"
 #include "firmware_host/display/surfaceless_display.h"
 
@@ -20,9 +21,6 @@
 
 namespace frustumscreen {
 
-/// The level that a technique's name means: "auto" the pack's default, "finest", "level0", "level1", ...
-[[nodiscard]] Result<std::uint32_t> level_of(const Pack& pack, std::string_view technique);
-
 struct OfflineOptions {
     std::string technique = "auto";
     int width = 0; ///< of the picture; 0 = the configured projector's. The intrinsics scale with it.
@@ -31,7 +29,14 @@ struct OfflineOptions {
     bool hit_points = false;
     int samples =
         0; ///< a pixel, see RendererOptions; 0 = finest_samples for "finest", else what the pack asks for
+    unsigned economies = AllEconomies;
+    /// The poses that will be drawn and no others; empty: any.
+    std::vector<KnownView> views;
 };
+
+/// What is needed of a pack for the options, from its outline.
+[[nodiscard]] Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutline& pack,
+                                             const OfflineOptions& options);
 
 struct OfflinePicture {
     Image8 colour;
@@ -41,9 +46,10 @@ struct OfflinePicture {
 
 class OfflineRenderer {
 public:
-    /// `pack` must outlive it.
+    /// `plan`: made by plan_offline for the same options; the pack has its levels and need not outlive the
+    /// call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>>
-    create(const CheckedSettings& settings, const VerifiedPack& pack, const OfflineOptions& options);
+    create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options);
 
     [[nodiscard]] OfflinePicture draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m);
 
@@ -55,7 +61,7 @@ public:
     [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }
 
 private:
-    OfflineRenderer(const CheckedSettings& settings, const OfflineOptions& options);
+    OfflineRenderer(const ScenePlan& plan, const OfflineOptions& options);
     void draw_once(const PlanView& view);
 
     Pinhole projector_;

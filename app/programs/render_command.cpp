@@ -132,13 +132,26 @@ Result<void> render(const Request& request) {
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
-    const Result<VerifiedPack> pack = load_pack(request.pack);
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
     const Result<std::vector<Situation>> frames = frames_of(request, **settings);
     if (!frames) {
         return tl::unexpected<Error>(frames.error());
+    }
+    OfflineOptions options = request.options;
+    for (const Situation& frame : *frames) {
+        options.views.push_back({frame.table_from_prop, frame.eye_m});
+    }
+    ScenePlan plan;
+    const Result<VerifiedPack> pack =
+        load_pack(request.pack, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            Result<ScenePlan> made = plan_offline(*settings, outline, options);
+            if (!made) {
+                return tl::unexpected<Error>(made.error());
+            }
+            plan = std::move(*made);
+            return plan.levels;
+        });
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
     }
     std::error_code failed;
     std::filesystem::create_directories(request.out, failed);
@@ -146,8 +159,7 @@ Result<void> render(const Request& request) {
         return bad_input(
             fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer =
-        OfflineRenderer::create(*settings, *pack, request.options);
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*pack, plan, options);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

@@ -53,48 +53,84 @@ std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
 
 } // namespace
 
-/// Brings packs into the GPU's memory, one after the other; nothing of a pack but what culls stays in ours.
+/// Brings what is needed of packs into the GPU's memory, one after the other; nothing of a pack but what
+/// culls stays in ours.
 struct ArtifactShow::Loader {
     const Settings& settings;
-    LevelOptions level_options;
-    PropShape prop;
-    Typesetter typesetter;
-    double texels_per_m = 0.0; ///< of captions: the projector's pixels at the table's centre
+    const DevicePlan& devices;
+    const ArtifactShowOptions& options;
+    std::optional<Typesetter> typesetter; ///< opened for the first caption
     std::uint64_t next_id = 1;
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
-        const Result<VerifiedPack> pack = load_pack(file);
+        ScenePlan plan;
+        const Result<VerifiedPack> pack =
+            load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+                Result<ScenePlan> made = plan_scene(settings, outline, request(outline));
+                if (!made) {
+                    return tl::unexpected<Error>(made.error());
+                }
+                plan = std::move(*made);
+                return plan.levels;
+            });
         if (!pack) {
             return tl::unexpected<Error>(pack.error());
         }
-        Result<RunLevels> levels = RunLevels::upload(**pack, prop, level_options, next_id);
+        Result<RunLevels> levels =
+            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, next_id);
         if (!levels) {
             return at(file.string(), levels.error());
         }
         next_id += (*pack)->levels.size();
-        Artifact artifact{(*pack)->title, std::move(*levels), {}, {}};
+        plan.passes = levels->needs();
+        plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
+        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             return at(file.string(), set.error());
         }
         return artifact;
     }
 
-    [[nodiscard]] Result<void> set_captions(const Pack& pack, Artifact& artifact) {
-        std::vector<PackCaption> captions = pack.captions;
-        if (captions.empty()) {
-            captions.push_back({"en", pack.title, ""});
+    [[nodiscard]] SceneRequest request(const PackOutline& outline) const {
+        SceneRequest request;
+        request.technique = options.technique;
+        request.room = options.samples;
+        request.economies = options.economies;
+        request.visibility = visibility_of(settings);
+        std::vector<std::string> languages;
+        for (const PackCaption& caption : outline.description.captions) {
+            request.captions.push_back(languages.size());
+            languages.push_back(caption.language);
         }
-        for (const PackCaption& caption : captions) {
+        if (!devices.language && !languages.empty()) {
+            request.captions = {caption_for(settings.exhibit.language, languages)};
+        }
+        return request;
+    }
+
+    [[nodiscard]] Result<void> set_captions(const Pack& pack, Artifact& artifact) {
+        const double texels_per_m =
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+        for (const std::size_t each : artifact.plan.captions) {
+            if (!typesetter) {
+                Result<Typesetter> opened = Typesetter::open();
+                if (!opened) {
+                    return tl::unexpected<Error>(opened.error());
+                }
+                typesetter = std::move(*opened);
+            }
+            const PackCaption& caption = pack.captions[each];
             std::vector<CaptionPicture> shapes;
             for (const double width_m : caption_widths_m) {
                 const CaptionImage image =
-                    make_caption(typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
+                    make_caption(*typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
                                  width_m, texels_per_m);
                 Result<CaptionGpu> gpu = CaptionGpu::upload(image.coverage);
                 if (!gpu) {
                     return tl::unexpected<Error>(gpu.error());
                 }
-                shapes.push_back({std::move(*gpu), image.size_m, next_id++});
+                shapes.push_back({std::move(*gpu), image.size_m, next_id++,
+                                  caption_gpu_bytes(image.coverage.width, image.coverage.height)});
             }
             artifact.languages.push_back(caption.language);
             artifact.captions.push_back(std::move(shapes));
@@ -104,27 +140,20 @@ struct ArtifactShow::Loader {
 };
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
+                                                           const DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
                                                            const RenderTarget& target, MonotonicTime now) {
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    const Pinhole& pinhole = settings.projector.pinhole;
-    const double lens_height_m = settings.projector.table_from_projector.translation.z;
-    const PropShape prop = make_prop(settings.prop);
-    const double pixel_m = pixel_on_prop_m(prop, pinhole, settings.projector.table_from_projector.inverse());
-    const LevelOptions level_options{options.technique, 1e3 * settings.render.error_tolerance_px * pixel_m,
-                                     1e3 / settings.projector.refresh_hz};
-    Loader loader{settings, level_options, prop, std::move(*typesetter), pinhole.fx / lens_height_m};
+    Loader loader{settings, devices, options, std::nullopt};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
-    FacePass::Needs needs;
+    PassNeeds needs;
     for (const std::filesystem::path& file : options.packs) {
+        if (!artifacts.empty() && !devices.other_packs) {
+            break; // no button leads there
+        }
         Result<Artifact> artifact = loader.load(file);
         if (artifact) {
-            needs.level_fades = needs.level_fades || artifact->levels.fades();
-            needs.cut_out = needs.cut_out || artifact->levels.cut_out();
+            needs = united(needs, artifact->plan.passes);
             artifacts.push_back(std::move(*artifact));
         } else {
             fmt::print(stderr, "frustumscreen: left out: {}\n", artifact.error().message);
@@ -136,12 +165,13 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
             "make them with frustumscreen-bake");
     }
-    Result<Renderer> renderer = Renderer::create({pinhole.width, pinhole.height, options.samples, needs});
+    const Pinhole& pinhole = settings.projector.pinhole;
+    Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
     std::unique_ptr<ArtifactShow> show(
-        new ArtifactShow(settings, std::move(*renderer), std::move(artifacts), now));
+        new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
     show->measure(settings, target);
     return show;
 }
@@ -154,16 +184,20 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
     }
 }
 
-ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
-                           MonotonicTime now)
+ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+                           std::vector<Artifact> artifacts, MonotonicTime now)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
-      prop_(make_prop(settings.prop)), renderer_(std::move(renderer)), artifacts_(std::move(artifacts)),
+      prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
+      artifacts_(std::move(artifacts)),
       exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
       placer_(picture_on_table(settings, 0.0)) {}
 
 const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime now, const Shown& shown,
                                                                 const Situation& situation, PlanView& view) {
     const Artifact& artifact = artifacts_[shown.artifact];
+    if (artifact.captions.empty()) {
+        return nullptr;
+    }
     const std::vector<CaptionPicture>& shapes =
         artifact.captions[caption_for(exhibit_.language(), artifact.languages)];
     if (placed_caption_ != &shapes) {
@@ -200,6 +234,30 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& situation, con
     }
     return artifacts_[on_].levels.draw(now, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
                                        renderer_, target, redraw);
+}
+
+ShowUse ArtifactShow::use() const {
+    ShowUse use;
+    use.planned_programs = programs_of(needs_);
+    use.programs = renderer_.programs();
+    use.samples = needs_.samples;
+    use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
+    use.gpu_bytes = renderer_.bytes();
+    for (const Artifact& artifact : artifacts_) {
+        for (const LevelUse& level : artifact.levels.uses()) {
+            use.planned_gpu_bytes += level.planned_gpu_bytes;
+            use.gpu_bytes += level.gpu_bytes;
+        }
+        use.captions += artifact.captions.size();
+        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
+            for (const CaptionPicture& shape : shapes) {
+                use.planned_gpu_bytes += shape.planned_gpu_bytes;
+                use.caption_gpu_bytes += shape.gpu.bytes();
+            }
+        }
+    }
+    use.gpu_bytes += use.caption_gpu_bytes;
+    return use;
 }
 
 void ArtifactShow::took(MonotonicTime now, double ms) {

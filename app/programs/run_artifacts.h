@@ -23,17 +23,27 @@ namespace frustumscreen {
 
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
-    std::string technique = "auto"; ///< see LevelOptions
-    int samples = default_samples;
+    std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
+    int samples = default_samples;  ///< a pixel, that there is room for
+    unsigned economies = AllEconomies;
+};
+
+/// What a show took, planned and observed.
+struct ShowUse {
+    std::vector<Program> planned_programs, programs;
+    std::uint64_t planned_gpu_bytes = 0;
+    std::uint64_t gpu_bytes = 0; ///< as the driver says
+    std::uint64_t caption_gpu_bytes = 0;
+    std::size_t captions = 0; ///< texts, each in some widths
+    int samples = 1;          ///< a pixel, that there is room for
 };
 
 class ArtifactShow final : public Show {
 public:
     /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
-    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
-                                                                      const ArtifactShowOptions& options,
-                                                                      const RenderTarget& target,
-                                                                      MonotonicTime now);
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
+    create(const Settings& settings, const DevicePlan& devices, const ArtifactShowOptions& options,
+           const RenderTarget& target, MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
@@ -41,23 +51,30 @@ public:
     void took(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(MonotonicTime now) const override;
 
+    [[nodiscard]] ShowUse use() const;
+    /// Of the artifacts that are shown, in order.
+    [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const { return artifacts_[artifact].plan; }
+    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return artifacts_[artifact].levels; }
+
 private:
     /// One text wrapped to one width.
     struct CaptionPicture {
         CaptionGpu gpu;
         glm::dvec2 size_m{0.0};
         std::uint64_t id = 0;
+        std::uint64_t planned_gpu_bytes = 0;
     };
     struct Artifact {
         std::string title;
+        ScenePlan plan;
         RunLevels levels;
         std::vector<std::string> languages;
         std::vector<std::vector<CaptionPicture>> captions; ///< one list for each of `languages`
     };
     struct Loader;
 
-    ArtifactShow(const Settings& settings, Renderer renderer, std::vector<Artifact> artifacts,
-                 MonotonicTime now);
+    ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+                 std::vector<Artifact> artifacts, MonotonicTime now);
     void measure(const Settings& settings, const RenderTarget& target);
     /// Chooses the caption; its brightness includes the fades.
     [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
@@ -66,6 +83,7 @@ private:
     Pinhole projector_;
     RigidTransform table_from_projector_;
     PropShape prop_;
+    PassNeeds needs_;
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
     Exhibit exhibit_;

@@ -39,6 +39,7 @@ struct Request {
 };
 
 int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    bool everything = false;
     CLI::App app("Runs the exhibit until SIGTERM or SIGINT, or for some seconds.", "frustumscreen run");
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_flag("--headless", request.headless, "without a screen");
@@ -61,6 +62,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
                    "change the artifact so many times, evenly, instead of the panel")
         ->check(CLI::Range(1, 1000000))
         ->needs(seconds);
+    app.add_flag("--everything", everything,
+                 "leave nothing out that this scene does not need, to compare with; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
     try {
         app.parse(argc, argv);
@@ -68,6 +71,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         done = true;
         return app.exit(error) == 0 ? 0 : 2;
     }
+    request.show.economies = everything ? 0U : AllEconomies;
     return 0;
 }
 
@@ -86,7 +90,8 @@ sigset_t hold_stop_signals() {
 }
 
 Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
-                                        const Display& display, MonotonicTime start) {
+                                        const DevicePlan& devices, const Display& display,
+                                        MonotonicTime start) {
     if (request.pattern) {
         return PatternShow::create(settings);
     }
@@ -94,7 +99,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
     }
-    return ArtifactShow::create(settings, options, {display.framebuffer(), 0}, start);
+    return ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
 }
 
 /// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.
@@ -162,7 +167,8 @@ Result<void> run(const Request& request) {
         return request.fast ? MonotonicTime{}
                             : std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
     };
-    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, **display, now());
+    const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
+    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, devices, **display, now());
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }
@@ -171,7 +177,7 @@ Result<void> run(const Request& request) {
         press_every = nanoseconds(request.seconds / request.changes);
     }
     const MonotonicTime start = now();
-    Result<Inputs> inputs = make_inputs(**settings, press_every, start);
+    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start);
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }

@@ -1,7 +1,6 @@
 #include "app/programs/run_levels.h"
 
 #include "app/geometry/time_curves.h"
-#include "app/programs/offline_render.h"
 #include "app/render/read_back.h"
 
 #include <fmt/format.h>
@@ -18,42 +17,53 @@ RunLevels::RunLevels(std::string technique, std::vector<Level> levels, std::vect
       deadline_ms_(deadline_ms), governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms),
       plan_(std::move(plan)) {}
 
-Result<RunLevels> RunLevels::upload(const Pack& pack, const PropShape& prop, const LevelOptions& options,
-                                    std::uint64_t first_id) {
-    const Result<std::uint32_t> asked = level_of(pack, options.technique);
-    if (!asked) {
-        return tl::unexpected<Error>(asked.error());
-    }
-    const double metres_per_box = place(pack, prop).metres_per_box;
-    const double mm_per_box = 1e3 * metres_per_box;
-    std::vector<Rung> rungs{{*asked, pack.samples, true}};
-    if (options.technique == "auto") {
-        rungs = ladder(pack.levels, mm_per_box, options.tolerance_mm, pack.samples);
-    }
+Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std::string technique,
+                                    double deadline_ms, std::uint64_t first_id) {
+    const double mm_per_box = 1e3 * plan.metres_per_box;
     std::vector<Level> levels;
+    std::vector<LevelUse> uses;
+    std::vector<LeftOut> left_out;
     std::size_t indices = 0;
-    for (const Rung& rung : rungs) {
-        if (!levels.empty() && levels.back().level == rung.level) {
-            continue;
+    PassNeeds needs = plan.passes;
+    needs.samples = 1;
+    for (const std::uint32_t number : plan.levels) {
+        const SceneLevel kept = scene_level(pack, number, plan);
+        needs = united(needs, needs_of(plan, kept));
+        const Image8& texture = pack.textures[kept.mesh.texture];
+        for (LeftOut& each : left_out_of(plan, kept, texture)) {
+            left_out.push_back(std::move(each));
         }
-        Result<ArtifactGpu> gpu = ArtifactGpu::upload(pack, rung.level);
+        Result<ArtifactGpu> gpu = ArtifactGpu::upload(kept, texture);
         if (!gpu) {
             return tl::unexpected<Error>(gpu.error());
         }
-        const PackLevel& source = pack.levels[rung.level];
-        levels.push_back({rung.level, fmt::format("level{}", rung.level),
-                          mm_per_box * static_cast<double>(source.error.mean_box),
-                          mm_per_box * static_cast<double>(source.error.p95_box),
-                          placed(pack, rung.level, metres_per_box, first_id + rung.level), std::move(*gpu)});
-        indices += source.indices.size();
+        needs.cut_out = needs.cut_out || gpu->cut_out();
+        uses.push_back({number, kept.mesh.indices.size() / 3, kept.unseen_triangles, kept.unseen_clusters,
+                        glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
+                        kept.finest_mip, gpu_bytes(kept, texture), gpu->bytes()});
+        PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size)),
+                           pack.box_size,
+                           plan.metres_per_box,
+                           first_id + number,
+                           pack.samples,
+                           plan.faces};
+        levels.push_back({number, fmt::format("level{}", number),
+                          mm_per_box * static_cast<double>(kept.mesh.error.mean_box),
+                          mm_per_box * static_cast<double>(kept.mesh.error.p95_box), std::move(placed),
+                          std::move(*gpu)});
+        indices += kept.mesh.indices.size();
     }
-    return RunLevels(options.technique, std::move(levels), std::move(rungs), options.deadline_ms,
-                     make_plan(prop, indices));
+    RunLevels made(std::move(technique), std::move(levels), plan.rungs, deadline_ms,
+                   make_plan(plan.prop, indices));
+    made.uses_ = std::move(uses);
+    made.left_out_ = std::move(left_out);
+    made.needs_ = needs;
+    return made;
 }
 
-bool RunLevels::cut_out() const {
-    return std::any_of(levels_.begin(), levels_.end(),
-                       [](const Level& level) { return level.gpu.cut_out(); });
+bool RunLevels::fades() const {
+    return std::any_of(rungs_.begin(), rungs_.end(),
+                       [&](const Rung& rung) { return rung.level != rungs_.front().level; });
 }
 
 std::size_t RunLevels::slot_of(std::uint32_t level) const {

@@ -1,7 +1,7 @@
 /// One artifact on the display: its levels in the GPU's memory, the governor that picks one, and the fade
 /// from one to the next.
 ///
-/// Only levels that the governor may pick are uploaded. A change of level fades over `level_fade_s`, pixel by
+/// Only what the scene's plan has is uploaded. A change of level fades over `level_fade_s`, pixel by
 /// pixel; a change of samples alone does not: on each of six scans, at each step, it altered the picture less
 /// than moving the prop by a quarter of a pixel did (RMSE 3 to 69 codes against 5 to 83), and a governor only
 /// decides while pictures change.
@@ -14,6 +14,7 @@
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/governor.h"
+#include "app/scene/scene_level.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
@@ -27,10 +28,15 @@ namespace frustumscreen {
 
 inline constexpr double level_fade_s = 0.4;
 
-struct LevelOptions {
-    std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
-    double tolerance_mm = 0.0;
-    double deadline_ms = 0.0;
+/// The mesh that a level had, and what the scene kept of it: for reports.
+struct LevelUse {
+    std::uint32_t level = 0;
+    std::size_t triangles = 0;
+    std::size_t unseen_triangles = 0, unseen_clusters = 0;
+    glm::ivec2 texture{0, 0}; ///< texels of the finest mip level kept
+    int finest_mip = 0;
+    std::uint64_t planned_gpu_bytes = 0;
+    std::uint64_t gpu_bytes = 0; ///< as the driver says
 };
 
 /// What is being drawn.
@@ -46,14 +52,18 @@ struct LevelState {
 
 class RunLevels {
 public:
-    /// Level k of the pack gets the id first_id + k. `pack` need not outlive the call.
-    [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const PropShape& prop,
-                                                  const LevelOptions& options, std::uint64_t first_id);
+    /// `technique`: as asked for. Level k of the pack gets the id first_id + k. `pack` need not outlive the
+    /// call.
+    [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
+                                                  std::string technique, double deadline_ms,
+                                                  std::uint64_t first_id);
 
-    /// Whether a renderer for it must be able to fade.
-    [[nodiscard]] bool fades() const { return levels_.size() > 1; }
-    /// Whether a renderer for it must leave out texels that are cut out.
-    [[nodiscard]] bool cut_out() const;
+    /// Whether it may change from one level to another.
+    [[nodiscard]] bool fades() const;
+    [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
+    [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
+    /// What a renderer for it must be able to do.
+    [[nodiscard]] const PassNeeds& needs() const { return needs_; }
 
     /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
     /// there is nothing to choose. `target` is left with some picture in it, to be presented by nobody.
@@ -92,6 +102,9 @@ private:
                                    Renderer& renderer, const RenderTarget& target);
 
     std::string technique_;
+    std::vector<LevelUse> uses_;
+    std::vector<LeftOut> left_out_;
+    PassNeeds needs_;
     std::vector<Level> levels_;
     std::vector<Rung> rungs_;
     double deadline_ms_;

@@ -45,8 +45,10 @@ public:
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
           start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
-          situation_(inputs.tracker->reports_table_frame() ? RigidTransform{}
-                                                           : settings.tracker.table_from_tracker,
+          head_is_followed_(settings.eye.tracked),
+          situation_(inputs.tracker && !inputs.tracker->reports_table_frame()
+                         ? settings.tracker.table_from_tracker
+                         : RigidTransform{},
                      settings.eye.default_m),
           times_(window_frames), presented_(start) {
         samples_.reserve(1024);
@@ -97,7 +99,7 @@ private:
         const double ms = milliseconds_since(begin);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
-        result_.status.prop_known = situation.prop_known;
+        result_.status.prop_known = situation.prop_known || !inputs_.tracker;
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state(now);
         if (result_.rows.size() < rows_expected_) {
@@ -124,10 +126,16 @@ private:
     void poll(MonotonicTime now) {
         samples_.clear();
         events_.clear();
-        result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
-        result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+        if (inputs_.tracker) {
+            result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
+        }
+        if (inputs_.panel) {
+            result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+        }
         for (const PoseSample& sample : samples_) {
-            result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
+            if (head_is_followed_ || sample.station != head_station) {
+                result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
+            }
         }
         for (const PanelEvent& event : events_) {
             if (const std::optional<Wish> wish = wish_of(event.button)) {
@@ -204,6 +212,7 @@ private:
     StatusFile& status_file_;
     MonotonicTime start_;
     Nanoseconds period_;
+    bool head_is_followed_;
     SituationTracker situation_;
     FrameTimes times_;
     std::vector<PoseSample> samples_;

@@ -67,13 +67,20 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
     return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
 }
 
-Result<Inputs> make_inputs(const Settings& settings, std::optional<Nanoseconds> press_every,
-                           MonotonicTime start) {
-    Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start);
-    if (!tracker) {
-        return tl::unexpected<Error>(tracker.error());
+Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
+                           std::optional<Nanoseconds> press_every, MonotonicTime start) {
+    Inputs inputs;
+    if (plan.tracker != TrackerKind::None) {
+        Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start);
+        if (!tracker) {
+            return tl::unexpected<Error>(tracker.error());
+        }
+        inputs.tracker = std::move(*tracker);
     }
-    return Inputs{std::move(*tracker), make_panel(settings, press_every, start)};
+    if (plan.panel) {
+        inputs.panel = make_panel(settings, press_every, start);
+    }
+    return inputs;
 }
 
 } // namespace frustumscreen

@@ -4,6 +4,7 @@
 /// Errors   a pose file that cannot be read, no OpenGL ES, a display that this build does not have.
 #pragma once
 
+#include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/display/display.h"
@@ -19,11 +20,11 @@ namespace frustumscreen {
 
 /// What the exhibit listens to.
 struct Inputs {
-    std::unique_ptr<Tracker> tracker;
-    std::unique_ptr<Panel> panel;
+    std::unique_ptr<Tracker> tracker; ///< none: the prop stands at the table's centre
+    std::unique_ptr<Panel> panel;     ///< none: nothing is pressed
 };
-/// `press_every`: press 'next artifact' evenly in place of the panel's script.
-[[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, std::optional<Nanoseconds> press_every,
-                                         MonotonicTime start);
+/// What the plan has, no more. `press_every`: press 'next artifact' evenly in place of the panel's script.
+[[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
+                                         std::optional<Nanoseconds> press_every, MonotonicTime start);
 
 } // namespace frustumscreen

@@ -1,53 +1,41 @@
 #include "app/render/artifact_gpu.h"
 
+#include "app/render/gl_memory.h"
+
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 
 namespace frustumscreen {
 
 namespace {
 
-/// Coarser levels mix charts that lie side by side in the atlas.
-constexpr int coarsest_mip_level = 4;
-
-/// The edge of the surface's mean texel, inverted: texels along one box unit.
-double texels_per_box(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size) {
-    const auto position = [&](std::uint32_t vertex) {
-        const auto& q = level.vertices[vertex].position;
-        return glm::dvec3(q[0], q[1], q[2]) * box_size;
+GlTexture upload_colour(const Image8& image, int finest_mip) {
+    const Image8* mip = &image;
+    Image8 made;
+    const auto go_on = [&] {
+        made = half_size(*mip);
+        mip = &made;
     };
-    const auto texel = [&](std::uint32_t vertex) {
-        const auto& q = level.vertices[vertex].uv;
-        return glm::dvec3(q[0] * texture.width, q[1] * texture.height, 0);
-    };
-    const auto doubled_area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        return glm::length(glm::cross(b - a, c - a));
-    };
-    double texels = 0.0;
-    double surface = 0.0;
-    for (std::size_t k = 0; k + 2 < level.indices.size(); k += 3) {
-        const std::array<std::uint32_t, 3> v{level.indices[k], level.indices[k + 1], level.indices[k + 2]};
-        texels += doubled_area(texel(v[0]), texel(v[1]), texel(v[2]));
-        surface += doubled_area(position(v[0]), position(v[1]), position(v[2]));
+    for (int k = 0; k < finest_mip; ++k) {
+        go_on();
     }
-    return surface > 0.0 ? std::sqrt(texels / surface) : 0.0;
-}
-
-GlTexture upload_colour(const Image8& image) {
     GlTexture texture = GlTexture::generate();
-    const auto longest = static_cast<unsigned>(std::max(image.width, image.height));
-    const int levels = std::min(static_cast<int>(std::bit_width(longest)), coarsest_mip_level + 1);
+    const auto longest = static_cast<unsigned>(std::max(mip->width, mip->height));
+    const int levels =
+        std::min(static_cast<int>(std::bit_width(longest)), coarsest_mip_level + 1 - finest_mip);
     glBindTexture(GL_TEXTURE_2D, texture.get());
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, image.width, image.height);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                    image.texels.data());
-    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, mip->width, mip->height);
+    for (int k = 0; k < levels; ++k) {
+        if (k > 0) {
+            go_on();
+        }
+        glTexSubImage2D(GL_TEXTURE_2D, k, 0, 0, mip->width, mip->height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mip->texels.data());
+    }
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -66,8 +54,11 @@ template <typename T> GlBuffer upload_buffer(GLenum target, const std::vector<T>
 } // namespace
 
 Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
-    const PackLevel& source = pack.levels[level];
-    const Image8& image = pack.textures[source.texture];
+    return upload(whole_level(pack, level), pack.textures[pack.levels[level].texture]);
+}
+
+Result<ArtifactGpu> ArtifactGpu::upload(const SceneLevel& level, const Image8& image) {
+    const PackLevel& source = level.mesh;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (std::max(image.width, image.height) > limit) {
@@ -78,7 +69,8 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
                 image.width, image.height, limit));
     }
     ArtifactGpu artifact;
-    artifact.texels_per_box_ = texels_per_box(source, image, pack.box_size);
+    artifact.texels_per_box_ = level.texels_per_box;
+    artifact.finest_mip_ = level.finest_mip;
     artifact.cut_out_ = has_cut_texels(image);
     artifact.vertex_array_ = GlVertexArray::generate();
     glBindVertexArray(artifact.vertex_array_.get());
@@ -90,7 +82,7 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
                           // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
     glBindVertexArray(0);
-    artifact.texture_ = upload_colour(image);
+    artifact.texture_ = upload_colour(image, level.finest_mip);
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration,
                     "render: the driver has no memory for the artifact; bake a smaller one");
@@ -99,9 +91,11 @@ Result<ArtifactGpu> ArtifactGpu::upload(const Pack& pack, std::uint32_t level) {
 }
 
 float ArtifactGpu::mip_level(double samples_per_box) const {
-    const double texels_per_sample = texels_per_box_ / samples_per_box;
-    // The filter rounds: half a level more, and it takes the first level that no sample skips a texel of.
-    return texels_per_sample > 0.0 ? static_cast<float>(std::log2(texels_per_sample) + 0.5) : 0.0F;
+    return static_cast<float>(frustumscreen::mip_level(texels_per_box_, samples_per_box) - finest_mip_);
+}
+
+std::uint64_t ArtifactGpu::bytes() const {
+    return bytes_of_buffer(vertices_) + bytes_of_texture(texture_);
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "app/render/caption_pass.h"
 
+#include "app/render/gl_memory.h"
 #include "app/render/gl_program.h"
 
 #include <fmt/format.h>
@@ -55,6 +56,10 @@ Result<CaptionGpu> CaptionGpu::upload(const Image<std::uint8_t>& coverage) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return caption;
+}
+
+std::uint64_t CaptionGpu::bytes() const {
+    return bytes_of_texture(texture_);
 }
 
 Result<CaptionPass> CaptionPass::create() {

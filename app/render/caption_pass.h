@@ -19,6 +19,8 @@ public:
     /// Coverage 0..255, row 0 at the text's top. Errors: larger than the driver allows.
     [[nodiscard]] static Result<CaptionGpu> upload(const Image<std::uint8_t>& coverage);
     [[nodiscard]] GLuint texture() const { return texture_.get(); }
+    /// Of GPU memory, as the driver says.
+    [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     CaptionGpu() = default;

@@ -135,24 +135,27 @@ Result<FacePass::ArtifactProgram> FacePass::make_artifact_program(std::string_vi
     return made;
 }
 
-Result<FacePass> FacePass::create(FaceOutput output, const Needs& needs) {
+Result<FacePass> FacePass::create(FaceOutput output, const Variants& variants) {
     FacePass pass;
-    const unsigned unneeded = (needs.level_fades ? 0U : Fading) | (needs.cut_out ? 0U : CutOut);
     for (unsigned variant = 0; variant < AllVariants; ++variant) {
-        if ((variant & unneeded) != 0) {
+        const bool compensated = (variant & Compensated) != 0;
+        const bool fading = (variant & Fading) != 0;
+        const bool cut_out = (variant & CutOut) != 0;
+        if (!(compensated ? variants.compensated : variants.plain) || (fading && !variants.level_fades) ||
+            (cut_out && !variants.cut_out)) {
             continue;
         }
-        std::string defines = (variant & Compensated) != 0 ? "#define COMPENSATED\n" : "";
-        defines += (variant & Fading) != 0 ? "#define FADING\n" : "";
+        std::string defines = compensated ? "#define COMPENSATED\n" : "";
+        defines += fading ? "#define FADING\n" : "";
         if (output == FaceOutput::HitPoint) {
             defines = "#define HIT_POINT\n";
         }
-        defines += (variant & CutOut) != 0 ? "#define CUT_OUT\n" : "";
+        defines += cut_out ? "#define CUT_OUT\n" : "";
         Result<ArtifactProgram> program = make_artifact_program(defines);
         if (!program) {
             return tl::unexpected<Error>(program.error());
         }
-        pass.programs_[variant] = std::move(*program);
+        pass.programs_.at(variant) = std::move(*program);
     }
     Result<GlProgram> outline = make_program("", outline_vertex, outline_fragment);
     if (!outline) {
@@ -163,6 +166,30 @@ Result<FacePass> FacePass::create(FaceOutput output, const Needs& needs) {
     pass.no_attributes_ = GlVertexArray::generate();
     pass.indices_ = GlBuffer::generate();
     return pass;
+}
+
+void FacePass::list_programs(std::vector<Program>& programs) const {
+    constexpr std::array<Program, AllVariants> names{
+        Program::Artifact,       Program::ArtifactCompensated,
+        Program::ArtifactFading, Program::ArtifactCompensatedFading,
+        Program::CutOut,         Program::CutOutCompensated,
+        Program::CutOutFading,   Program::CutOutCompensatedFading};
+    if (outline_.get() != 0) {
+        programs.push_back(Program::Outline);
+    }
+    for (std::size_t variant = 0; variant < names.size(); ++variant) {
+        if (programs_.at(variant)) {
+            programs.push_back(names.at(variant));
+        }
+    }
+}
+
+const FacePass::ArtifactProgram* FacePass::program_for(bool compensated, bool fading, bool cut_out) const {
+    const bool can_cut_out = programs_.at(CutOut) || programs_.at(CutOut | Compensated);
+    const unsigned rest = (fading ? Fading : 0U) | (cut_out && can_cut_out ? CutOut : 0U);
+    const auto& wanted = programs_.at((compensated ? Compensated : 0U) | rest);
+    const auto& other = programs_.at((compensated ? 0U : Compensated) | rest);
+    return wanted ? &*wanted : (other ? &*other : nullptr);
 }
 
 int FacePass::draw(const FramePlan& plan, const Levels& levels, const Raster& raster) const {
@@ -218,13 +245,13 @@ void FacePass::mark_faces(const FramePlan& plan, const Raster& raster) const {
 int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,
                          const Raster& raster) const {
     // A renderer that was made without fades draws the first level alone, whole.
-    const bool fading = plan.coming_share && programs_[Fading];
-    if (coming && !fading) {
+    const bool fading =
+        plan.coming_share && program_for(plan.compensate_light, true, artifact.cut_out()) != nullptr;
+    const ArtifactProgram* const found = program_for(plan.compensate_light, fading, artifact.cut_out());
+    if (found == nullptr || (coming && !fading)) {
         return 0;
     }
-    const bool cut_out = artifact.cut_out() && programs_[CutOut];
-    const ArtifactProgram& program = *programs_[(plan.compensate_light ? Compensated : 0U) |
-                                                (fading ? Fading : 0U) | (cut_out ? CutOut : 0U)];
+    const ArtifactProgram& program = *found;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).

@@ -17,6 +17,7 @@
 #include "app/render/gl_handle.h"
 #include "app/render/raster.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/scene_plan.h"
 #include "firmware_host/base/result.h"
 
 #include <array>
@@ -31,12 +32,17 @@ enum class FaceOutput {
 
 class FacePass {
 public:
-    /// What plans and artifacts may need; the shaders of anything else are not made.
-    struct Needs {
-        bool level_fades = false; ///< a plan may fade from one level to another
-        bool cut_out = false;     ///< an artifact may have texels that are cut out
+    /// The artifact's shader in the variants that plans will ask for; others are not made. A plan of another
+    /// kind is drawn with the nearest that there is.
+    struct Variants {
+        bool plain = true;       ///< colours as they are
+        bool compensated = true; ///< light evened out
+        bool level_fades = false;
+        bool cut_out = false; ///< beside the others: an artifact may have texels that are cut out
     };
-    [[nodiscard]] static Result<FacePass> create(FaceOutput output, const Needs& needs);
+    [[nodiscard]] static Result<FacePass> create(FaceOutput output, const Variants& variants);
+    /// Appends those that were made.
+    void list_programs(std::vector<Program>& programs) const;
 
     /// The level that the plan is of, and the one that a fade brings in.
     struct Levels {
@@ -63,6 +69,7 @@ private:
     };
     FacePass() = default;
     [[nodiscard]] static Result<ArtifactProgram> make_artifact_program(std::string_view defines);
+    [[nodiscard]] const ArtifactProgram* program_for(bool compensated, bool fading, bool cut_out) const;
     void upload_indices(const FramePlan& plan) const;
     void mark_faces(const FramePlan& plan, const Raster& raster) const;
     int draw_level(const FramePlan& plan, const ArtifactGpu& artifact, bool coming,

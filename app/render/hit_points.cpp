@@ -7,7 +7,7 @@
 namespace frustumscreen {
 
 Result<HitPointRenderer> HitPointRenderer::create(int width, int height, bool cut_out) {
-    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint, {false, cut_out});
+    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint, {true, false, false, cut_out});
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }

@@ -43,16 +43,20 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
                 fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
         }
     }
-    Result<FacePass> pass = FacePass::create(FaceOutput::Colour, options.needs);
+    Result<FacePass> pass = FacePass::create(
+        FaceOutput::Colour, {options.plain, options.compensated, options.level_fades, options.cut_out});
     if (!pass) {
         return tl::unexpected<Error>(pass.error());
     }
-    Result<CaptionPass> caption = CaptionPass::create();
-    if (!caption) {
-        return tl::unexpected<Error>(caption.error());
-    }
-    Renderer renderer(std::move(*pass), std::move(*caption));
+    Renderer renderer(std::move(*pass));
     renderer.options_ = options;
+    if (options.captions) {
+        Result<CaptionPass> caption = CaptionPass::create();
+        if (!caption) {
+            return tl::unexpected<Error>(caption.error());
+        }
+        renderer.caption_ = std::move(*caption);
+    }
     if (options.samples != 1) {
         Result<SampleGrid> grid = SampleGrid::create(options.width, options.height, options.samples);
         if (!grid) {
@@ -61,6 +65,23 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
         renderer.sample_grid_ = std::move(*grid);
     }
     return renderer;
+}
+
+std::vector<Program> Renderer::programs() const {
+    std::vector<Program> made;
+    pass_.list_programs(made);
+    if (caption_) {
+        made.push_back(Program::Caption);
+    }
+    if (sample_grid_) {
+        made.push_back(Program::TileClear);
+        made.push_back(Program::TileAverage);
+    }
+    return made;
+}
+
+std::uint64_t Renderer::bytes() const {
+    return sample_grid_ ? sample_grid_->bytes() : 0;
 }
 
 PixelRectangle Renderer::to_redraw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) const {
@@ -122,13 +143,13 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
 
 void Renderer::draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
                             const Raster& raster, DrawResult& result) const {
-    if (part.empty()) {
+    if (part.empty() || !caption_) {
         return;
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     glEnable(GL_SCISSOR_TEST);
     set_scissor(part, raster);
-    result.draw_calls += caption_.draw(plan.caption, shows.caption);
+    result.draw_calls += caption_->draw(plan.caption, shows.caption);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
 }

@@ -30,8 +30,17 @@ struct RendererOptions {
     /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
     /// llvmpipe that takes half the time of the driver's own multisampling.
     int samples = default_samples; ///< the most; a plan may ask for fewer, and for more where there is room
-    FacePass::Needs needs = {};
+    bool level_fades = false;      ///< a plan may fade from one level to another
+    bool plain = true;             ///< a plan may leave the light as it is
+    bool compensated = true;       ///< a plan may even it out
+    bool captions = true;          ///< a plan may have one
+    bool cut_out = false;          ///< an artifact may have texels that are cut out
 };
+
+[[nodiscard]] inline RendererOptions options_of(const PassNeeds& needs, int width, int height) {
+    return {width,          height,       needs.samples, needs.level_fades, needs.plain, needs.compensated,
+            needs.captions, needs.cut_out};
+}
 
 /// Display::framebuffer and Display::buffer_age.
 struct RenderTarget {
@@ -70,12 +79,17 @@ public:
     DrawResult draw(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                     Redraw redraw = Redraw::Changes);
 
+    /// The programs that were made.
+    [[nodiscard]] std::vector<Program> programs() const;
+    /// Of GPU memory, as the driver says, but for the indices that come with each picture.
+    [[nodiscard]] std::uint64_t bytes() const;
+
 private:
     struct Picture {
         std::uint64_t hash = 0;
         PixelRectangle bounds;
     };
-    Renderer(FacePass pass, CaptionPass caption) : pass_(std::move(pass)), caption_(std::move(caption)) {}
+    explicit Renderer(FacePass pass) : pass_(std::move(pass)) {}
     void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                DrawResult& result) const;
     void draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
@@ -85,7 +99,7 @@ private:
 
     RendererOptions options_;
     FacePass pass_;
-    CaptionPass caption_;
+    std::optional<CaptionPass> caption_;
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample
     std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_

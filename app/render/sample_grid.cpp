@@ -1,5 +1,6 @@
 #include "app/render/sample_grid.h"
 
+#include "app/render/gl_memory.h"
 #include "app/render/gl_program.h"
 
 #include <fmt/format.h>
@@ -142,6 +143,10 @@ Result<void> SampleGrid::make_target() {
                                 width_, height_, samples));
     }
     return {};
+}
+
+std::uint64_t SampleGrid::bytes() const {
+    return bytes_of_texture(colour_) + bytes_of_renderbuffer(depth_stencil_);
 }
 
 void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {

@@ -33,6 +33,9 @@ public:
     /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
     void average(const LitTiles& tiles, const Raster& raster) const;
 
+    /// Of GPU memory, as the driver says.
+    [[nodiscard]] std::uint64_t bytes() const;
+
 private:
     SampleGrid() = default;
     [[nodiscard]] Result<void> make_programs();

@@ -399,7 +399,7 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
     if (artifact.triangles && !view.eyes_m.empty() && view.brightness > 0.0) {
         for (std::size_t face = 0; face < std::min(prop.faces.size(), most_faces); ++face) {
             FacePlan face_plan;
-            if (plan_face(face, shared, plan, face_plan)) {
+            if (((artifact.faces >> face) & 1U) != 0 && plan_face(face, shared, plan, face_plan)) {
                 plan.faces.push_back(face_plan);
             }
         }

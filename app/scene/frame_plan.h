@@ -36,6 +36,7 @@ struct PlacedLevel {
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
     std::uint64_t id = 0;                            ///< tells artifacts and levels apart in a plan's hash
     int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
+    std::uint32_t faces = ~std::uint32_t{0}; ///< of the prop, bits: those that the artifact may show on
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  std::uint64_t id);

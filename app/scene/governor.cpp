@@ -24,29 +24,29 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
     return std::fmax(nearest, 0.0) / std::fmax(projector.fx, projector.fy);
 }
 
-std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box, double tolerance_mm,
+std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box, double tolerance_mm,
                          int samples) {
-    constexpr double most_over_p95 = 4.0;             // two pixels for half a one
-    const auto within = [&](const PackLevel& level) { // false for NaN
+    constexpr double most_over_p95 = 4.0;                // two pixels for half a one
+    const auto within = [&](const LevelOutline& level) { // false for NaN
         return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm &&
                static_cast<double>(level.error.max_box) * mm_per_box <= most_over_p95 * tolerance_mm;
     };
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
-        if (within(levels[k]) &&
-            (!within(levels[best]) || levels[k].indices.size() <= levels[best].indices.size())) {
+        if (within(levels[k]) && (!within(levels[best]) || levels[k].triangles <= levels[best].triangles)) {
             best = k;
         }
     }
     constexpr double most_of_finer = 0.75;
     std::vector<Rung> rungs;
-    std::size_t last_indices = levels[best].indices.size();
+    std::uint64_t last_triangles = levels[best].triangles;
     for (std::size_t k = best + 1; k-- > 0;) {
-        const std::size_t indices = levels[k].indices.size();
-        if (k != best && static_cast<double>(indices) > most_of_finer * static_cast<double>(last_indices)) {
+        const std::uint64_t triangles = levels[k].triangles;
+        if (k != best &&
+            static_cast<double>(triangles) > most_of_finer * static_cast<double>(last_triangles)) {
             continue;
         }
-        last_indices = indices;
+        last_triangles = triangles;
         for (int s = std::max(samples, 1); s >= 1; s /= 2) {
             rungs.push_back({static_cast<std::uint32_t>(k), s,
                              k == best && s == std::max(samples, 1) && within(levels[k])});

@@ -33,7 +33,7 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
-#include "app/pack/pack.h"
+#include "app/pack/pack_outline.h"
 #include "app/scene/frame_time_model.h"
 
 #include <cstdint>
@@ -57,7 +57,7 @@ struct Rung {
 /// The rungs that a governor may ever pick, best first; nothing else need be loaded. The level that meets the
 /// tolerance with fewest triangles (the finest if none does), coarser ones that save at least a quarter of
 /// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
-[[nodiscard]] std::vector<Rung> ladder(std::span<const PackLevel> levels, double mm_per_box,
+[[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box,
                                        double tolerance_mm, int samples);
 
 class Governor {

@@ -8,9 +8,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// Single-precision planes and the quantised positions under them; a triangle this near to edge-on is kept.
-constexpr float edge_on_box = 1e-5F;
-
 bool looks_away(const glm::dvec3& eye, const PackCluster& cluster) {
     const glm::dvec3 to_apex = glm::dvec3(cluster.cone_apex) - eye;
     // A hair's breadth keeps float-stored cones on the safe side.

@@ -18,6 +18,9 @@
 
 namespace frustumscreen {
 
+/// Single-precision planes and the quantised positions under them; a triangle this near to edge-on is kept.
+inline constexpr float edge_on_box = 1e-5F;
+
 /// A level's triangles as culling needs them; made once, when the level is loaded.
 struct LevelTriangles {
     struct Extent {

@@ -60,7 +60,7 @@ Json lit_zone_json(const Settings& settings) {
 }
 
 Json tracker_json(const TrackerSettings& tracker) {
-    return {{"kind", tracker.kind == TrackerKind::Replay ? "replay" : "simulated"},
+    return {{"kind", std::string(name_of(tracker.kind))},
             {"seed", tracker.seed},
             {"poses", tracker.poses.string()},
             {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())}};
@@ -79,7 +79,10 @@ Json exhibit_json(const ExhibitSettings& exhibit) {
     for (const auto& pack : exhibit.packs) {
         packs.push_back(pack.string());
     }
-    return {{"packs", packs}, {"language", exhibit.language}, {"caption_height_m", exhibit.caption_height_m}};
+    return {{"packs", packs},
+            {"language", exhibit.language},
+            {"captions", exhibit.captions},
+            {"caption_height_m", exhibit.caption_height_m}};
 }
 
 } // namespace
@@ -95,6 +98,7 @@ std::string config_json(const CheckedSettings& checked) {
                     {"height_m", settings.prop.height_m}};
     json["table"] = {{"width_m", settings.table.width_m}, {"depth_m", settings.table.depth_m}};
     json["eye_default_m"] = list_of(settings.eye.default_m);
+    json["eye_tracked"] = settings.eye.tracked;
     json["eye_zone"] = {{"lowest_elevation_deg", settings.eye.lowest_elevation_deg},
                         {"nearest_m", settings.eye.nearest_m},
                         {"farthest_m", settings.eye.farthest_m}};

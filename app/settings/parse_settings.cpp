@@ -20,6 +20,9 @@ constexpr std::size_t most_packs = 256;
 constexpr std::size_t most_presses = 1000;
 constexpr double longest_script_s = 86400.0;
 
+/// By TrackerKind.
+constexpr std::array<std::string_view, 3> tracker_names{"simulated", "replay", "none"};
+
 constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
 void read_rigid(TableReader& table, std::string_view key, RigidTransform& value) {
@@ -143,14 +146,14 @@ void read_eye(TableReader table, EyeSettings& eye) {
     table.number("lowest_elevation_deg", eye.lowest_elevation_deg, {1.0, 89.0, "degrees"});
     table.number("nearest_m", eye.nearest_m, {0.05, 10.0, "metres"});
     table.number("farthest_m", eye.farthest_m, {0.1, 20.0, "metres"});
+    table.flag("tracked", eye.tracked);
     table.finish();
 }
 
 void read_tracker(TableReader table, const std::filesystem::path& folder, TrackerSettings& tracker) {
-    constexpr std::array<std::string_view, 2> kinds{"simulated", "replay"};
     int kind = 0;
-    table.choice("kind", kind, kinds);
-    tracker.kind = kind == 0 ? TrackerKind::Simulated : TrackerKind::Replay;
+    table.choice("kind", kind, tracker_names);
+    tracker.kind = static_cast<TrackerKind>(kind);
     table.integer("seed", tracker.seed);
     std::string poses;
     table.text("poses", poses);
@@ -206,6 +209,7 @@ void read_exhibit(TableReader table, const std::filesystem::path& folder, Exhibi
                      fmt::format("is the text \"{}\"; allowed are language tags such as \"en\" or \"de-CH\"",
                                  printable(exhibit.language, 40)));
     }
+    table.flag("captions", exhibit.captions);
     table.number("caption_height_m", exhibit.caption_height_m, {0.002, 0.2, "metres"});
     table.finish();
 }
@@ -226,6 +230,10 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
 }
 
 } // namespace
+
+std::string_view name_of(TrackerKind kind) {
+    return tracker_names[static_cast<std::size_t>(kind)];
+}
 
 Result<CheckedSettings> parse_settings(std::string_view text, const std::filesystem::path& file) {
     const auto refuse = [](std::string message) {

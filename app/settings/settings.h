@@ -40,9 +40,12 @@ struct EyeSettings {
     double lowest_elevation_deg = 15.0; ///< above the table, seen from the prop
     double nearest_m = 0.35;
     double farthest_m = 2.0;
+    bool tracked = true; ///< false: a fixed viewer; the eye is at default_m whatever a tracker says
 };
 
-enum class TrackerKind { Simulated, Replay };
+/// None: the prop stands at the table's centre, its faces square to the table.
+enum class TrackerKind { Simulated, Replay, None };
+[[nodiscard]] std::string_view name_of(TrackerKind kind);
 struct TrackerSettings {
     TrackerKind kind = TrackerKind::Simulated;
     std::uint64_t seed = 1;            ///< simulated
@@ -63,6 +66,7 @@ struct PanelSettings {
 struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
     std::string language = "en";
+    bool captions = true;
     double caption_height_m = 0.010; ///< height of a capital letter's em on the table; 24 pt = 0.0085 m
 };
 

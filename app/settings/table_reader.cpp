@@ -169,6 +169,18 @@ void TableReader::number(std::string_view key, double& value, const Range& range
     }
 }
 
+void TableReader::flag(std::string_view key, bool& value) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    if (const auto* flag = node->as_boolean()) {
+        value = flag->get();
+    } else {
+        refuse(key, fmt::format("is {}; allowed are true and false", found(*node)));
+    }
+}
+
 void TableReader::integer(std::string_view key, int& value, int low, int high) {
     const toml::node* node = take(key);
     if (node == nullptr) {

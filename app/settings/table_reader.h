@@ -52,6 +52,7 @@ public:
 
     [[nodiscard]] bool has(std::string_view key) const;
     void number(std::string_view key, double& value, const Range& range);
+    void flag(std::string_view key, bool& value);
     void integer(std::string_view key, int& value, int low, int high);
     void integer(std::string_view key, std::uint64_t& value);
     void text(std::string_view key, std::string& value);

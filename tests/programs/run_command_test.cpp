@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class RunCommand : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder = fs::current_path() / "run_command_test";
+        folder = fs::temp_directory_path() / "frustumscreen_run_command_test";
         fs::remove_all(folder);
         fs::create_directories(folder);
         Pack pack = rings();
@@ -57,6 +57,43 @@ protected:
     }
     fs::path folder;
 };
+
+TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
+    const auto say = [&](const std::string& more) {
+        return std::system(fmt::format("cd '{}' && '{}/frustumscreen' plan --config kiosk.toml --pack "
+                                       "rings.fspack {} >plan.txt 2>err.txt",
+                                       folder.string(), FRUSTUMSCREEN_BIN_DIR, more)
+                               .c_str());
+    };
+    ASSERT_EQ(say("--json"), 0) << as_text(*read_file(folder / "err.txt"));
+    const nlohmann::json plan = nlohmann::json::parse(as_text(*read_file(folder / "plan.txt")));
+    const nlohmann::json& in = plan.at("in");
+    EXPECT_EQ(in.at("levels").size(), 1U);
+    EXPECT_EQ(in.at("planned_programs"), in.at("programs"));
+    EXPECT_EQ(in.at("planned_gpu_bytes"), in.at("gpu_bytes"));
+    EXPECT_EQ(in.at("tracker"), "replay");
+    EXPECT_EQ(in.at("panel"), false);
+    EXPECT_EQ(in.at("threads").size(), 1U);
+    ASSERT_FALSE(plan.at("left_out").empty()); // two shaders at least
+    EXPECT_EQ(plan.at("left_out")[0].at("economy"), "shaders");
+    for (const nlohmann::json& each : plan.at("economies")) {
+        for (const char* key : {"gpu_bytes", "ram_bytes", "frame_us", "frame_spread_us"}) {
+            EXPECT_TRUE(each.at("saves").at(key).is_number()) << key;
+        }
+    }
+    const nlohmann::json& measured = plan.at("measured");
+    EXPECT_EQ(measured.at("planned").at("gpu_bytes"), in.at("gpu_bytes"));
+    EXPECT_GT(measured.at("planned").at("frame_us"), 0.0);
+    ASSERT_EQ(say(""), 0);
+    const std::string text(as_text(*read_file(folder / "plan.txt")));
+    for (const char* words :
+         {"The exhibit needs", "It leaves out", "No button panel is opened", "Measured at"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << words;
+    }
+    EXPECT_NE(say("--technique level7"), 0);
+    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("level0 to level0"),
+              std::string::npos);
+}
 
 TEST_F(RunCommand, AtRestPresentsOneProbeASecondAndDrawsNothing) {
     const nlohmann::json shorter = run("--seconds 5");

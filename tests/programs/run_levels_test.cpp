@@ -37,11 +37,24 @@ struct Show {
     Pack pack = two_levels();
     Stage stage{320, 200};
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    Renderer renderer = Renderer::create({320, 200, 1, {true}}).value();
+    Renderer renderer = Renderer::create({320, 200, 1, true}).value();
     int frame = 0;
 
+    [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) const {
+        Settings settings;
+        const double pixel_m = pixel_on_prop_m(stage.prop, settings.projector.pinhole,
+                                               settings.projector.table_from_projector.inverse());
+        settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;
+        SceneRequest request;
+        request.technique = technique;
+        const Result<ScenePlan> plan = plan_scene(settings, outline_of(pack), request);
+        if (!plan) {
+            return tl::unexpected<Error>(plan.error());
+        }
+        return RunLevels::upload(pack, *plan, technique, deadline_ms, 1);
+    }
     [[nodiscard]] RunLevels levels(const std::string& technique) {
-        RunLevels made = RunLevels::upload(pack, stage.prop, {technique, 0.28, deadline_ms}, 1).value();
+        RunLevels made = upload(technique).value();
         made.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
         if (made.fades()) {
             made.start(gpu_times); // not what this machine happened to take
@@ -82,8 +95,7 @@ TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
     const double mm_per_box = 1e3 * place(show.pack, show.stage.prop).metres_per_box;
     EXPECT_NEAR(levels.state().p95_error_mm, 1e-3 * mm_per_box, 1e-6 * mm_per_box);
     // All are within a tolerance of 10 mm: the finer one is not even loaded.
-    const RunLevels coarse =
-        RunLevels::upload(show.pack, show.stage.prop, {"auto", 10.0, deadline_ms}, 1).value();
+    const RunLevels coarse = show.upload("auto", 10.0).value();
     EXPECT_FALSE(coarse.fades());
     EXPECT_EQ(coarse.state().level, "level0");
 }
@@ -137,7 +149,7 @@ TEST(RunLevels, OfAFixedTechniqueStay) {
         EXPECT_EQ(levels.state().level, level);
         EXPECT_EQ(levels.state().switches, 0U);
     }
-    EXPECT_FALSE(RunLevels::upload(show.pack, show.stage.prop, {"level2", 0.28, deadline_ms}, 1));
+    EXPECT_FALSE(show.upload("level2"));
 }
 
 TEST(RunLevels, CountGarbageTimes) {

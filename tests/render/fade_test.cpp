@@ -17,7 +17,7 @@ struct FadeRig : Rig {
 
     explicit FadeRig(int samples) : Rig(320, 200, samples) {
         EXPECT_EQ(coarse_pack.box_size, pack.box_size);
-        renderer = Renderer::create({320, 200, samples, {true}}).value();
+        renderer = Renderer::create({320, 200, samples, true}).value();
         coarse = ArtifactGpu::upload(coarse_pack, 0).value();
         coarse_level = placed(coarse_pack, 0, level.metres_per_box, 2);
         level.samples = coarse_level.samples = 0;

@@ -13,10 +13,10 @@
 namespace frustumscreen {
 namespace {
 
-PackLevel level_of(std::size_t triangles, float p95_box) {
-    PackLevel level;
+LevelOutline level_of(std::uint64_t triangles, float p95_box) {
+    LevelOutline level;
     level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
-    level.indices.resize(3 * triangles);
+    level.triangles = triangles;
     return level;
 }
 
@@ -27,8 +27,8 @@ MonotonicTime at_seconds(double seconds) {
 constexpr double deadline_ms = 1000.0 / 60.0;
 
 TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
-    const std::vector<PackLevel> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F), level_of(8000, 9e-4F),
-                                        level_of(30000, 1e-4F)};
+    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F),
+                                           level_of(8000, 9e-4F), level_of(30000, 1e-4F)};
     const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4); // 0.48, 0.24, 0.108, 0.012 mm
     ASSERT_EQ(rungs.size(), 6U);
     EXPECT_EQ(rungs[0].level, 1U);
@@ -45,7 +45,8 @@ TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
 }
 
 TEST(Ladder, OfATighterToleranceThanAnyLevelBeginsWithTheFinest) {
-    const std::vector<PackLevel> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F), level_of(4000, 1e-3F)};
+    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F),
+                                           level_of(4000, 1e-3F)};
     const std::vector<Rung> rungs = ladder(levels, 120.0, 0.01, 1);
     ASSERT_EQ(rungs.size(), 2U); // 1000 triangles are not worth a level of their own beside 1200
     EXPECT_EQ(rungs[0].level, 2U);
@@ -54,13 +55,13 @@ TEST(Ladder, OfATighterToleranceThanAnyLevelBeginsWithTheFinest) {
 }
 
 TEST(Ladder, TakesNoLevelThatHasLostAPart) {
-    std::vector<PackLevel> levels{level_of(1000, 2e-3F), level_of(3000, 1e-3F)};
+    std::vector<LevelOutline> levels{level_of(1000, 2e-3F), level_of(3000, 1e-3F)};
     levels[0].error.max_box = 0.05F; // 6 mm
     EXPECT_EQ(ladder(levels, 120.0, 0.28, 1)[0].level, 1U);
 }
 
 TEST(Ladder, SurvivesErrorFiguresThatAreNone) {
-    std::vector<PackLevel> levels{level_of(1000, std::nanf("")), level_of(3000, -1.0F)};
+    std::vector<LevelOutline> levels{level_of(1000, std::nanf("")), level_of(3000, -1.0F)};
     EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);
     levels[1].error.p95_box = std::nanf("");
     EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);

@@ -34,10 +34,20 @@ TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
     EXPECT_EQ(shipped.eye.lowest_elevation_deg, defaults.eye.lowest_elevation_deg);
     EXPECT_EQ(shipped.eye.nearest_m, defaults.eye.nearest_m);
     EXPECT_EQ(shipped.eye.farthest_m, defaults.eye.farthest_m);
+    EXPECT_EQ(shipped.eye.tracked, defaults.eye.tracked);
+    EXPECT_EQ(shipped.exhibit.captions, defaults.exhibit.captions);
     EXPECT_EQ(shipped.tracker.kind, defaults.tracker.kind);
     EXPECT_EQ(shipped.tracker.seed, defaults.tracker.seed);
     EXPECT_EQ(shipped.exhibit.language, defaults.exhibit.language);
     EXPECT_EQ(shipped.exhibit.caption_height_m, defaults.exhibit.caption_height_m);
+}
+
+TEST(Settings, AFixedSceneIsWrittenOut) {
+    const Settings fixed =
+        parsed("[eye]\ntracked = false\n[tracker]\nkind = \"none\"\n[exhibit]\ncaptions = false\n");
+    EXPECT_FALSE(fixed.eye.tracked);
+    EXPECT_EQ(fixed.tracker.kind, TrackerKind::None);
+    EXPECT_FALSE(fixed.exhibit.captions);
 }
 
 TEST(Settings, AnEmptyFileIsTheDefaults) {

@@ -1,0 +1,34 @@
+/// What a pack offers, from its manifest alone: enough to choose what of it is read.
+///
+/// Units    errors in box units, as LevelError.
+/// Threads  values; any.
+/// Errors   those of the choice: a level that the pack has not.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct LevelOutline {
+    LevelTechnique technique = LevelTechnique::Mesh;
+    LevelError error;
+    std::uint64_t triangles = 0;
+    std::uint64_t vertices = 0;
+    std::uint32_t texture = 0; ///< index into Pack::textures
+};
+
+struct PackOutline {
+    Pack description; ///< texts, placement, default level; no picture, no triangle
+    std::vector<LevelOutline> levels;
+};
+[[nodiscard]] PackOutline outline_of(const Pack& pack);
+
+/// Indices of the levels to read; their textures come with them, and the relief if one of them needs it.
+using ChooseLevels = std::function<Result<std::vector<std::uint32_t>>(const PackOutline&)>;
+
+} // namespace frustumscreen

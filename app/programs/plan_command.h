@@ -1,0 +1,9 @@
+/// `frustumscreen plan`: what the exhibit needs of a pack and of the machine, what it leaves out and why, and
+/// what that saves, measured on this machine.
+#pragma once
+
+namespace frustumscreen {
+
+int plan_command(int argc, char** argv);
+
+} // namespace frustumscreen

@@ -1,0 +1,61 @@
+/// A level as one scene needs it: without what no pose of the plan can show. The second half of the scene's
+/// plan, made when the level has been read.
+///
+/// Triangles  one looks away from every eye of the zone if the zone does not reach over its plane, with the
+///            same slack that each frame's own culling has: what is left out here would have been left out in
+///            every frame. Order stays, so depth ties fall as they did.
+/// Detail     where all views are known, each is planned, and the finest mip level and the most samples that
+///            any of them takes are known exactly. A prop that may be turned always has faces that are nearly
+///            edge-on to the eye and stretched by the projector without bound: then all detail stays.
+///
+/// Frames   box (pack.h).
+/// Threads  pure; any.
+/// Errors   none.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "app/scene/scene_plan.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// Texels along one box unit: the edge of the surface's mean texel, inverted.
+[[nodiscard]] double texels_per_box(const PackLevel& level, const Image8& texture,
+                                    const glm::dvec3& box_size);
+
+/// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
+/// `samples_per_box` as FacePlan::pixels_per_box, times the samples along a pixel's side.
+[[nodiscard]] int mip_level(double texels_per_box, double samples_per_box);
+/// Coarser ones mix charts that lie side by side in the atlas.
+inline constexpr int coarsest_mip_level = 4;
+
+struct SceneLevel {
+    std::uint32_t level = 0;
+    PackLevel mesh;              ///< what may be seen
+    double texels_per_box = 0.0; ///< of the whole level
+    int finest_mip = 0;          ///< finer ones are never sampled
+    int samples = 0;             ///< a pixel, the most that a view takes; 0 = not known
+    std::size_t unseen_triangles = 0;
+    std::size_t unseen_clusters = 0;
+    std::size_t unseen_vertices = 0;
+};
+/// All of it, for every pose.
+[[nodiscard]] SceneLevel whole_level(const Pack& pack, std::uint32_t level);
+[[nodiscard]] SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
+
+/// What was left out of the level, in words.
+[[nodiscard]] std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
+                                               const Image8& texture);
+
+/// The plan's, with no more room for samples than the level takes. A view that takes more than there is room
+/// for is drawn elsewhere in it, and rounds differently, so the room is never made larger.
+[[nodiscard]] PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
+
+/// Bytes of GPU memory: vertices and mip levels of a level; the larger picture of several samples a pixel; a
+/// caption with its mip levels.
+[[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture);
+[[nodiscard]] std::uint64_t gpu_bytes(const PassNeeds& passes, int width, int height);
+[[nodiscard]] std::uint64_t caption_gpu_bytes(int width, int height);
+
+} // namespace frustumscreen

@@ -1,0 +1,282 @@
+#include "app/scene/scene_plan.h"
+
+#include "app/pack/pack_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The buttons of the panel: panel.h.
+constexpr std::array<int, 2> artifact_buttons{0, 1};
+constexpr int language_button = 2;
+
+bool in(std::span<const std::uint32_t> levels, std::uint32_t level) {
+    return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+/// "level 2", "levels 2, 3 and 5".
+std::string listed(std::string_view one, std::string_view more, const std::vector<std::string>& names) {
+    std::string text(names.size() == 1 ? one : more);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        text += k == 0 ? " " : (k + 1 == names.size() ? " and " : ", ");
+        text += names[k];
+    }
+    return text;
+}
+
+void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
+                   std::uint32_t asked, ScenePlan& plan) {
+    const int samples = request.samples > 0 ? request.samples : pack.description.samples;
+    const bool governed = request.live && request.technique == "auto";
+    plan.rungs = {{asked, samples, true}};
+    if (governed) {
+        plan.rungs = ladder(pack.levels, 1e3 * plan.metres_per_box, tolerance_mm, samples);
+    }
+    for (const Rung& rung : plan.rungs) {
+        if (!in(plan.levels, rung.level)) {
+            plan.levels.push_back(rung.level);
+        }
+    }
+    std::vector<std::string> finer;
+    std::vector<std::string> others;
+    std::vector<std::uint32_t> unused;
+    for (std::uint32_t level = 0; level < pack.levels.size(); ++level) {
+        if (!in(plan.levels, level)) {
+            (governed && level > plan.levels.front() ? finer : others).push_back(fmt::format("{}", level));
+            unused.push_back(level);
+        }
+    }
+    if ((plan.economies & UnusedLevels) == 0) {
+        plan.levels.insert(plan.levels.end(), unused.begin(), unused.end());
+        return;
+    }
+    if (!finer.empty()) {
+        plan.left_out.push_back(
+            {UnusedLevels, listed("level", "levels", finer),
+             fmt::format("level {} keeps within the tolerance of {:.2f} mm, so nothing finer is ever chosen",
+                         plan.levels.front(), tolerance_mm)});
+    }
+    if (!others.empty()) {
+        plan.left_out.push_back({UnusedLevels, listed("level", "levels", others),
+                                 governed ? "coarser, and saves too little time to be worth a change"
+                                          : fmt::format("the technique \"{}\" draws level {} alone",
+                                                        request.technique, plan.levels.front())});
+    }
+}
+
+void choose_captions(const Settings& settings, const PackOutline& pack, const SceneRequest& request,
+                     ScenePlan& plan) {
+    const std::size_t captions = pack.description.captions.size();
+    if ((plan.economies & UnusedCaptions) == 0 && request.live) {
+        for (std::size_t k = 0; k < captions; ++k) {
+            plan.captions.push_back(k);
+        }
+        return;
+    }
+    if (request.live && settings.exhibit.captions) {
+        plan.captions = request.captions;
+    }
+    if (!plan.captions.empty()) {
+        if (const std::size_t rest = captions - plan.captions.size(); rest > 0) {
+            plan.left_out.push_back({UnusedCaptions,
+                                     rest == 1 ? "the caption in another language"
+                                               : fmt::format("captions in {} other languages", rest),
+                                     "no button changes the language"});
+        }
+        return;
+    }
+    const std::string_view why = !request.live                ? "pictures from poses have no captions"
+                                 : !settings.exhibit.captions ? "the settings switch captions off"
+                                                              : "the pack has no captions";
+    plan.left_out.push_back(
+        {UnusedCaptions, "captions, the typeface and the captions' pass", std::string(why)});
+}
+
+void choose_passes(const SceneRequest& request, ScenePlan& plan) {
+    const bool all = (plan.economies & UnusedShaders) == 0;
+    PassNeeds& passes = plan.passes;
+    const std::uint32_t first = plan.rungs.front().level;
+    passes.level_fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
+                                            [&](const Rung& rung) { return rung.level != first; });
+    passes.plain = all || !request.light;
+    passes.compensated = all || request.light;
+    passes.captions = !plan.captions.empty() || (plan.economies & UnusedCaptions) == 0;
+    for (const Rung& rung : plan.rungs) {
+        passes.samples = std::max({passes.samples, rung.samples, request.room});
+    }
+    if (!passes.plain) {
+        plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
+                                 "the projector's light is evened out in every picture"});
+    }
+    if (!passes.compensated) {
+        plan.left_out.push_back(
+            {UnusedShaders, "the shader with light compensation", "the light is left as it is"});
+    }
+    if (!passes.level_fades) {
+        plan.left_out.push_back(
+            {UnusedShaders, "the shaders that fade from one level to another", "only one level is drawn"});
+    }
+}
+
+void choose_faces(ScenePlan& plan) {
+    constexpr std::array<std::string_view, 5> names{"+X", "-X", "+Y", "-Y", "top"}; // prop_shape.h
+    const auto above = [](const PointZone& zone, const Plane& plane) {
+        return zone.reach(plane.normal) > plane.offset;
+    };
+    std::vector<std::string> unseen;
+    std::vector<std::string> unlit;
+    for (std::size_t face = 0; face < plan.prop.faces.size(); ++face) {
+        const Plane& plane = plan.prop.faces[face].plane;
+        const bool seen = above(plan.visibility.eyes, plane);
+        const bool lit = above(plan.visibility.lens, plane);
+        if ((seen && lit) || (plan.economies & UnseenFaces) == 0) {
+            plan.faces |= 1U << face;
+        } else {
+            (seen ? unlit : unseen).emplace_back(names.at(face));
+        }
+    }
+    if (!unseen.empty()) {
+        plan.left_out.push_back(
+            {UnseenFaces, listed("face", "faces", unseen), "no eye can come in front of it"});
+    }
+    if (!unlit.empty()) {
+        plan.left_out.push_back(
+            {UnseenFaces, listed("face", "faces", unlit), "the projector's light never meets it"});
+    }
+}
+
+} // namespace
+
+Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique) {
+    const auto levels = static_cast<std::uint32_t>(pack.levels.size());
+    if (technique == "auto") {
+        return pack.description.default_level;
+    }
+    if (technique == "finest") {
+        return levels - 1;
+    }
+    constexpr std::string_view prefix = "level";
+    if (technique.substr(0, prefix.size()) == prefix) {
+        std::uint32_t level = 0;
+        const char* const begin = technique.data() + prefix.size();
+        const char* const end = technique.data() + technique.size();
+        const std::from_chars_result read = std::from_chars(begin, end, level);
+        if (read.ec == std::errc{} && read.ptr == end && level < levels) {
+            return level;
+        }
+    }
+    return bad_input(fmt::format("technique '{}'; this pack has auto, finest and level0 to level{}",
+                                 technique, levels - 1));
+}
+
+std::string_view name_of(Economy economy) {
+    constexpr std::array<std::string_view, 6> names{"levels", "captions",  "shaders",
+                                                    "faces",  "triangles", "detail"};
+    return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(economy))));
+}
+
+std::string_view name_of(Program program) {
+    constexpr std::array<std::string_view, 12> names{"outline of a face",
+                                                     "artifact in plain light",
+                                                     "artifact in even light",
+                                                     "fading artifact in plain light",
+                                                     "fading artifact in even light",
+                                                     "cut-out artifact in plain light",
+                                                     "cut-out artifact in even light",
+                                                     "fading cut-out artifact in plain light",
+                                                     "fading cut-out artifact in even light",
+                                                     "caption",
+                                                     "clearing of tiles",
+                                                     "averaging of samples"};
+    return names.at(static_cast<std::size_t>(program));
+}
+
+PassNeeds united(const PassNeeds& a, const PassNeeds& b) {
+    return {std::max(a.samples, b.samples), a.plain || b.plain,       a.compensated || b.compensated,
+            a.level_fades || b.level_fades, a.captions || b.captions, a.cut_out || b.cut_out};
+}
+
+std::vector<Program> programs_of(const PassNeeds& needs) {
+    std::vector<Program> programs{Program::Outline};
+    const auto add = [&](bool needed, Program program) {
+        if (needed) {
+            programs.push_back(program);
+        }
+    };
+    add(needs.plain, Program::Artifact);
+    add(needs.compensated, Program::ArtifactCompensated);
+    add(needs.plain && needs.level_fades, Program::ArtifactFading);
+    add(needs.compensated && needs.level_fades, Program::ArtifactCompensatedFading);
+    add(needs.cut_out && needs.plain, Program::CutOut);
+    add(needs.cut_out && needs.compensated, Program::CutOutCompensated);
+    add(needs.cut_out && needs.plain && needs.level_fades, Program::CutOutFading);
+    add(needs.cut_out && needs.compensated && needs.level_fades, Program::CutOutCompensatedFading);
+    add(needs.captions, Program::Caption);
+    add(needs.samples > 1, Program::TileClear);
+    add(needs.samples > 1, Program::TileAverage);
+    return programs;
+}
+
+Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
+    const Result<std::uint32_t> asked = level_of(pack, request.technique);
+    if (!asked) {
+        return tl::unexpected<Error>(asked.error());
+    }
+    ScenePlan plan;
+    plan.economies = request.economies;
+    plan.projector = settings.projector.pinhole;
+    plan.table_from_projector = settings.projector.table_from_projector;
+    plan.prop = make_prop(settings.prop);
+    plan.metres_per_box = place(pack.description, plan.prop).metres_per_box;
+    plan.visibility = request.visibility;
+    const double pixel_m =
+        pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
+    choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
+    choose_captions(settings, pack, request, plan);
+    choose_passes(request, plan);
+    choose_faces(plan);
+    return plan;
+}
+
+DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
+    const std::vector<ScriptedPress>& script = settings.panel.script;
+    const auto presses = [&](int button) {
+        return std::any_of(script.begin(), script.end(),
+                           [button](const ScriptedPress& press) { return press.button == button; });
+    };
+    DevicePlan plan;
+    plan.tracker = settings.tracker.kind;
+    plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
+    plan.panel = pressed || !script.empty();
+    plan.other_packs = pressed || std::any_of(artifact_buttons.begin(), artifact_buttons.end(), presses);
+    plan.language = !pressed && presses(language_button);
+    plan.threads = {"the exhibit"};
+    if (status_file) {
+        plan.threads.emplace_back("the status file's writer");
+    }
+    if (plan.tracker == TrackerKind::None) {
+        plan.left_out.emplace_back("No tracker is opened: the prop stands at the table's centre.");
+    }
+    if (!settings.eye.tracked) {
+        plan.left_out.emplace_back("No head is followed: the viewer is fixed.");
+    }
+    if (!plan.panel) {
+        plan.left_out.emplace_back("No button panel is opened: no button is configured.");
+    }
+    if (!plan.other_packs && settings.exhibit.packs.size() > 1) {
+        plan.left_out.emplace_back("Only the first pack is loaded: no button leads to another.");
+    }
+    if (!status_file) {
+        plan.left_out.emplace_back("No thread writes a status: no status file is asked for.");
+    }
+    return plan;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,122 @@
+/// What a scene needs, decided before anything of it is loaded: a pure function of the settings, a pack's
+/// outline and what can be seen. Nothing outside the plan is read, compiled, allocated or opened.
+///
+/// The plan leaves out by kinds (Economy), each with its reason. A scene without one of them draws the same
+/// picture, pixel for pixel, at every pose that the plan was made for: that is what tests hold it to, and
+/// `frustumscreen plan` measures what each kind saves by drawing with and without it.
+///
+/// What needs a level's own triangles is decided level by level as they are read: scene_level.h.
+///
+/// Threads  pure; any.
+/// Errors   a technique that the pack has not.
+#pragma once
+
+#include "app/pack/pack_outline.h"
+#include "app/scene/governor.h"
+#include "app/scene/visibility.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The level that a technique's name means: "auto" the pack's default, "finest", "level0", "level1", ...
+[[nodiscard]] Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique);
+
+/// A kind of things that a scene may do without; bits.
+enum Economy : unsigned {
+    UnusedLevels = 1,     ///< levels that neither the technique nor the governor can choose, their textures
+    UnusedCaptions = 2,   ///< texts, the typeface, the caption's pass
+    UnusedShaders = 4,    ///< variants of the artifact's program
+    UnseenFaces = 8,      ///< faces of the prop that are never both seen and lit
+    UnseenTriangles = 16, ///< triangles, and clusters of them, that always look away
+    UnusedDetail = 32,    ///< mip levels finer than any pose takes; samples that no pose takes
+    AllEconomies = 63
+};
+[[nodiscard]] std::string_view name_of(Economy economy);
+
+/// The programs that a renderer compiles.
+enum class Program {
+    Outline,
+    Artifact,
+    ArtifactCompensated,
+    ArtifactFading,
+    ArtifactCompensatedFading,
+    CutOut, ///< of an artifact with texels that are cut out
+    CutOutCompensated,
+    CutOutFading,
+    CutOutCompensatedFading,
+    Caption,
+    TileClear,
+    TileAverage
+};
+[[nodiscard]] std::string_view name_of(Program program);
+
+/// What a renderer must be able to do.
+struct PassNeeds {
+    int samples = 1;          ///< a pixel, of the whole picture
+    bool plain = false;       ///< colours as they are
+    bool compensated = false; ///< with the projector's light evened out
+    bool level_fades = false;
+    bool captions = false;
+    bool cut_out = false; ///< textures leave texels out: known when they have been read
+};
+[[nodiscard]] PassNeeds united(const PassNeeds& a, const PassNeeds& b);
+[[nodiscard]] std::vector<Program> programs_of(const PassNeeds& needs);
+
+struct LeftOut {
+    Economy economy = UnusedLevels;
+    std::string what;
+    std::string why;
+};
+
+/// What the command line adds to the settings.
+struct SceneRequest {
+    std::string technique = "auto";
+    bool live = true; ///< the governor may choose among levels; else a technique is one level
+    bool light = true;
+    int samples = 0; ///< a pixel; 0 = what the pack asks for
+    int room = 1;    ///< samples a pixel that the renderer has room for at least, for slanting views
+    unsigned economies = AllEconomies;
+    std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can come to see
+    Visibility visibility;
+};
+
+struct ScenePlan {
+    std::vector<Rung> rungs;           ///< the ways in which the artifact may be drawn, best first
+    std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `rungs` first
+    std::vector<std::size_t> captions; ///< of the pack
+    std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
+    PassNeeds passes;
+    unsigned economies = AllEconomies;
+    std::vector<LeftOut> left_out;
+    // What the rest of the plan is made with: scene_level.h.
+    Pinhole projector;
+    RigidTransform table_from_projector;
+    PropShape prop;
+    double metres_per_box = 0.0;
+    Visibility visibility;
+};
+
+[[nodiscard]] Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack,
+                                           const SceneRequest& request);
+
+/// What the exhibit opens beside its packs.
+struct DevicePlan {
+    TrackerKind tracker = TrackerKind::None;
+    bool head = false;        ///< the tracker's head samples are used
+    bool panel = false;       ///< there are buttons
+    bool other_packs = false; ///< a button leads to another artifact than the first
+    bool language = false;    ///< a button leads to another language
+    std::vector<std::string> threads;
+    std::vector<std::string> left_out; ///< sentences
+};
+/// `pressed`: something beside the panel presses 'next artifact'. `status_file`: a status is written.
+[[nodiscard]] DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file);
+
+} // namespace frustumscreen

@@ -1,0 +1,42 @@
+// True figures are held, false ones are caught.
+
+#include "app/bench/figures.h"
+#include "assets_baked/bake/bake.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
+    const auto mesh = ring();
+    BakeOptions options;
+    options.size = 64;
+    options.unlit = true;
+    const Pack pack = bake(*mesh, options).value();
+    ASSERT_GT(pack.levels.size(), 1U);
+    std::vector<LevelFigures> figures = measure_figures(pack, *mesh);
+    ASSERT_EQ(figures.size(), pack.levels.size());
+    constexpr double mm_per_box = 80.0;
+    for (const Verdict& verdict : judge(figures, mm_per_box)) {
+        EXPECT_TRUE(verdict.held) << verdict.what << "; " << verdict.found;
+    }
+    const float true_p95 = figures[0].said.p95_box;
+    ASSERT_GT(true_p95, 5e-4F); // of the coarsest, far above the slack
+    for (const float lie : {0.0F, 0.3F * true_p95, 3.0F * true_p95, std::nanf("")}) {
+        figures[0].said.p95_box = lie;
+        const std::vector<Verdict> verdicts = judge(figures, mm_per_box);
+        EXPECT_FALSE(verdicts[0].held) << lie;
+        EXPECT_TRUE(
+            std::all_of(verdicts.begin() + 1, verdicts.end(), [](const Verdict& v) { return v.held; }));
+        EXPECT_NE(verdicts[0].what.find("the pack says"), std::string::npos);
+        EXPECT_NE(verdicts[0].found.find("measured"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,239 @@
+// The plan explained against the show observed: a minimal, an ordinary and a full scene, on packs made in
+// memory. Bytes and programs are asked of OpenGL; pictures are compared pixel for pixel with those of a show
+// that leaves nothing out.
+
+#include "app/programs/run_artifacts.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/render/synthetic_pack.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Rings at four levels, each with a picture of its own.
+Pack full_pack() {
+    Pack pack = rings(12, 4);
+    for (const auto& [around, across] : {std::pair(16U, 8U), std::pair(24U, 12U), std::pair(48U, 24U)}) {
+        Pack finer = rings(around, across);
+        finer.levels[0].texture = static_cast<std::uint32_t>(pack.textures.size());
+        pack.levels.push_back(finer.levels[0]);
+        Image8 texture(256, 192);
+        for (std::size_t k = 0; k < texture.texels.size(); ++k) {
+            const auto shade = static_cast<std::uint8_t>(60 + (k * 37 + k / 256 * 91) % 180);
+            texture.texels[k] = {shade, 255 - shade, static_cast<std::uint8_t>(40 * around), 255};
+        }
+        pack.textures.push_back(texture);
+    }
+    const std::array<float, 4> p95{8e-3F, 4e-3F, 1e-3F, 1e-4F};
+    for (std::size_t k = 0; k < p95.size(); ++k) {
+        pack.levels[k].error = {p95[k] / 3, p95[k], 3 * p95[k], 1.0F};
+    }
+    pack.title = "Rings";
+    pack.languages = {"en", "de"};
+    pack.captions = {{"en", "Rings", "Three of them"}, {"de", "Ringe", "Drei Stück"}};
+    pack.provenance.source_name = "rings.glb";
+    pack.provenance.source_sha256 = std::string(64, 'a');
+    pack.relief_size = 512;
+    pack.samples = 2;
+    pack.default_level = 2;
+    for (unsigned k = 0; k < 8; ++k) {
+        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
+    }
+    return pack;
+}
+
+constexpr std::string_view stage = "[projector]\nwidth = 320\nheight = 200\n";
+constexpr std::string_view minimal =
+    "[tracker]\nkind = \"none\"\n[eye]\ntracked = false\n[exhibit]\ncaptions = false\n";
+constexpr std::string_view ordinary =
+    "[render]\nerror_tolerance_px = 0.1\n[panel]\nscript = [{at_s = 1.0, button = 1}]\n";
+constexpr std::string_view full =
+    "[tracker]\nkind = \"replay\"\nposes = \"poses.csv\"\n[render]\nerror_tolerance_px = 0.01\n"
+    "[panel]\nscript = [{at_s = 1.0, button = 1}, {at_s = 2.0, button = 2}]\n";
+
+std::size_t programs_that_exist() {
+    std::size_t count = 0;
+    for (GLuint name = 1; name < 1000; ++name) {
+        count += glIsProgram(name) == GL_TRUE ? 1U : 0U;
+    }
+    return count;
+}
+
+class PlanAgainstShow : public ::testing::Test {
+protected:
+    void SetUp() override {
+        file = fs::temp_directory_path() / "frustumscreen_plan_test.fspack";
+        const Result<Bytes> bytes = write_pack(full_pack());
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        ASSERT_TRUE(write_file(file, *bytes));
+    }
+    void configure(std::string_view text) {
+        settings = **parse_settings(std::string(stage) + std::string(text), "kiosk.toml");
+        settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw what the tolerance asks for
+    }
+    std::unique_ptr<ArtifactShow> show(unsigned economies, const std::string& technique = "auto") {
+        const DevicePlan devices = plan_devices(settings, false, false);
+        return ArtifactShow::create(settings, devices, {{file}, technique, default_samples, economies},
+                                    {display->framebuffer(), 0}, MonotonicTime{})
+            .value();
+    }
+    Image8 picture(ArtifactShow& of, MonotonicTime now, const Situation& situation) {
+        EXPECT_TRUE(of.draw(now, situation, {display->framebuffer(), 0}, Redraw::Everything).drawn);
+        return read_colour(display->framebuffer(), 320, 200);
+    }
+    /// Seeded situations that the settings allow.
+    std::vector<Situation> situations(int count) {
+        std::mt19937 random(11);
+        std::uniform_real_distribution<double> u(-1.0, 1.0);
+        std::vector<Situation> all;
+        for (int k = 0; k < count; ++k) {
+            Situation situation;
+            situation.eye_m = settings.eye.default_m;
+            if (settings.tracker.kind != TrackerKind::None) {
+                const double yaw = 3.1416 * u(random);
+                situation.table_from_prop = {{std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)},
+                                             {0.25 * u(random), 0.12 * u(random), 0.0}};
+            }
+            if (settings.tracker.kind == TrackerKind::Replay) { // lifted and tilted, seen from below
+                situation.table_from_prop.rotation =
+                    glm::normalize(glm::dquat(1.0, 0.4 * u(random), 0.4 * u(random), u(random)));
+                situation.table_from_prop.translation.z = 0.1 + 0.1 * u(random);
+            }
+            if (settings.eye.tracked) {
+                const bool anywhere = settings.tracker.kind == TrackerKind::Replay;
+                const double elevation = glm::radians(anywhere ? 80.0 * u(random) : 52.5 + 37.5 * u(random));
+                const double azimuth = 3.1416 * u(random);
+                situation.eye_m =
+                    situation.table_from_prop.translation +
+                    (1.2 + 0.8 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                                                         std::cos(elevation) * std::sin(azimuth),
+                                                         std::sin(elevation));
+            }
+            all.push_back(situation);
+        }
+        return all;
+    }
+    /// Number of pictures, of those, that are not all black.
+    int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
+        int lit = 0;
+        MonotonicTime now;
+        for (const Situation& situation : situations(count)) {
+            now += std::chrono::milliseconds(700);
+            const Image8 first = picture(a, now, situation);
+            const Image8 second = picture(b, now, situation);
+            EXPECT_EQ(first.texels, second.texels);
+            lit += std::any_of(first.texels.begin(), first.texels.end(),
+                               [](const glm::u8vec4& t) { return t.r + t.g + t.b > 0; })
+                       ? 1
+                       : 0;
+        }
+        return lit;
+    }
+    void expect_as_planned(const ArtifactShow& of, std::size_t programs) {
+        const ShowUse use = of.use();
+        EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
+        EXPECT_EQ(use.planned_programs, use.programs);
+        EXPECT_EQ(use.programs.size(), programs);
+        EXPECT_EQ(programs_that_exist(), programs);
+        for (const LevelUse& level : of.levels(0).uses()) {
+            EXPECT_EQ(level.planned_gpu_bytes, level.gpu_bytes);
+        }
+    }
+
+    fs::path file;
+    Settings settings;
+    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
+};
+
+TEST_F(PlanAgainstShow, AMinimalScene) {
+    int lit = 0;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    for (int k = 0; k < 12; ++k) { // each viewer is a scene, and a plan, of its own
+        configure(minimal);
+        settings.eye.default_m = {0.6 * u(random), -0.6 + 0.3 * u(random), 0.45 + 0.35 * u(random)};
+        const auto lean = show(AllEconomies, "level3");
+        expect_as_planned(*lean, 4); // outline, artifact, two of the samples' room
+        EXPECT_EQ(lean->levels(0).uses().size(), 1U);
+        EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912, one eye sees about half
+        EXPECT_EQ(lean->use().captions, 0U);
+        const auto everything = show(0, "level3");
+        EXPECT_LT(lean->use().gpu_bytes, everything->use().gpu_bytes);
+        lit += expect_same_pictures(*lean, *everything, 1);
+    }
+    EXPECT_EQ(lit, 12);
+}
+
+TEST_F(PlanAgainstShow, AnOrdinaryScene) {
+    configure(ordinary);
+    const auto lean = show(AllEconomies);
+    const ScenePlan& plan = lean->plan(0);
+    EXPECT_FALSE(plan.left_out.empty());
+    EXPECT_LT(plan.levels.size(), 4U);
+    EXPECT_EQ(lean->use().captions, 1U); // no button changes the language
+    EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 0U);
+    expect_as_planned(*lean, programs_of(plan.passes).size());
+    const auto everything = show(0);
+    EXPECT_EQ(everything->levels(0).uses().size(), 4U);
+    EXPECT_EQ(everything->use().planned_gpu_bytes, everything->use().gpu_bytes);
+    EXPECT_LT(lean->use().gpu_bytes, everything->use().gpu_bytes);
+    EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 25);
+}
+
+TEST_F(PlanAgainstShow, EachEconomyByItself) {
+    configure(ordinary);
+    const auto everything = show(0);
+    for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
+        const auto one = show(economy);
+        EXPECT_EQ(one->use().planned_gpu_bytes, one->use().gpu_bytes) << economy;
+        EXPECT_EQ(one->use().planned_programs, one->use().programs) << economy;
+        expect_same_pictures(*one, *everything, 4);
+    }
+}
+
+TEST_F(PlanAgainstShow, AFullScene) {
+    configure(full);
+    const auto lean = show(AllEconomies);
+    EXPECT_EQ(lean->plan(0).levels, (std::vector<std::uint32_t>{3U, 2U, 1U, 0U}));
+    EXPECT_EQ(lean->use().captions, 2U);
+    for (const LevelUse& level : lean->levels(0).uses()) {
+        EXPECT_EQ(level.unseen_triangles, 0U); // nothing is proved of a recording
+    }
+    expect_as_planned(*lean, 6); // all but those without light compensation
+    const auto everything = show(0);
+    EXPECT_EQ(everything->use().gpu_bytes, lean->use().gpu_bytes);
+    EXPECT_EQ(everything->use().programs.size(), 8U);
+    EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 20);
+}
+
+TEST_F(PlanAgainstShow, AFixedSceneOfFineTexelsLeavesOutTheirFinestMipLevels) {
+    Pack fine = full_pack();
+    Image8 texture(2048, 1536);
+    for (std::size_t k = 0; k < texture.texels.size(); ++k) {
+        texture.texels[k] = glm::u8vec4(glm::u8vec3(static_cast<std::uint8_t>(40 + k / 16 % 200)), 255);
+    }
+    fine.textures[1] = texture;
+    fine.samples = 1;
+    ASSERT_TRUE(write_file(file, *write_pack(fine)));
+    configure(minimal);
+    const auto lean = show(AllEconomies, "level1");
+    const LevelUse& level = lean->levels(0).uses()[0];
+    EXPECT_GE(level.finest_mip, 2);
+    EXPECT_EQ(level.texture, glm::ivec2(2048 >> level.finest_mip, 1536 >> level.finest_mip));
+    EXPECT_EQ(lean->use().planned_gpu_bytes, lean->use().gpu_bytes);
+    const auto everything = show(0, "level1");
+    EXPECT_EQ(expect_same_pictures(*lean, *everything, 1), 1);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

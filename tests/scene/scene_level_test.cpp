@@ -1,0 +1,138 @@
+// A level without what never shows, against triangles and eyes taken by hand.
+
+#include "app/scene/scene_level.h"
+#include "tests/render/synthetic_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+using Corner = std::array<std::uint16_t, 3>;
+using Triangle = std::array<Corner, 3>;
+
+std::vector<Triangle> triangles_in(const PackLevel& level) {
+    std::vector<Triangle> triangles;
+    for (std::size_t k = 0; k < level.indices.size(); k += 3) {
+        triangles.push_back({level.vertices[level.indices[k]].position,
+                             level.vertices[level.indices[k + 1]].position,
+                             level.vertices[level.indices[k + 2]].position});
+    }
+    return triangles;
+}
+
+glm::dvec3 metres(const Corner& corner, const Pack& pack, double metres_per_box) {
+    const glm::dvec3 unit = glm::dvec3(corner[0], corner[1], corner[2]) / 65535.0;
+    return metres_per_box * (unit - glm::dvec3(0.5, 0.5, 0.0)) * pack.box_size;
+}
+
+/// Height of the eye above the triangle's plane, metres; by area.
+double above(const Triangle& triangle, const glm::dvec3& eye, const Pack& pack, double scale) {
+    const glm::dvec3 a = metres(triangle[0], pack, scale);
+    const glm::dvec3 n =
+        glm::cross(metres(triangle[1], pack, scale) - a, metres(triangle[2], pack, scale) - a);
+    return glm::dot(glm::normalize(n), eye - a);
+}
+
+Pack placed_rings() {
+    Pack pack = rings(32, 16);
+    for (unsigned k = 0; k < 8; ++k) {
+        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
+    }
+    return pack;
+}
+
+ScenePlan plan_for(const Settings& settings, const Pack& pack) {
+    SceneRequest request;
+    request.visibility = visibility_of(settings);
+    return plan_scene(settings, outline_of(pack), request).value();
+}
+
+TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
+    const Settings settings;
+    const Pack pack = placed_rings();
+    const ScenePlan plan = plan_for(settings, pack);
+    const SceneLevel level = scene_level(pack, 0, plan);
+    EXPECT_GT(level.unseen_triangles, 50U); // the rings' undersides
+    const std::vector<Triangle> all = triangles_in(pack.levels[0]);
+    const std::vector<Triangle> kept = triangles_in(level.mesh);
+    EXPECT_EQ(kept.size() + level.unseen_triangles, all.size());
+
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> u(0.0, 1.0);
+    std::vector<glm::dvec3> eyes;
+    for (int k = 0; k < 400; ++k) { // half of them on the zone's lower edge, where undersides would show
+        const double elevation = glm::radians(k % 2 == 0 ? 15.0 : 15.0 + 75.0 * u(random));
+        const double azimuth = glm::radians(360.0 * u(random));
+        eyes.push_back((0.35 + 1.65 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                                                              std::cos(elevation) * std::sin(azimuth),
+                                                              std::sin(elevation)));
+    }
+    std::size_t next = 0;
+    std::size_t seen = 0;
+    for (const Triangle& triangle : all) { // what is kept is kept in order
+        const bool is_kept = next < kept.size() && kept[next] == triangle;
+        next += is_kept ? 1 : 0;
+        double most = -1e9;
+        for (const glm::dvec3& eye : eyes) {
+            most = std::max(most, above(triangle, eye, pack, plan.metres_per_box));
+        }
+        if (!is_kept) {
+            EXPECT_LT(most, 0.0);
+        }
+        seen += is_kept && most > 0.0 ? 1 : 0;
+    }
+    EXPECT_EQ(next, kept.size());
+    EXPECT_GT(static_cast<double>(seen), 0.98 * static_cast<double>(kept.size())); // and hardly one too many
+}
+
+TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
+    Settings settings;
+    settings.eye.tracked = false;
+    settings.tracker.kind = TrackerKind::None;
+    const Pack pack = placed_rings();
+    const SceneLevel level = scene_level(pack, 0, plan_for(settings, pack));
+    EXPECT_GT(level.unseen_triangles, pack.levels[0].indices.size() / 3 / 3); // one eye: about half
+    EXPECT_GT(level.unseen_clusters, 0U);
+    std::uint32_t next = 0;
+    for (const PackCluster& cluster : level.mesh.clusters) {
+        EXPECT_EQ(cluster.first_index, next);
+        EXPECT_GT(cluster.index_count, 0U);
+        next += cluster.index_count;
+    }
+    EXPECT_EQ(next, level.mesh.indices.size());
+    const std::set<std::uint32_t> used(level.mesh.indices.begin(), level.mesh.indices.end());
+    EXPECT_EQ(used.size(), level.mesh.vertices.size());
+    EXPECT_EQ(*used.rbegin() + 1, level.mesh.vertices.size());
+}
+
+TEST(SceneLevel, OfARecordingOrWithoutEconomiesIsWhole) {
+    Settings settings;
+    const Pack pack = placed_rings();
+    settings.tracker.kind = TrackerKind::Replay;
+    EXPECT_EQ(scene_level(pack, 0, plan_for(settings, pack)).mesh.indices, pack.levels[0].indices);
+    ScenePlan plan = plan_for(Settings(), pack);
+    plan.economies = 0;
+    EXPECT_EQ(scene_level(pack, 0, plan).mesh.indices, pack.levels[0].indices);
+}
+
+TEST(MipLevel, IsTheFirstOfWhichNoSampleSkipsATexel) {
+    EXPECT_EQ(mip_level(100.0, 200.0), 0);
+    EXPECT_EQ(mip_level(200.0, 200.0), 0);
+    EXPECT_EQ(mip_level(201.0, 200.0), 1);
+    EXPECT_EQ(mip_level(400.0, 200.0), 1);
+    EXPECT_EQ(mip_level(401.0, 200.0), 2);
+    EXPECT_EQ(mip_level(1e9, 1.0), coarsest_mip_level);
+    EXPECT_EQ(mip_level(100.0, 0.0), coarsest_mip_level);
+    EXPECT_EQ(mip_level(std::nan(""), 1.0), 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,171 @@
+// What a scene is said to need, against what its settings and its pack hold.
+
+#include "app/scene/scene_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+/// Four levels; the placement makes one box unit 0.06 m. Errors p95: 0.48, 0.24, 0.108, 0.012 mm at 120 mm.
+PackOutline outline() {
+    PackOutline pack;
+    for (const auto& [triangles, p95_box] : {std::pair(1000U, 4e-3F), std::pair(2000U, 2e-3F),
+                                             std::pair(8000U, 9e-4F), std::pair(30000U, 1e-4F)}) {
+        LevelOutline level;
+        level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
+        level.triangles = triangles;
+        pack.levels.push_back(level);
+    }
+    pack.description.extremes = {{0.0, 0.0, 1.0}, {0.2, 0.2, 0.0}}; // as tall as the prop: 0.12 m
+    pack.description.captions = {{"en", "A", ""}, {"de", "B", ""}};
+    pack.description.samples = 4;
+    pack.description.default_level = 2;
+    return pack;
+}
+
+SceneRequest request(const Settings& settings) {
+    SceneRequest request;
+    request.captions = {0, 1};
+    request.visibility = visibility_of(settings);
+    return request;
+}
+
+bool leaves_out(const ScenePlan& plan, Economy economy, const std::string& what) {
+    return std::any_of(plan.left_out.begin(), plan.left_out.end(), [&](const LeftOut& each) {
+        EXPECT_FALSE(each.why.empty());
+        return each.economy == economy && each.what.find(what) != std::string::npos;
+    });
+}
+
+TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
+    const Settings settings;
+    SceneRequest asked = request(settings);
+    for (const auto& [technique, level] :
+         {std::pair("level0", 0U), std::pair("level3", 3U), std::pair("finest", 3U)}) {
+        asked.technique = technique;
+        const ScenePlan plan = plan_scene(settings, outline(), asked).value();
+        EXPECT_EQ(plan.levels, std::vector<std::uint32_t>{level});
+        EXPECT_FALSE(plan.passes.level_fades);
+    }
+    EXPECT_TRUE(
+        leaves_out(plan_scene(settings, outline(), asked).value(), UnusedLevels, "levels 0, 1 and 2"));
+    asked.technique = "level4";
+    EXPECT_FALSE(plan_scene(settings, outline(), asked));
+    asked.technique = "auto";
+    asked.live = false; // a picture from a pose file: the pack's default
+    EXPECT_EQ(plan_scene(settings, outline(), asked).value().levels, std::vector<std::uint32_t>{2U});
+}
+
+TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
+    const Settings settings; // half a pixel is 0.28 mm: level 1 is within it
+    const ScenePlan plan = plan_scene(settings, outline(), request(settings)).value();
+    EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
+    EXPECT_TRUE(plan.passes.level_fades);
+    EXPECT_TRUE(leaves_out(plan, UnusedLevels, "levels 2 and 3"));
+    PackOutline garbage = outline();
+    for (LevelOutline& level : garbage.levels) {
+        level.error.p95_box = std::nanf("");
+    }
+    EXPECT_EQ(plan_scene(settings, garbage, request(settings)).value().levels.front(), 3U);
+}
+
+TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
+    const Settings settings;
+    SceneRequest asked = request(settings);
+    const ScenePlan lean = plan_scene(settings, outline(), asked).value();
+    asked.economies = 0;
+    const ScenePlan full = plan_scene(settings, outline(), asked).value();
+    EXPECT_EQ(full.levels, (std::vector<std::uint32_t>{1U, 0U, 2U, 3U}));
+    ASSERT_EQ(full.rungs.size(), lean.rungs.size());
+    for (std::size_t k = 0; k < full.rungs.size(); ++k) {
+        EXPECT_EQ(full.rungs[k].level, lean.rungs[k].level);
+        EXPECT_EQ(full.rungs[k].samples, lean.rungs[k].samples);
+    }
+    EXPECT_EQ(programs_of(full.passes).size(), 8U);
+    EXPECT_EQ(full.faces, 31U);
+    EXPECT_EQ(full.captions.size(), 2U);
+}
+
+TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
+    Settings settings;
+    SceneRequest asked = request(settings);
+    EXPECT_TRUE(plan_scene(settings, outline(), asked).value().passes.captions);
+    asked.captions = {1};
+    const ScenePlan one = plan_scene(settings, outline(), asked).value();
+    EXPECT_EQ(one.captions, std::vector<std::size_t>{1U});
+    EXPECT_TRUE(leaves_out(one, UnusedCaptions, "another language"));
+    settings.exhibit.captions = false;
+    const ScenePlan off = plan_scene(settings, outline(), asked).value();
+    EXPECT_FALSE(off.passes.captions);
+    EXPECT_TRUE(leaves_out(off, UnusedCaptions, "typeface"));
+    settings.exhibit.captions = true;
+    PackOutline silent = outline();
+    silent.description.captions.clear();
+    asked.captions.clear();
+    EXPECT_FALSE(plan_scene(settings, silent, asked).value().passes.captions);
+    asked.captions = {0, 1};
+    asked.live = false;
+    EXPECT_TRUE(plan_scene(settings, outline(), asked).value().captions.empty());
+}
+
+TEST(ScenePlan, CompilesTheVariantsThatAreDrawn) {
+    const Settings settings;
+    SceneRequest asked = request(settings);
+    asked.technique = "level0";
+    asked.captions.clear();
+    using P = Program;
+    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
+              (std::vector{P::Outline, P::ArtifactCompensated, P::TileClear, P::TileAverage}));
+    asked.light = false;
+    asked.samples = 1;
+    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
+              (std::vector{P::Outline, P::Artifact}));
+    asked.technique = "auto";
+    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
+              (std::vector{P::Outline, P::Artifact, P::ArtifactFading}));
+}
+
+TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
+    Settings settings;
+    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // it may be turned
+    settings.eye.tracked = false;
+    settings.tracker.kind = TrackerKind::None;
+    // Sides lean by 0.035 / 0.12. From (0, -0.55, 0.5): -Y and the top; +-X, which lean back far enough; not
+    // +Y.
+    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b11011U);
+    settings.eye.default_m = {0.0, -0.55, 0.05}; // low: -Y alone
+    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b01000U);
+    // A projector far behind, as low as the far side's lean: it does not light -Y.
+    settings.eye.default_m = {0.0, -0.55, 0.5};
+    settings.projector.table_from_projector.translation = {0.0, 2.0, 1.2};
+    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces & 0b01000U, 0U);
+}
+
+TEST(DevicePlan, OpensWhatIsConfigured) {
+    Settings settings;
+    settings.exhibit.packs = {"a.fspack", "b.fspack"};
+    const DevicePlan bare = plan_devices(settings, false, false);
+    EXPECT_TRUE(bare.head);
+    EXPECT_FALSE(bare.panel);
+    EXPECT_FALSE(bare.other_packs);
+    EXPECT_EQ(bare.threads.size(), 1U);
+    EXPECT_EQ(bare.left_out.size(), 3U); // panel, second pack, status writer
+    settings.panel.script = {{1.0, 2}};
+    const DevicePlan languages = plan_devices(settings, false, true);
+    EXPECT_TRUE(languages.panel);
+    EXPECT_TRUE(languages.language);
+    EXPECT_FALSE(languages.other_packs);
+    EXPECT_EQ(languages.threads.size(), 2U);
+    settings.panel.script = {{1.0, 1}};
+    EXPECT_TRUE(plan_devices(settings, false, false).other_packs);
+    EXPECT_TRUE(plan_devices(Settings(), true, false).other_packs);
+    settings.tracker.kind = TrackerKind::None;
+    EXPECT_FALSE(plan_devices(settings, false, false).head);
+}
+
+} // namespace
+} // namespace frustumscreen
