@@ -8,8 +8,14 @@
 
 #include <cctype>
 #include <cfenv>
+#include <ostream>
 
 namespace frustumscreen {
+
+void PrintTo(const StabilityCase& which, std::ostream* out) { // GoogleTest finds it by this name
+    *out << which.theme << ": " << which.name;
+}
+
 namespace {
 
 class Traps {
