@@ -66,7 +66,7 @@ Image8 half_size(const Image8& image) {
             }
             const auto code = [&](float light) {
                 const float place = std::clamp(light, 0.0F, 1.0F) * static_cast<float>(entries - 1);
-                return codes[static_cast<std::size_t>(place + 0.5F)];
+                return codes[static_cast<std::size_t>(std::lround(place))];
             };
             half.at(x, y) = {code(sum.r), code(sum.g), code(sum.b),
                              static_cast<std::uint8_t>(std::lround(std::clamp(sum.a, 0.0F, 255.0F)))};

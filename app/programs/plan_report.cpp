@@ -35,6 +35,7 @@ template <typename List> std::string joined(const List& list) {
 
 std::vector<std::string> names_of(const std::vector<Program>& programs) {
     std::vector<std::string> names;
+    names.reserve(programs.size());
     for (const Program program : programs) {
         names.emplace_back(name_of(program));
     }

@@ -58,6 +58,14 @@ TEST(HostileManifest, every_missing_field_is_named) {
     }
 }
 
+TEST(HostileManifest, a_level_without_error_figures_is_refused_by_name) {
+    expect_refused(
+        {{"levels[0].error is missing", [](Json& m) { m["levels"][0].erase("error"); }},
+         {"levels[0].error", [](Json& m) { m["levels"][0]["error"] = nullptr; }},
+         {"levels[1].error.p95_box is missing", [](Json& m) { m["levels"][1]["error"].erase("p95_box"); }},
+         {"levels[1].error.p95_box", [](Json& m) { m["levels"][1]["error"]["p95_box"] = nullptr; }}});
+}
+
 TEST(HostileManifest, every_field_of_another_type_is_refused) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     for (const Json& place : {entries.manifest.flatten()}) {
