@@ -29,6 +29,31 @@ bool no_larger(const PictureError& a, const PictureError& b) {
            a.sixteen_rays.rmse <= b.sixteen_rays.rmse;
 }
 
+bool errors_hold(const TechniqueResult& level, const Limits& limits) {
+    return level.error.worst.geometric_mean_mm <= limits.geometric_mean_mm &&
+           level.error.worst.sixteen_rays.rmse <= limits.colour_rmse &&
+           std::all_of(level.errors.begin(), level.errors.end(),
+                       [&limits](const PictureError& error) { return silhouette_holds(error, limits); });
+}
+
+/// The cheapest level whose errors are fine, and whether it is cheap.
+Verdict judge_fine(const SetUpResult& result) {
+    const Limits& limits = fine_level_limits;
+    const TechniqueResult* fine = nullptr;
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel && errors_hold(technique, limits) &&
+            (fine == nullptr || technique.times_floor < fine->times_floor)) {
+            fine = &technique;
+        }
+    }
+    return {fmt::format("a fine level: <= {:g} % or {:g} px, <= {:g} mm at <= {:g} x floor",
+                        limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
+                        limits.times_floor),
+            fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
+                            : std::string("no level is as fine"),
+            fine != nullptr && fine->times_floor <= limits.times_floor};
+}
+
 } // namespace
 
 std::string lines_of(std::span<const Verdict> verdicts) {
@@ -69,6 +94,10 @@ const TechniqueResult* cheapest_as_good(const SetUpResult& result, const Techniq
     return best;
 }
 
+double least_two_pass_speed_up(std::uint64_t triangles) {
+    return triangles >= 4 * least_two_pass_triangles ? 25.0 : 8.0;
+}
+
 std::vector<Verdict> judge(const SetUpResult& result) {
     std::vector<Verdict> verdicts;
     const auto add = [&verdicts](const std::string& whose, std::vector<Verdict> more) {
@@ -81,20 +110,23 @@ std::vector<Verdict> judge(const SetUpResult& result) {
         if (technique.kind == TechniqueKind::PackLevel &&
             technique.level == static_cast<int>(result.default_level)) {
             add("default level", judge(technique, default_level_limits));
+            add("default level, pushed", judge(technique, pushed_default_limits));
         }
         if (technique.kind == TechniqueKind::PackLevel &&
             technique.level == static_cast<int>(result.finest_level)) {
             add("finest level", judge(technique, finest_level_limits));
         }
         if (technique.kind == TechniqueKind::TwoPass && technique.triangles >= least_two_pass_triangles) {
+            const double least = least_two_pass_speed_up(technique.triangles);
             const TechniqueResult* level = cheapest_as_good(result, technique);
             const double speed_up = level != nullptr ? technique.times_floor / level->times_floor : 0.0;
-            add(technique.name, {{fmt::format("a level as good is >= {:g} x faster", least_two_pass_speed_up),
+            add(technique.name, {{fmt::format("a level as good is >= {:g} x faster", least),
                                   level != nullptr ? fmt::format("{}: {:.1f} x faster", level->name, speed_up)
                                                    : std::string("no level is as good"),
-                                  speed_up >= least_two_pass_speed_up}});
+                                  speed_up >= least}});
         }
     }
+    verdicts.push_back(judge_fine(result));
     return verdicts;
 }
 

@@ -21,10 +21,13 @@ struct Limits {
 };
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 5.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
-/// A level must draw this many times faster than the two-pass method at no larger errors.
-inline constexpr double least_two_pass_speed_up = 6.0;
-/// That limit is set for a source of a million triangles; smaller ones (5 % aside) are not judged by it.
+/// What the front is pushed to: the default level again, and some level of the pack, a fine one.
+inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 3.5};
+inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 5.0};
+/// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
+/// million triangles and of four; smaller ones (5 % aside) are not judged.
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
+[[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
 
 struct Verdict {
     std::string what; ///< the limit, with its number

@@ -173,7 +173,7 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 /// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The worst of fifty poses in two set-ups shows up to three times as much of either.
-    constexpr double good_mean_mm = 0.050;
+    constexpr double good_mean_mm = 0.060;
     constexpr double good_outline_shift_mm = 0.025;
     const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -78,15 +79,64 @@ TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points
 
 namespace {
 
-TriangleMesh simplify_once(const TriangleMesh& mesh, float tolerance_box) {
-    TriangleMesh result{mesh.positions, std::vector<std::uint32_t>(mesh.indices.size())};
-    const float scale = meshopt_simplifyScale(&mesh.positions[0].x, mesh.positions.size(), sizeof(glm::vec3));
-    const std::size_t count = meshopt_simplify(
-        result.indices.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
-        mesh.positions.size(), sizeof(glm::vec3), 0, tolerance_box / std::max(scale, 1e-20F), 0, nullptr);
-    result.indices.resize(count);
-    drop_repetitions(result.indices);
-    compact(result);
+std::vector<std::uint32_t> simplified(const std::vector<std::uint32_t>& indices,
+                                      const std::vector<glm::vec3>& positions, float tolerance_box,
+                                      unsigned options) {
+    std::vector<std::uint32_t> result(indices.size());
+    const float scale = meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(glm::vec3));
+    result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(), &positions[0].x,
+                                   positions.size(), sizeof(glm::vec3), 0,
+                                   tolerance_box / std::max(scale, 1e-20F), options, nullptr));
+    return result;
+}
+
+/// Triangles in the order of the cells of a grid that their centres lie in; the cell of each.
+std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(const TriangleMesh& mesh, float offset_box) {
+    constexpr float cell_box = 0.15F;
+    constexpr float low = -2.0F; // of every box
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    order.reserve(mesh.triangle_count());
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        const glm::vec3 centre = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0F;
+        const glm::u64vec3 cell(glm::max((centre - low + offset_box) / cell_box, glm::vec3(0.0F)));
+        order.emplace_back(cell.x << 42U | cell.y << 21U | cell.z, t);
+    }
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+/// Simplifies cell by cell, each in coordinates of its own, and keeps what the cells share.
+TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, float offset_box) {
+    constexpr std::uint32_t unknown = 0xFFFFFFFFU;
+    const auto order = by_cell(mesh, offset_box);
+    TriangleMesh result{mesh.positions, {}};
+    result.indices.reserve(mesh.indices.size());
+    std::vector<std::uint32_t> local_of(mesh.positions.size(), unknown);
+    for (std::size_t begin = 0; begin < order.size();) {
+        std::vector<std::uint32_t> vertices;
+        std::vector<std::uint32_t> indices;
+        std::vector<glm::vec3> positions;
+        std::size_t end = begin;
+        for (; end < order.size() && order[end].first == order[begin].first; ++end) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t vertex = mesh.indices[3 * std::size_t{order[end].second} + c];
+                if (local_of[vertex] == unknown) {
+                    local_of[vertex] = static_cast<std::uint32_t>(vertices.size());
+                    vertices.push_back(vertex);
+                    positions.push_back(mesh.positions[vertex] - mesh.positions[vertices[0]]);
+                }
+                indices.push_back(local_of[vertex]);
+            }
+        }
+        for (const std::uint32_t local :
+             simplified(indices, positions, tolerance_box, meshopt_SimplifyLockBorder)) {
+            result.indices.push_back(vertices[local]);
+        }
+        for (const std::uint32_t vertex : vertices) {
+            local_of[vertex] = unknown;
+        }
+        begin = end;
+    }
     return result;
 }
 
@@ -97,11 +147,15 @@ TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
     std::size_t before = 0;
     do {
         before = result.triangle_count();
-        if (before == 0) {
-            break;
+        for (const float offset_box : {0.0F, 0.075F}) { // what cells share in one grid is inside in the other
+            result = simplify_in_cells(result, tolerance_box, offset_box);
         }
-        result = simplify_once(result, tolerance_box);
     } while (20 * result.triangle_count() < 19 * before);
+    if (!result.indices.empty()) { // borders of open surfaces, which cells never touch
+        result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
+    }
+    drop_repetitions(result.indices);
+    compact(result);
     return result;
 }
 

@@ -37,9 +37,9 @@ SetUpResult example() {
     result.finest_level = 1;
     result.techniques = {
         technique("floor", TechniqueKind::Floor, -1, 1.0, {}),
-        technique("mesh 0", TechniqueKind::PackLevel, 0, 3.0, {picture_error(0.5, 0.4, 0.1, 10.0)}),
+        technique("mesh 0", TechniqueKind::PackLevel, 0, 3.0, {picture_error(0.34, 0.4, 0.1, 10.0)}),
         technique("mesh 1", TechniqueKind::PackLevel, 1, 5.0, {picture_error(0.1, 0.05, 0.03, 7.0)}),
-        technique("two-pass 640", TechniqueKind::TwoPass, -1, 30.0, {picture_error(0.4, 0.3, 0.12, 9.0)})};
+        technique("two-pass 640", TechniqueKind::TwoPass, -1, 40.0, {picture_error(0.4, 0.3, 0.12, 9.0)})};
     result.techniques[3].triangles = 1'000'000;
     return result;
 }
@@ -70,16 +70,31 @@ TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     const SetUpResult result = example();
     const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);
     ASSERT_NE(level, nullptr);
-    EXPECT_EQ(level->name, "mesh 1"); // mesh 0 is cheaper but its colours and silhouette are worse
+    EXPECT_EQ(level->name, "mesh 1"); // mesh 0 is cheaper but its colours are worse
     SetUpResult none = result;
     none.techniques[3].error.mean.geometric_mean_mm = 0.01;
     EXPECT_EQ(cheapest_as_good(none, none.techniques[3]), nullptr);
-    EXPECT_EQ(missed(judge(result)), 0U); // 30 / 5 = 6 times
+    EXPECT_EQ(missed(judge(result)), 0U); // 40 / 5 = 8 times
     none.techniques[3] = result.techniques[3];
-    none.techniques[3].times_floor = 29.0;
+    none.techniques[3].times_floor = 39.0;
+    EXPECT_EQ(missed(judge(none)), 1U);
+    none.techniques[3].times_floor = 100.0;
+    none.techniques[3].triangles = 4'000'000; // 25 times are asked for here
     EXPECT_EQ(missed(judge(none)), 1U);
     none.techniques[3].triangles = 100'000; // the limit is not set for so small a source
     EXPECT_EQ(missed(judge(none)), 0U);
+}
+
+TEST(Verdicts, AFineLevelIsBothFineAndCheap) {
+    SetUpResult result = example();
+    ASSERT_EQ(missed(judge(result)), 0U);
+    result.techniques[2].times_floor = 5.1;
+    result.techniques[3].times_floor = 50.0;
+    EXPECT_EQ(missed(judge(result)), 1U);
+    result.techniques[2].times_floor = 4.0;
+    result.techniques[2].errors[0].geometric_mean_mm = 0.06;
+    result.techniques[2].error = summarise(result.techniques[2].errors);
+    EXPECT_EQ(missed(judge(result)), 2U); // the finest level misses its own limit too
 }
 
 TEST(Report, EveryRowHasAsManyFieldsAsTheHeader) {
