@@ -22,7 +22,7 @@ namespace {
 /// library's 32-bit errors say nothing below some 3e-4, and it strays as far.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
-constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 4e-4F, 6.5e-4F, 1.3e-3F, 2.6e-3F};
+constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.5e-4F, 6.5e-4F, 1.3e-3F, 2.6e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// A level with the picture that it wears.
@@ -173,7 +173,7 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 /// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
     // The worst of fifty poses in two set-ups shows up to three times as much of either.
-    constexpr double good_mean_mm = 0.060;
+    constexpr double good_mean_mm = 0.055;
     constexpr double good_outline_shift_mm = 0.025;
     const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
