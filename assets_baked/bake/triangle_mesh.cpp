@@ -143,15 +143,22 @@ TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, fl
 } // namespace
 
 TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
+    constexpr std::size_t dense = 50'000; // below, cells would hold few triangles but their borders
     TriangleMesh result = mesh;
     std::size_t before = 0;
     do {
         before = result.triangle_count();
-        for (const float offset_box : {0.0F, 0.075F}) { // what cells share in one grid is inside in the other
-            result = simplify_in_cells(result, tolerance_box, offset_box);
+        if (mesh.triangle_count() >= dense) {
+            for (const float offset_box :
+                 {0.0F, 0.075F}) { // what cells share in one grid is inside in the other
+                result = simplify_in_cells(result, tolerance_box, offset_box);
+            }
+        } else if (before > 0) {
+            result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
+            drop_repetitions(result.indices);
         }
     } while (20 * result.triangle_count() < 19 * before);
-    if (!result.indices.empty()) { // borders of open surfaces, which cells never touch
+    if (!result.indices.empty() && mesh.triangle_count() >= dense) { // open borders, which cells never touch
         result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
     }
     drop_repetitions(result.indices);

@@ -36,9 +36,9 @@ struct TriangleMesh {
 
 /// Fewest triangles that meshoptimizer reaches within `tolerance_box`, cell by cell and run until it settles.
 /// Its errors are 32-bit and know nothing below some 3e-4 of the mesh's extent: in cells of 0.15 box the
-/// surface strays 20 to 40 % less at the same number of triangles. A single run stops early on dense meshes
-/// (a source of 4M triangles kept 2.3 times as many as one of 100k). Runs add up to somewhat more than the
-/// tolerance; levels are measured, not trusted.
+/// surface strays 20 to 40 % less at the same number of triangles, where a mesh is dense enough for them. A
+/// single run stops early on dense meshes (a source of 4M triangles kept 2.3 times as many as one of 100k).
+/// Runs add up to somewhat more than the tolerance; levels are measured, not trusted.
 [[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
 
 /// The same triangles as a source without materials, for ray casts against them.
