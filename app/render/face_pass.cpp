@@ -59,7 +59,7 @@ void main() {
     result = vec4(point, 1.0);
 }
 #else
-uniform float brightness;
+uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
 #if defined(COMPENSATED) || defined(FADING)
 uniform vec4 pixel_from_fragment; // scale, offset
 #endif
@@ -98,12 +98,13 @@ void main() {
     }
 #endif
     vec3 code = seen.rgb;
-    float gain = brightness;
+    vec2 gain = brightness;
 #ifdef COMPENSATED
-    gain *= compensation();
+    float compensated = compensation();
+    gain *= vec2(compensated, pow(compensated, 1.0 / 2.4));
 #endif
     // The code of `gain` times the light of a code, by sRGB's own power law; its straight piece near black exactly.
-    result = vec4(max(gain * code, (code + 0.055) * pow(gain, 1.0 / 2.4) - 0.055), 1.0);
+    result = vec4(max(gain.x * code, (code + 0.055) * gain.y - 0.055), 1.0);
 }
 #endif
 )";
@@ -262,7 +263,8 @@ int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, boo
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, artifact.texture());
     glBindVertexArray(artifact.vertex_array());
-    glUniform1f(program.brightness, plan.brightness);
+    constexpr float code_power = 1.0F / 2.4F;
+    glUniform2f(program.brightness, plan.brightness, std::pow(plan.brightness, code_power));
     glUniform2f(program.fade, plan.coming_share.value_or(0.0F), coming ? 1.0F : 0.0F);
     const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
     glUniform4f(program.pixel_from_fragment, scale.x, scale.y, static_cast<float>(raster.corner.x),
