@@ -22,7 +22,7 @@ namespace {
 /// library's 32-bit errors say nothing below some 3e-4, and it strays as far.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
-constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.5e-4F, 6.5e-4F, 1.3e-3F, 2.6e-3F};
+constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// A level with the picture that it wears.
@@ -170,22 +170,32 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
     return place(pack, make_prop(size)).metres_per_box * 1e3;
 }
 
-/// Cheapest level that is good enough by default, as a visitor sees it on the usual prop.
+/// As a visitor sees it on the usual prop.
+bool good_enough(const PackLevel& level, const Pack& pack, const SourceScene& source, double mm_per_box) {
+    // The worst of fifty poses in two set-ups shows up to three times as much of each.
+    constexpr double good_mean_mm = 0.075;
+    constexpr double good_outline_shift_mm = 0.04;
+    constexpr double good_silhouette_share = 0.012; // a thin object is outline throughout
+    const SeenError error = seen_error(level, pack.textures[level.texture], pack.box_size, source);
+    return error.mean_box * mm_per_box <= good_mean_mm &&
+           error.outline_shift_box * mm_per_box <= good_outline_shift_mm &&
+           error.silhouette_share <= good_silhouette_share;
+}
+
+/// The cheapest level that is good enough; below a number of triangles that any source may cost, the finest
+/// instead. The last level is for looking closer: it is drawn with more samples.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
-    // The worst of fifty poses in two set-ups shows up to three times as much of either.
-    constexpr double good_mean_mm = 0.055;
-    constexpr double good_outline_shift_mm = 0.025;
+    constexpr std::size_t free_triangles = 30'000;
     const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
-    for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
-        const PackLevel& level = pack.levels[k];
-        const SeenError error =
-            seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source());
-        if (error.mean_box * mm_per_box <= good_mean_mm &&
-            error.outline_shift_box * mm_per_box <= good_outline_shift_mm) {
-            return k;
-        }
+    std::uint32_t level = 0;
+    while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
+        ++level;
     }
-    return static_cast<std::uint32_t>(pack.levels.size()) - 1;
+    while (level + 1 < pack.levels.size() &&
+           !good_enough(pack.levels[level], pack, bakery.source(), mm_per_box)) {
+        ++level;
+    }
+    return level;
 }
 
 /// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.

@@ -43,6 +43,7 @@ struct SeenError {
     double mean_box = 0.0; ///< distance between what it sees on the level and on the source
     /// The rays that hit one of them alone, as an even band along the source's outline: its width.
     double outline_shift_box = 0.0;
+    double silhouette_share = 0.0; ///< the same rays, as a share of those that hit both
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source);

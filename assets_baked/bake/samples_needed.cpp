@@ -91,7 +91,7 @@ std::array<double, grids.size()> errors_of(const FarView& view, const SourceScen
 } // namespace
 
 int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box) {
-    constexpr double good_rmse = 7.2;
+    constexpr double good_rmse = 8.0;
     constexpr double most_samples =
         45e3; // of the artifact's pixels on a usual table: what a slow GPU shades in time
     constexpr int views = 4;

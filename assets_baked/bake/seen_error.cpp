@@ -122,14 +122,15 @@ SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::d
         const EyeRays rays(centre + glm::vec3(away * eye_distance_box), centre, radius);
         const Tally tally = compare(rays, level_scene, source);
         if (tally.both > 0) {
-            sum.mean_box += tally.distance / static_cast<double>(tally.both);
+            sum.mean_box += tally.distance / static_cast<double>(tally.both) / eyes;
+            sum.silhouette_share += static_cast<double>(tally.one) / static_cast<double>(tally.both) / eyes;
         }
         if (tally.outline > 0) {
             const double rays_wide = static_cast<double>(tally.one) / static_cast<double>(tally.outline);
-            sum.outline_shift_box += rays.spacing_box(eye_distance_box) * rays_wide;
+            sum.outline_shift_box += rays.spacing_box(eye_distance_box) * rays_wide / eyes;
         }
     }
-    return {sum.mean_box / eyes, sum.outline_shift_box / eyes};
+    return sum;
 }
 
 } // namespace frustumscreen
