@@ -17,10 +17,12 @@ void main() { result = vec4(0.0); })";
 
 class FullMesh final : public Technique {
 public:
-    FullMesh(const Stage& stage, const PeerMesh& mesh, GlProgram mark, OffscreenTarget points)
-        : stage_(stage), mesh_(mesh), mark_(std::move(mark)), points_(std::move(points)) {}
+    FullMesh(const Stage& stage, const PeerMesh& mesh, std::string name, GlProgram mark,
+             OffscreenTarget points)
+        : stage_(stage), mesh_(mesh), name_(std::move(name)), mark_(std::move(mark)),
+          points_(std::move(points)) {}
 
-    [[nodiscard]] std::string name() const override { return "full mesh"; }
+    [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
         draw_into(stage_.framebuffer, pose, PeerMesh::Output::Colour);
     }
@@ -77,6 +79,7 @@ private:
 
     const Stage& stage_;
     const PeerMesh& mesh_;
+    std::string name_;
     GlProgram mark_;
     OffscreenTarget points_;
     FaceQuads quads_;
@@ -84,7 +87,8 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh) {
+Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
+                                                  std::string name) {
     Result<GlProgram> mark = make_program("", mark_vertex, mark_fragment);
     if (!mark) {
         return tl::unexpected<Error>(mark.error());
@@ -93,7 +97,7 @@ Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const Peer
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    return std::make_unique<FullMesh>(stage, mesh, std::move(*mark), std::move(*points));
+    return std::make_unique<FullMesh>(stage, mesh, std::move(name), std::move(*mark), std::move(*points));
 }
 
 } // namespace frustumscreen

@@ -1,7 +1,6 @@
 #include "app/bench/report.h"
 
 #include "app/bench/plot.h"
-#include "app/bench/verdicts.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,6 +37,7 @@ nlohmann::json json_of(const PictureError& error) {
 
 nlohmann::json json_of(const TechniqueResult& technique) {
     nlohmann::json json = {{"name", technique.name},
+                           {"kind", name_of(technique.kind)},
                            {"triangles", technique.triangles},
                            {"median_ms", technique.time_ms.median},
                            {"p10_ms", technique.time_ms.p10},
@@ -54,6 +54,23 @@ nlohmann::json json_of(const TechniqueResult& technique) {
         json["worst_pose"] = technique.error.worst_pose;
     }
     return json;
+}
+
+nlohmann::json json_of(std::span<const Verdict> verdicts) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const Verdict& verdict : verdicts) {
+        json.push_back({{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
+    }
+    return json;
+}
+
+/// RFC 4180: a field that may hold commas.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return result + "\"";
 }
 
 Plot error_plot(const SetUpResult& result, const std::string& title, const std::string& y_label,
@@ -90,7 +107,8 @@ Plot error_plot(const SetUpResult& result, const std::string& title, const std::
 } // namespace
 
 std::string summary_csv(std::span<const SetUpResult> results) {
-    std::string csv = "set_up,technique,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
+    std::string csv =
+        "set_up,technique,kind,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
     for (const char* which : {"mean", "worst"}) {
         for (const Figure& figure : figures) {
             csv += fmt::format(",{}_{}", which, figure.name);
@@ -99,10 +117,10 @@ std::string summary_csv(std::span<const SetUpResult> results) {
     csv += ",worst_pose\n";
     for (const SetUpResult& result : results) {
         for (const TechniqueResult& technique : result.techniques) {
-            csv += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
-                               technique.name, technique.triangles, technique.time_ms.median,
-                               technique.time_ms.p10, technique.time_ms.p90, technique.times_floor,
-                               technique.cpu_ms, technique.cpu_times_floor);
+            csv += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
+                               technique.name, name_of(technique.kind), technique.triangles,
+                               technique.time_ms.median, technique.time_ms.p10, technique.time_ms.p90,
+                               technique.times_floor, technique.cpu_ms, technique.cpu_times_floor);
             for (const PictureError* error : {&technique.error.mean, &technique.error.worst}) {
                 for (const Figure& figure : figures) {
                     csv += technique.errors.empty() ? std::string(",")
@@ -142,25 +160,38 @@ std::string poses_csv(std::span<const SetUpResult> results) {
     return csv;
 }
 
-std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title) {
-    nlohmann::json json = {{"pack", pack_title}, {"set_ups", nlohmann::json::array()}};
+std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
+                        std::span<const Verdict> pack_figures) {
+    nlohmann::json json = {
+        {"pack", pack_title}, {"pack_figures", json_of(pack_figures)}, {"set_ups", nlohmann::json::array()}};
     for (const SetUpResult& result : results) {
         nlohmann::json set_up = {{"name", result.name},
                                  {"driver", result.driver},
                                  {"poses", result.poses.size()},
                                  {"default_level", result.default_level},
                                  {"techniques", nlohmann::json::array()},
-                                 {"verdicts", nlohmann::json::array()}};
+                                 {"verdicts", json_of(judge(result))}};
         for (const TechniqueResult& technique : result.techniques) {
             set_up["techniques"].push_back(json_of(technique));
-        }
-        for (const Verdict& verdict : judge(result)) {
-            set_up["verdicts"].push_back(
-                {{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
         }
         json["set_ups"].push_back(std::move(set_up));
     }
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const Verdict> pack_figures) {
+    std::string csv = "set_up,what,found,verdict\n";
+    const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
+        for (const Verdict& verdict : verdicts) {
+            csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
+                               verdict.held ? "held" : "missed");
+        }
+    };
+    add("pack", pack_figures);
+    for (const SetUpResult& result : results) {
+        add(result.name, judge(result));
+    }
+    return csv;
 }
 
 std::string error_time_svg(const SetUpResult& result, const std::string& pack_title) {
@@ -183,12 +214,12 @@ std::string error_time_svg(const SetUpResult& result, const std::string& pack_ti
 
 std::string console_table(const SetUpResult& result) {
     std::string table =
-        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<20}{:>10}{:>9}{:>15}{:>9}{:>10}  "
+        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<23}{:>10}{:>9}{:>15}{:>9}{:>10}  "
                     "{:<17}{:<17}{:<18}{:<15}\n",
                     result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor",
                     "CPU x fl.", "silhouette %", "outline px", "geometric mm", "RMSE 16 rays");
     for (const TechniqueResult& technique : result.techniques) {
-        table += fmt::format("{:<20}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
+        table += fmt::format("{:<23}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
                              technique.triangles, technique.time_ms.median,
                              fmt::format("{:.1f}..{:.1f}", technique.time_ms.p10, technique.time_ms.p90),
                              technique.times_floor, technique.cpu_times_floor);

@@ -20,6 +20,9 @@ int run(int argc, char** argv) {
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("frustumscreen-bench: {}\n", error.what());
+    });
     const std::array commands = {error_time_command(app), scaling_command(app), projection_command(app),
                                  shimmer_command(app), stability_command(app)};
     try {

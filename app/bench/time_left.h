@@ -1,0 +1,45 @@
+/// How long a run of several steps still takes.
+///
+/// Method   a step's seconds are what has passed in it over the share that is done; of a step to come, those
+///          of the last one of its kind, else as many as its guess is to the guesses of all that is known.
+/// Units    seconds; guesses only count in relation to each other.
+/// Threads  values; any. Reads no clock.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct WorkStep {
+    std::string name; ///< unique
+    std::string kind;
+    double guess = 1.0;
+};
+
+class TimeLeft {
+public:
+    TimeLeft() = default;
+    explicit TimeLeft(std::vector<WorkStep> steps);
+
+    /// Step `name` is done by this share (0..1). One that was not planned is appended, so that without a plan
+    /// the time left is that of the step alone. Steps before it count as done. Nothing while nothing is
+    /// known.
+    [[nodiscard]] std::optional<double> at(const std::string& name, double done, double now_s);
+
+private:
+    struct Known {
+        WorkStep step;
+        std::optional<double> begun_s;
+        std::optional<double> takes_s;
+    };
+    [[nodiscard]] std::optional<double> expected_s(const WorkStep& step) const;
+
+    std::vector<Known> steps_;
+};
+
+/// As a person says it: '40 s', '4 min', '2 h 5 min'.
+[[nodiscard]] std::string words_of_time(double seconds);
+
+} // namespace frustumscreen
