@@ -45,6 +45,7 @@ private:
         glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
         mark_faces(view);
+        visible_.find(mesh_.triangles(), view);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
@@ -54,7 +55,7 @@ private:
                 collineation(view.faces[k]->plane, view.eye_m, view.clip_from_prop, mesh_.box());
             if (clip) {
                 glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
-                mesh_.draw(*clip, output, GL_CW);
+                mesh_.draw(*clip, output, GL_CW, visible_, k);
             }
         }
         glDisable(GL_STENCIL_TEST);
@@ -83,6 +84,7 @@ private:
     GlProgram mark_;
     OffscreenTarget points_;
     FaceQuads quads_;
+    VisibleParts visible_;
 };
 
 } // namespace

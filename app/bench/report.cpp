@@ -1,7 +1,5 @@
 #include "app/bench/report.h"
 
-#include "app/bench/plot.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -71,37 +69,6 @@ std::string quoted(const std::string& text) {
         result += c == '"' ? "\"\"" : std::string(1, c);
     }
     return result + "\"";
-}
-
-Plot error_plot(const SetUpResult& result, const std::string& title, const std::string& y_label,
-                double (*figure)(const PictureError&), std::vector<PlotLimit> limits) {
-    Plot plot{title,
-              "median frame time / floor",
-              y_label,
-              true,
-              true,
-              {{"mean, levels", {}, true},
-               {"worst pose, levels", {}, true},
-               {"full mesh", {}, false},
-               {"two-pass, mean", {}, true}},
-              std::move(limits)};
-    for (const TechniqueResult& technique : result.techniques) {
-        const double mean = figure(technique.error.mean);
-        if (technique.kind == TechniqueKind::PackLevel) {
-            plot.series[0].points.push_back({{technique.times_floor, mean}, technique.name});
-            plot.series[1].points.push_back({{technique.times_floor, figure(technique.error.worst)}});
-        } else if (technique.kind == TechniqueKind::FullMesh) {
-            plot.series[2].points.push_back({{technique.times_floor, mean}, technique.name});
-        } else if (technique.kind == TechniqueKind::TwoPass) {
-            plot.series[3].points.push_back({{technique.times_floor, mean}, technique.name});
-        }
-    }
-    const auto by_cost = [](const PlotPoint& a, const PlotPoint& b) { return a.at.x < b.at.x; };
-    for (PlotSeries& series : plot.series) {
-        std::stable_sort(series.points.begin(), series.points.end(), by_cost);
-    }
-    std::erase_if(plot.series, [](const PlotSeries& series) { return series.points.empty(); });
-    return plot;
 }
 
 } // namespace
@@ -192,24 +159,6 @@ std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const V
         add(result.name, judge(result));
     }
     return csv;
-}
-
-std::string error_time_svg(const SetUpResult& result, const std::string& pack_title) {
-    const std::string where = fmt::format("{}, {} set-up", pack_title, result.name);
-    const std::array plots = {error_plot(result, "Silhouette error: " + where, "% of the artifact's pixels",
-                                         [](const PictureError& e) { return e.silhouette_percent; },
-                                         {{default_level_limits.silhouette_percent, "default level's limit"},
-                                          {finest_level_limits.silhouette_percent, "finest level's limit"}}),
-                              error_plot(result, "Geometric error: " + where, "mean distance, mm",
-                                         [](const PictureError& e) { return e.geometric_mean_mm; },
-                                         {{default_level_limits.geometric_mean_mm, "default level's limit"},
-                                          {finest_level_limits.geometric_mean_mm, "finest level's limit"}}),
-                              error_plot(result, "Colour error: " + where,
-                                         "RMSE against 16 rays, 8-bit codes",
-                                         [](const PictureError& e) { return e.sixteen_rays.rmse; },
-                                         {{default_level_limits.colour_rmse, "default level's limit"},
-                                          {finest_level_limits.colour_rmse, "finest level's limit"}})};
-    return svg_of(plots);
 }
 
 std::string console_table(const SetUpResult& result) {

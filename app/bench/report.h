@@ -1,4 +1,4 @@
-/// What the bench found, as CSV, JSON, SVG and a table for the console.
+/// What the bench found, as CSV, JSON and a table for the console.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -20,8 +20,6 @@ namespace frustumscreen {
 /// Every verdict: of which set-up ('pack': on the pack's own figures), what, found, held or missed.
 [[nodiscard]] std::string verdicts_csv(std::span<const SetUpResult> results,
                                        std::span<const Verdict> pack_figures);
-/// Three plots: silhouette, geometric and colour error over cost.
-[[nodiscard]] std::string error_time_svg(const SetUpResult& result, const std::string& pack_title);
 /// The table that a person reads, with the verdicts below it.
 [[nodiscard]] std::string console_table(const SetUpResult& result);
 

@@ -9,10 +9,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
 namespace {
+
+/// Every kind.
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 7> kind_names = {{
+    {TechniqueKind::Floor, "floor"},
+    {TechniqueKind::PackLevel, "pack level"},
+    {TechniqueKind::FullMesh, "full mesh"},
+    {TechniqueKind::TwoPass, "two-pass"},
+    {TechniqueKind::RayCast, "ray cast"},
+    {TechniqueKind::Lod, "LOD"},
+    {TechniqueKind::TwoPassLod, "two-pass LOD"},
+}};
 
 TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
     TechniqueResult result;
@@ -30,23 +42,15 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
 } // namespace
 
 std::string_view name_of(TechniqueKind kind) {
-    switch (kind) {
-    case TechniqueKind::Floor:
-        return "floor";
-    case TechniqueKind::PackLevel:
-        return "pack level";
-    case TechniqueKind::FullMesh:
-        return "full mesh";
-    case TechniqueKind::TwoPass:
-        return "two-pass";
-    case TechniqueKind::RayCast:
-        return "ray cast";
-    case TechniqueKind::Lod:
-        return "LOD";
-    case TechniqueKind::TwoPassLod:
-        return "two-pass LOD";
-    }
-    return "";
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [kind](const auto& one) { return one.first == kind; });
+    return named->second;
+}
+
+std::optional<TechniqueKind> kind_of(std::string_view name) {
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [name](const auto& one) { return one.second == name; });
+    return named != kind_names.end() ? std::optional(named->first) : std::nullopt;
 }
 
 Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {

@@ -1,5 +1,6 @@
 #include "app/programs/bench_error_time.h"
 
+#include "app/bench/error_plot.h"
 #include "app/bench/error_time.h"
 #include "app/bench/figures.h"
 #include "app/bench/report.h"

@@ -1,5 +1,6 @@
 #include "app/programs/bench_scaling.h"
 
+#include "app/bench/error_plot.h"
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
 #include "app/bench/verdicts.h"
