@@ -20,7 +20,7 @@ namespace frustumscreen {
 struct LevelOfDetail {
     std::size_t target = 0; ///< triangles that were asked for; a source of many seams keeps more
     SourceMesh mesh;
-    double error = 0.0; ///< that the simplifier says, in the source's units
+    double error = 0.0; ///< that the simplifier says: a root of mean squares, in the source's units
 };
 
 /// One for each target below the source's number of triangles, in ascending order; a target that gives no
