@@ -130,6 +130,7 @@ std::vector<std::vector<glm::dvec2>> points_of(std::span<const ArtifactResults> 
 Plot overall_plot(std::span<const ArtifactResults> artifacts, const std::string& set_up,
                   const Measure& measure) {
     Plot plot = plot_of(measure, fmt::format("{}, {} set-up", measure.name, set_up));
+    plot.corner = "better ↙";
     std::vector<PlotSeries> lines;
     for (const Family& family : families) {
         const std::vector<std::vector<glm::dvec2>> all = points_of(artifacts, set_up, family, measure);
@@ -164,8 +165,10 @@ std::string error_time_svg(const SetUpResult& result, const std::string& pack_ti
         Plot plot = plot_of(measure, fmt::format("{}: {}, {} set-up", measure.name, pack_title, result.name));
         for (const Family& family : families) {
             add_family(result, family, measure, plot);
+            if (family.kind == TechniqueKind::PackLevel) {
+                add_worst_pose(result, measure, plot);
+            }
         }
-        add_worst_pose(result, measure, plot);
         plot.limits = {{default_level_limits.*measure.limit, "default level's limit"},
                        {finest_level_limits.*measure.limit, "finest level's limit"}};
         plots.push_back(std::move(plot));

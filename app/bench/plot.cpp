@@ -1,6 +1,7 @@
 #include "app/bench/plot.h"
 
 #include "app/bench/plot_axis.h"
+#include "app/bench/plot_svg.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double letter = 12.0;                ///< size of text
 constexpr double letter_width = 0.58 * letter; ///< mean advance of a sans-serif face, on the wide side
-constexpr double mark_px = 4.0;
 
 /// Size and margins of one plot.
 struct Frame {
@@ -30,29 +30,6 @@ constexpr Frame on_sheet{520.0, 430.0, 72.0, 18.0, 44.0, 58.0, false};
 constexpr std::array<std::string_view, 7> colours = {"#00507f", "#b34700", "#00694d", "#8a3d6d",
                                                      "#1f1f1f", "#7a6200", "#2f7fb0"};
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
-}
-
 struct Rect {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
     [[nodiscard]] bool meets(const Rect& other) const {
@@ -65,51 +42,9 @@ struct Rect {
     }
 };
 
-/// One mark as an SVG element.
-std::string mark_at(const glm::dvec2& at, PlotMark mark, std::string_view colour, double opacity) {
-    const double r = mark_px;
-    const std::string fill = opacity < 1.0 ? fmt::format("fill=\"{}\" fill-opacity=\"{:g}\"", colour, opacity)
-                                           : fmt::format("fill=\"{}\"", colour);
-    switch (mark) {
-    case PlotMark::Disc:
-        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" {}/>\n", at.x, at.y, r, fill);
-    case PlotMark::Ring:
-        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"#ffffff\" stroke=\"{}\" "
-                           "stroke-width=\"1.5\"/>\n",
-                           at.x, at.y, r - 0.5, colour);
-    case PlotMark::Square:
-        return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" {}/>\n",
-                           at.x - 0.9 * r, at.y - 0.9 * r, 1.8 * r, 1.8 * r, fill);
-    case PlotMark::Diamond:
-        return fmt::format("<path d=\"M{:.1f} {:.1f}l{:g} {:g}l-{:g} {:g}l-{:g} -{:g}z\" {}/>\n", at.x,
-                           at.y - 1.4 * r, 1.4 * r, 1.4 * r, 1.4 * r, 1.4 * r, 1.4 * r, 1.4 * r, fill);
-    case PlotMark::Triangle:
-        return fmt::format("<path d=\"M{:.1f} {:.1f}l{:g} {:g}h-{:g}z\" {}/>\n", at.x, at.y - 1.2 * r,
-                           1.2 * r, 2.1 * r, 2.4 * r, fill);
-    case PlotMark::Cross:
-        return fmt::format("<path d=\"M{:.1f} {:.1f}l{:g} {:g}m0 -{:g}l-{:g} {:g}\" fill=\"none\" "
-                           "stroke=\"{}\" stroke-width=\"2.5\"/>\n",
-                           at.x - r, at.y - r, 2.0 * r, 2.0 * r, 2.0 * r, 2.0 * r, 2.0 * r, colour);
-    case PlotMark::None:
-        break;
-    }
-    return {};
-}
-
-std::string line_style(const PlotLook& look, std::string_view colour) {
-    return fmt::format("stroke=\"{}\" stroke-width=\"{:g}\"{}", colour, look.line_px,
-                       look.dashed ? " stroke-dasharray=\"5 4\"" : "");
-}
-
 std::string_view colour_of(const std::vector<PlotSeries>& series, std::size_t k) {
     const int own = series[k].look.colour;
     return colours[(own >= 0 ? static_cast<std::size_t>(own) : k) % colours.size()];
-}
-
-std::string text_at(double x, double y, std::string_view anchor, std::string_view words,
-                    std::string_view more = "") {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                       escaped(words));
 }
 
 /// Mark, a piece of line and the name, from (x, y) to the right.
@@ -153,6 +88,10 @@ public:
     std::string svg() {
         frame();
         limits();
+        if (!plot_.corner.empty()) {
+            out_ += text_at(area_.x + 8.0, area_.y + area_.height - 9.0, "start", plot_.corner,
+                            " fill=\"#808080\" font-style=\"italic\"");
+        }
         if (frame_.legend) {
             legend();
         }
@@ -217,23 +156,30 @@ private:
         }
     }
 
+    /// Where the limits' labels leave room for all of it, else around them.
     void legend() {
         const double x = area_.x + area_.width + 14.0;
-        double y = area_.y + 8.0;
+        const auto free_from = [&](double top, double height) {
+            const Rect box{x, top, frame_.right, height};
+            return std::none_of(taken_.begin(), taken_.end(), [&box](const Rect& r) { return r.meets(box); });
+        };
+        const double row = 1.6 * letter;
+        const double all = row * static_cast<double>(std::count_if(
+                                     plot_.series.begin(), plot_.series.end(),
+                                     [](const PlotSeries& series) { return series.look.in_legend; }));
+        double y = area_.y;
+        while (y + all < area_.y + area_.height && !free_from(y, all)) {
+            y += letter / 2.0;
+        }
+        y = free_from(y, all) ? y : area_.y;
         for (std::size_t k = 0; k < plot_.series.size(); ++k) {
-            if (!plot_.series[k].look.in_legend) {
-                continue;
+            if (plot_.series[k].look.in_legend) {
+                while (!free_from(y, row)) {
+                    y += letter / 2.0;
+                }
+                out_ += legend_entry(plot_.series, k, x, y + row / 2.0);
+                y += row;
             }
-            const auto hidden = [this, x, &y] {
-                const Rect box{x, y - letter / 2.0, frame_.right, letter};
-                return std::any_of(taken_.begin(), taken_.end(),
-                                   [&box](const Rect& r) { return r.meets(box); });
-            };
-            while (hidden()) {
-                y += letter / 2.0;
-            }
-            out_ += legend_entry(plot_.series, k, x, y);
-            y += 1.6 * letter;
         }
     }
 

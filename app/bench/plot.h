@@ -54,6 +54,7 @@ struct Plot {
     bool log_y = true;
     std::vector<PlotSeries> series;
     std::vector<PlotLimit> limits;
+    std::string corner{}; ///< words in the lower left corner
     double y_least = 0.0; ///< above 0: where the axis begins; what lies below is drawn there
 };
 

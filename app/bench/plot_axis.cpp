@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace frustumscreen {
 
@@ -53,13 +55,12 @@ std::vector<double> Axis::ticks() const {
     std::vector<double> values;
     const double span = high_ - low_;
     if (logarithmic_) {
-        const bool fine = span < 2.6;
+        constexpr std::array digits = {1.0, 2.0, 5.0, 1.5, 3.0, 4.0, 6.0, 8.0};
+        const std::size_t count = span < 0.9 ? digits.size() : span < 2.6 ? 3 : 1;
         for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::ceil(high_));
              ++decade) {
-            for (const double digit : {1.0, 2.0, 5.0}) {
-                if (digit == 1.0 || fine) {
-                    values.push_back(digit * std::pow(10.0, decade));
-                }
+            for (const double digit : std::span(digits).first(count)) {
+                values.push_back(digit * std::pow(10.0, decade));
             }
         }
     } else {

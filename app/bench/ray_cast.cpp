@@ -126,8 +126,7 @@ public:
     [[nodiscard]] std::string name() const override { return "ray cast"; }
     void draw(const BenchPose& pose) override {
         set_up(pose);
-        cast([this](int x, int y, const glm::dvec3& direction, const RTCRayHit8& hits, int lane) {
-            (void)direction;
+        cast([this](int x, int y, const glm::dvec3&, const RTCRayHit8& hits, int lane) {
             colours_.at(x, y) = codes_.of(surface_colour(mesh_->mesh(), hits.hit.primID[lane],
                                                          static_cast<double>(hits.hit.u[lane]),
                                                          static_cast<double>(hits.hit.v[lane]))

@@ -11,33 +11,37 @@ namespace {
 constexpr double least_share = 0.02; ///< of a step, before which it says nothing about itself
 }
 
-TimeLeft::TimeLeft(std::vector<WorkStep> steps) {
+TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
     for (WorkStep& step : steps) {
-        steps_.push_back({std::move(step), {}, {}});
+        steps_.push_back({std::move(step), {}});
     }
 }
 
 std::optional<double> TimeLeft::at(const std::string& name, double done, double now_s) {
-    auto current = std::find_if(steps_.begin(), steps_.end(),
-                                [&name](const Known& known) { return known.step.name == name; });
-    if (current == steps_.end()) {
-        steps_.push_back({{name, name, 1.0}, {}, {}});
-        current = steps_.end() - 1;
+    const auto found = std::find_if(steps_.begin(), steps_.end(),
+                                    [&name](const Known& known) { return known.step.name == name; });
+    const auto index = static_cast<std::size_t>(found - steps_.begin());
+    if (found == steps_.end()) {
+        steps_.push_back({{name, name, 1.0}, {}});
     }
-    if (!current->begun_s) {
-        current->begun_s = now_s;
+    Known& step = steps_[index];
+    if (current_ != index) {
+        current_ = index;
+        begun_s_ = now_s;
+        step.takes_s.reset();
     }
-    const double passed_s = now_s - *current->begun_s;
+    const double passed_s = now_s - begun_s_;
     if (done >= least_share) {
-        current->takes_s = passed_s / std::min(done, 1.0);
+        step.takes_s = passed_s / std::min(done, 1.0);
     }
-    const std::optional<double> takes_s = current->takes_s ? current->takes_s : expected_s(current->step);
+    const bool planned = index < planned_;
+    const std::optional<double> takes_s = step.takes_s || !planned ? step.takes_s : expected_s(step.step);
     if (!takes_s) {
         return std::nullopt;
     }
     double left_s = std::fmax(0.0, *takes_s - passed_s);
-    for (auto later = current + 1; later != steps_.end(); ++later) {
-        left_s += expected_s(later->step).value_or(0.0);
+    for (std::size_t later = index + 1; later < planned_; ++later) {
+        left_s += expected_s(steps_[later].step).value_or(0.0);
     }
     return left_s;
 }

@@ -6,6 +6,7 @@
 /// Threads  values; any. Reads no clock.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,20 +24,22 @@ public:
     TimeLeft() = default;
     explicit TimeLeft(std::vector<WorkStep> steps);
 
-    /// Step `name` is done by this share (0..1). One that was not planned is appended, so that without a plan
-    /// the time left is that of the step alone. Steps before it count as done. Nothing while nothing is
-    /// known.
+    /// Step `name` is done by this share (0..1); it begins when it is named after another one. Steps before
+    /// it count as done. The time left of a step that was not planned is its own alone. Nothing while nothing
+    /// is known.
     [[nodiscard]] std::optional<double> at(const std::string& name, double done, double now_s);
 
 private:
     struct Known {
         WorkStep step;
-        std::optional<double> begun_s;
         std::optional<double> takes_s;
     };
     [[nodiscard]] std::optional<double> expected_s(const WorkStep& step) const;
 
-    std::vector<Known> steps_;
+    std::vector<Known> steps_; ///< the planned ones first
+    std::size_t planned_ = 0;
+    std::optional<std::size_t> current_;
+    double begun_s_ = 0.0; ///< the current one
 };
 
 /// As a person says it: '40 s', '4 min', '2 h 5 min'.
