@@ -29,8 +29,7 @@ constexpr std::array families = {
     Family{TechniqueKind::TwoPass, "two-pass, full mesh", {1, PlotMark::Square}},
     Family{TechniqueKind::TwoPassLod, "two-pass, LODs", {3, PlotMark::Square}},
     Family{TechniqueKind::FullMesh, "one pass, full mesh", {5, PlotMark::Diamond}},
-    Family{TechniqueKind::SampledLod, "one pass, LODs, sampled", {2, PlotMark::Triangle}},
-    Family{TechniqueKind::Lod, "one pass, LODs, 1 sample", {2, PlotMark::Triangle, 1.0, true}},
+    Family{TechniqueKind::Lod, "one pass, LODs", {2, PlotMark::Triangle}},
     Family{TechniqueKind::RayCast, "ray cast (reference)", {4, PlotMark::Cross}},
 };
 
@@ -48,12 +47,11 @@ constexpr std::array measures = {
     Measure{"Geometric error", "mean distance, mm", [](const PictureError& e) { return e.geometric_mean_mm; },
             0.001, &Limits::geometric_mean_mm},
     Measure{"Colour error", "RMSE against 16 rays, 8-bit codes",
-            [](const PictureError& e) { return e.sixteen_rays.rmse; }, 1.0, &Limits::colour_rmse},
+            [](const PictureError& e) { return e.sixteen_rays.rmse; }, 0.0, &Limits::colour_rmse},
 };
 
 std::string label_of(const TechniqueResult& technique) {
-    const bool lod = technique.kind == TechniqueKind::Lod || technique.kind == TechniqueKind::SampledLod ||
-                     technique.kind == TechniqueKind::TwoPassLod;
+    const bool lod = technique.kind == TechniqueKind::Lod || technique.kind == TechniqueKind::TwoPassLod;
     return lod ? fmt::format("{:.0f}k", static_cast<double>(technique.triangles) / 1000.0) : technique.name;
 }
 

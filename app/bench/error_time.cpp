@@ -35,7 +35,7 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
 }
 
 Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth,
-                       const glm::dmat4& prop_from_artifact, const PeerChoice& choice, int samples) {
+                       const glm::dmat4& prop_from_artifact, const PeerChoice& choice) {
     Result<void> added;
     if (choice.mesh || choice.two_pass) {
         added = set.add_peers(mesh, prop_from_artifact, choice.mesh,
@@ -45,7 +45,7 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
         added = set.add_ray_cast(truth);
     }
     if (added && (choice.lod || choice.two_pass_lod)) {
-        added = set.add_levels_of_detail(mesh, prop_from_artifact, choice, samples);
+        added = set.add_levels_of_detail(mesh, prop_from_artifact, choice);
     }
     return added;
 }
@@ -74,8 +74,7 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         ready = set.add_level(pack, level, options.picture);
     }
     if (ready) {
-        ready = add_peers(set, *mesh, *truth, prop_from_artifact, options.peers,
-                          options.picture.samples > 0 ? options.picture.samples : pack.samples);
+        ready = add_peers(set, *mesh, *truth, prop_from_artifact, options.peers);
     }
     progress(set_up.name + ": meshes", 1.0);
     progress(set_up.name + ": errors", 0.0);
@@ -112,8 +111,7 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const auto details = static_cast<double>(peers.lod_triangles.size());
     const double full = (peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0);
     const double small = static_cast<double>(pack.levels.size()) + (peers.ray_cast ? 1.0 : 0.0) +
-                         (peers.lod ? 2.0 * details : 0.0) +
-                         (peers.two_pass_lod ? details * eye_images : 0.0);
+                         (peers.lod ? details : 0.0) + (peers.two_pass_lod ? details * eye_images : 0.0);
     const auto triangles = static_cast<double>(mesh.triangles.size());
     const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
     return {

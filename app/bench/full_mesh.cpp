@@ -1,11 +1,7 @@
-#include "app/bench/peer_samples.h"
 #include "app/bench/peers.h"
 #include "app/render/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
-
-#include <algorithm>
-#include <optional>
 
 namespace frustumscreen {
 
@@ -22,31 +18,22 @@ void main() { result = vec4(0.0); })";
 class FullMesh final : public Technique {
 public:
     FullMesh(const Stage& stage, const PeerMesh& mesh, std::string name, GlProgram mark,
-             OffscreenTarget points, std::optional<PeerSamples> samples)
+             OffscreenTarget points)
         : stage_(stage), mesh_(mesh), name_(std::move(name)), mark_(std::move(mark)),
-          points_(std::move(points)), samples_(std::move(samples)) {}
+          points_(std::move(points)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
-        const PeerView view = peer_view(stage_, pose);
-        begin(stage_.framebuffer);
-        if (samples_) {
-            const PixelRect part = pixels_of_artifact(view);
-            samples_->begin(part);
-            draw_faces(view, PeerMesh::Output::Colour);
-            samples_->average(part, stage_.framebuffer);
-        } else {
-            draw_faces(view, PeerMesh::Output::Colour);
-        }
+        draw_into(stage_.framebuffer, pose, PeerMesh::Output::Colour);
     }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
-        begin(points_.framebuffer.get());
-        draw_faces(peer_view(stage_, pose), PeerMesh::Output::Point);
+        draw_into(points_.framebuffer.get(), pose, PeerMesh::Output::Point);
         return read_points(points_);
     }
 
 private:
-    void begin(GLuint framebuffer) const {
+    void draw_into(GLuint framebuffer, const BenchPose& pose, PeerMesh::Output output) {
+        const PeerView view = peer_view(stage_, pose);
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         glViewport(0, 0, stage_.width(), stage_.height());
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -57,26 +44,6 @@ private:
         glDisable(GL_BLEND);
         glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    }
-
-    [[nodiscard]] std::optional<glm::dmat4> clip_on(const PropFace& face, const PeerView& view) const {
-        return collineation(face.plane, view.eye_m, view.clip_from_prop, mesh_.box());
-    }
-
-    [[nodiscard]] PixelRect pixels_of_artifact(const PeerView& view) const {
-        PixelRect all{stage_.width(), stage_.height(), 0, 0};
-        for (const PropFace* face : view.faces) {
-            const PixelRect part =
-                pixels_of_box(mesh_.box(), clip_on(*face, view), stage_.width(), stage_.height());
-            if (part.left < part.right) {
-                all = {std::min(all.left, part.left), std::min(all.top, part.top),
-                       std::max(all.right, part.right), std::max(all.bottom, part.bottom)};
-            }
-        }
-        return all;
-    }
-
-    void draw_faces(const PeerView& view, PeerMesh::Output output) {
         mark_faces(view);
         visible_.find(mesh_.triangles(), view);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -84,7 +51,9 @@ private:
         glDepthFunc(GL_LESS);
         glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
         for (std::size_t k = 0; k < view.faces.size(); ++k) {
-            if (const std::optional<glm::dmat4> clip = clip_on(*view.faces[k], view)) {
+            const std::optional<glm::dmat4> clip =
+                collineation(view.faces[k]->plane, view.eye_m, view.clip_from_prop, mesh_.box());
+            if (clip) {
                 glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
                 mesh_.draw(*clip, output, GL_CW, visible_, k);
             }
@@ -114,15 +83,14 @@ private:
     std::string name_;
     GlProgram mark_;
     OffscreenTarget points_;
-    std::optional<PeerSamples> samples_; ///< none: one a pixel
     FaceQuads quads_;
     VisibleParts visible_;
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh, std::string name,
-                                                  int samples) {
+Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
+                                                  std::string name) {
     Result<GlProgram> mark = make_program("", mark_vertex, mark_fragment);
     if (!mark) {
         return tl::unexpected<Error>(mark.error());
@@ -131,16 +99,7 @@ Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const Peer
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    std::optional<PeerSamples> more;
-    if (samples > 1) {
-        Result<PeerSamples> made = PeerSamples::create(stage.width(), stage.height(), samples);
-        if (!made) {
-            return tl::unexpected<Error>(made.error());
-        }
-        more = std::move(*made);
-    }
-    return std::make_unique<FullMesh>(stage, mesh, std::move(name), std::move(*mark), std::move(*points),
-                                      std::move(more));
+    return std::make_unique<FullMesh>(stage, mesh, std::move(name), std::move(*mark), std::move(*points));
 }
 
 } // namespace frustumscreen

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -58,31 +56,6 @@ PeerView peer_view(const Stage& stage, const BenchPose& pose) {
         }
     }
     return result;
-}
-
-PixelRect pixels_of_box(const Box& box, const std::optional<glm::dmat4>& clip, int width, int height) {
-    const PixelRect all{0, 0, width, height};
-    if (!clip) {
-        return {};
-    }
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    for (unsigned k = 0; k < 8; ++k) {
-        const glm::dvec4 at =
-            *clip * glm::dvec4((k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
-                               (k & 4U) != 0 ? box.high.z : box.low.z, 1.0);
-        if (!(at.w > 0.0)) {
-            return all;
-        }
-        const glm::dvec2 pixel = (0.5 * glm::dvec2(at) / at.w + 0.5) * glm::dvec2(width, height);
-        low = glm::min(low, pixel);
-        high = glm::max(high, pixel);
-    }
-    const auto clamped = [](double value, int size) {
-        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
-    };
-    return {clamped(std::floor(low.x) - 1.0, width), clamped(std::floor(low.y) - 1.0, height),
-            clamped(std::ceil(high.x) + 1.0, width), clamped(std::ceil(high.y) + 1.0, height)};
 }
 
 FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {

@@ -5,12 +5,10 @@
 #pragma once
 
 #include "app/bench/technique.h"
-#include "app/geometry/collineation.h"
 #include "app/render/gl_handle.h"
 
 #include <glm/glm.hpp>
 
-#include <optional>
 #include <vector>
 
 namespace frustumscreen {
@@ -34,14 +32,6 @@ struct PeerView {
     std::vector<const PropFace*> faces; ///< turned to the eye and lit
 };
 [[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
-
-struct PixelRect {
-    int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
-};
-/// The pixels that a box may light, with one to spare; all of them if a part of it is behind the eye, none
-/// without a clip matrix.
-[[nodiscard]] PixelRect pixels_of_box(const Box& box, const std::optional<glm::dmat4>& clip, int width,
-                                      int height);
 
 /// Four corners of each visible face in one buffer, drawn as fans.
 class FaceQuads {

@@ -15,9 +15,8 @@
 
 namespace frustumscreen {
 
-/// `samples`: a pixel; 1, 2, 4, 8 or 16.
-[[nodiscard]] Result<std::unique_ptr<Technique>>
-make_full_mesh(const Stage& stage, const PeerMesh& mesh, std::string name = "full mesh", int samples = 1);
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
+                                                                std::string name = "full mesh");
 /// `eye_pixels`: side of the eye's picture. `of_mesh` follows its number in the name.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh,
                                                                int eye_pixels, std::string of_mesh = "");

@@ -40,6 +40,10 @@ struct Span {
     int begin = 0, end = 0;
 };
 
+struct PixelRect {
+    int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
+};
+
 /// What is linear in a pixel's centre (u, v, 1).
 using PixelLinear = glm::dvec3;
 
@@ -68,6 +72,32 @@ FaceRays rays_of(const PropFace& face, const TruthView& view) {
     rays.direction =
         face.plane.distance(projector) * light - glm::outerProduct(projector - view.eye_m, along);
     return rays;
+}
+
+/// The pixels that the box may light through this face; all if a part of it is behind the eye.
+PixelRect pixels_of(const Box& box, const std::optional<glm::dmat4>& clip, int width, int height) {
+    const PixelRect all{0, 0, width, height};
+    if (!clip) {
+        return {};
+    }
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec4 at =
+            *clip * glm::dvec4((k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
+                               (k & 4U) != 0 ? box.high.z : box.low.z, 1.0);
+        if (!(at.w > 0.0)) {
+            return all;
+        }
+        const glm::dvec2 pixel = (0.5 * glm::dvec2(at) / at.w + 0.5) * glm::dvec2(width, height);
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    const auto clamped = [](double value, int size) {
+        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+    };
+    return {clamped(std::floor(low.x) - 1.0, width), clamped(std::floor(low.y) - 1.0, height),
+            clamped(std::ceil(high.x) + 1.0, width), clamped(std::ceil(high.y) + 1.0, height)};
 }
 
 /// The part of row `y` whose pixels' centres lie in the face.
@@ -123,7 +153,7 @@ private:
         lit_ = {stage_.width(), stage_.height(), 0, 0};
         for (const PropFace* face : faces.faces) {
             FaceRays rays = rays_of(*face, view_);
-            rays.pixels = pixels_of_box(
+            rays.pixels = pixels_of(
                 mesh_->box(), collineation(face->plane, view_.eye_m, faces.clip_from_prop, mesh_->box()),
                 stage_.width(), stage_.height());
             for (int y = rays.pixels.top; y < rays.pixels.bottom; ++y) {

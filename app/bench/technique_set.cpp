@@ -16,14 +16,13 @@ namespace frustumscreen {
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 8> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 7> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
     {TechniqueKind::FullMesh, "full mesh"},
     {TechniqueKind::TwoPass, "two-pass"},
     {TechniqueKind::RayCast, "ray cast"},
     {TechniqueKind::Lod, "LOD"},
-    {TechniqueKind::SampledLod, "sampled LOD"},
     {TechniqueKind::TwoPassLod, "two-pass LOD"},
 }};
 
@@ -125,7 +124,7 @@ Result<void> TechniqueSet::add_ray_cast(const Truth& truth) {
 }
 
 Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
-                                                const PeerChoice& choice, int samples) {
+                                                const PeerChoice& choice) {
     Result<void> added;
     for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
         const std::string name = fmt::format("LOD {}k", level.target / 1000);
@@ -136,10 +135,6 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
         }
         if (choice.lod) {
             added = add(make_full_mesh(stage_, **peer, name), described(TechniqueKind::Lod, -1, triangles));
-        }
-        if (added && choice.lod && samples > 1) {
-            added = add(make_full_mesh(stage_, **peer, fmt::format("{} x{} samples", name, samples), samples),
-                        described(TechniqueKind::SampledLod, -1, triangles));
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
             added = add(make_two_pass(stage_, **peer, choice.eye_pixels[k], name),

@@ -31,7 +31,6 @@ enum class TechniqueKind {
     TwoPass,
     RayCast, ///< the reference: reported, not judged
     Lod,
-    SampledLod, ///< with as many samples a pixel as the pack asks for
     TwoPassLod,
 };
 /// As tables and files say it.
@@ -64,11 +63,10 @@ public:
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels);
     [[nodiscard]] Result<void> add_ray_cast(const Truth& truth);
-    /// The source simplified; through the collineation, with one sample a pixel and with `samples`, and by
-    /// two passes, as the choice says.
+    /// The source simplified; through the collineation and by two passes, as the choice says.
     [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
                                                     const glm::dmat4& prop_from_artifact,
-                                                    const PeerChoice& choice, int samples);
+                                                    const PeerChoice& choice);
 
     /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
