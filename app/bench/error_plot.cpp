@@ -47,7 +47,7 @@ constexpr std::array measures = {
     Measure{"Geometric error", "mean distance, mm", [](const PictureError& e) { return e.geometric_mean_mm; },
             0.001, &Limits::geometric_mean_mm},
     Measure{"Colour error", "RMSE against 16 rays, 8-bit codes",
-            [](const PictureError& e) { return e.sixteen_rays.rmse; }, 0.0, &Limits::colour_rmse},
+            [](const PictureError& e) { return e.sixteen_rays.rmse; }, 1.0, &Limits::colour_rmse},
 };
 
 std::string label_of(const TechniqueResult& technique) {

@@ -18,7 +18,8 @@ class CodeTable {
 public:
     CodeTable() {
         for (std::size_t k = 0; k < codes_.size(); ++k) {
-            codes_[k] = srgb8_from_linear(static_cast<double>(k) / static_cast<double>(codes_.size() - 1));
+            codes_[k] =
+                srgb8_from_linear((static_cast<double>(k) + 0.5) / static_cast<double>(codes_.size()));
         }
     }
     [[nodiscard]] glm::u8vec4 of(const glm::vec3& linear) const {
@@ -27,8 +28,8 @@ public:
 
 private:
     [[nodiscard]] std::uint8_t of(float linear) const {
-        const float place = std::clamp(linear, 0.0F, 1.0F) * static_cast<float>(codes_.size() - 1);
-        return codes_[static_cast<std::size_t>(place + 0.5F)];
+        const float place = std::clamp(linear, 0.0F, 1.0F) * static_cast<float>(codes_.size());
+        return codes_[std::min(static_cast<std::size_t>(place), codes_.size() - 1)];
     }
     std::array<std::uint8_t, 16384> codes_{};
 };
