@@ -38,7 +38,7 @@ struct Measure {
     const char* name;
     const char* unit;
     double (*of)(const PictureError&);
-    double least; ///< where the axis begins: no visitor sees less
+    double least; ///< the axis goes no lower: no visitor sees less
     double Limits::*limit;
 };
 constexpr std::array measures = {

@@ -68,7 +68,7 @@ public:
                                             frame.height - frame.above - frame.below},
           x_(plot.log_x), y_(plot.log_y) {
         if (plot.y_least > 0.0) {
-            y_.begin_at(plot.y_least);
+            y_.no_lower_than(plot.y_least);
         }
         for (const PlotSeries& series : plot.series) {
             for (const PlotPoint& point : series.points) {

@@ -55,7 +55,7 @@ struct Plot {
     std::vector<PlotSeries> series;
     std::vector<PlotLimit> limits;
     std::string corner{}; ///< words in the lower left corner
-    double y_least = 0.0; ///< above 0: where the axis begins; what lies below is drawn there
+    double y_least = 0.0; ///< above 0: the axis goes no lower; what lies below is drawn there
 };
 
 /// The plots one below the other as one SVG file, each with its legend.

@@ -10,27 +10,20 @@
 namespace frustumscreen {
 
 bool Axis::shows(double value) const {
-    return std::isfinite(value) && (!logarithmic_ || value > 0.0 || fixed_low_);
+    return std::isfinite(value) && (!logarithmic_ || value > 0.0 || least_);
 }
 
 double Axis::scaled(double value) const {
-    if (!logarithmic_) {
-        return value;
-    }
-    return value > 0.0 ? std::log10(value) : low_;
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    const double own = !logarithmic_ ? value : value > 0.0 ? std::log10(value) : none;
+    return std::fmax(own, least_.value_or(none));
 }
 
 void Axis::include(double value) {
     if (shows(value)) {
-        low_ = fixed_low_ ? low_ : std::min(low_, scaled(value));
+        low_ = std::min(low_, scaled(value));
         high_ = std::max(high_, scaled(value));
     }
-}
-
-void Axis::begin_at(double least) {
-    low_ = scaled(least);
-    high_ = low_;
-    fixed_low_ = true;
 }
 
 void Axis::settle() {
@@ -38,17 +31,17 @@ void Axis::settle() {
         low_ = 0.0;
         high_ = 1.0;
     }
-    if (!logarithmic_ && !fixed_low_) {
+    if (!logarithmic_) {
         low_ = std::min(low_, 0.0);
     }
     const double room = std::max(0.06 * (high_ - low_), high_ == low_ ? 0.3 : 0.0);
-    low_ -= !fixed_low_ && (logarithmic_ || low_ < 0.0) ? room : 0.0;
+    low_ -= logarithmic_ || low_ < 0.0 ? room : 0.0;
+    low_ = std::fmax(low_, least_.value_or(low_));
     high_ += room;
 }
 
 double Axis::place(double value) const {
-    const double at = (scaled(value) - low_) / (high_ - low_);
-    return fixed_low_ ? std::fmax(at, 0.0) : at;
+    return (scaled(value) - low_) / (high_ - low_);
 }
 
 std::vector<double> Axis::ticks() const {
@@ -72,7 +65,8 @@ std::vector<double> Axis::ticks() const {
         }
     }
     std::erase_if(values, [this](double value) {
-        const double at = (scaled(value) - low_) / (high_ - low_);
+        const double own = logarithmic_ ? std::log10(value) : value;
+        const double at = (own - low_) / (high_ - low_);
         return at < -1e-9 || at > 1.0 + 1e-9;
     });
     return values;
@@ -86,7 +80,7 @@ std::string Axis::number(double value) const {
     if (size >= 1e4) {
         return fmt::format("{:g}k", value / 1e3);
     }
-    const bool least = fixed_low_ && place(value) < 1e-9;
+    const bool least = least_ && scaled(value) <= *least_ + 1e-9;
     return fmt::format("{}{:g}", least ? "≤ " : "", !logarithmic_ && size < 1e-12 ? 0.0 : value);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ public:
     /// Finite, and positive on a logarithmic axis.
     [[nodiscard]] bool shows(double value) const;
     void include(double value);
-    /// Values below `least` lie at the axis's lower end, `least` itself. Before `settle`.
-    void begin_at(double least);
-    /// After the last `include`: some room at the ends that are not fixed.
+    /// The axis goes no lower than `least` (positive on a logarithmic one): what lies below is shown there.
+    /// Before the first `include`.
+    void no_lower_than(double least) { least_ = scaled(least); }
+    /// After the last `include`: some room at the ends.
     void settle();
     /// 0..1.
     [[nodiscard]] double place(double value) const;
@@ -31,7 +33,7 @@ private:
     [[nodiscard]] double scaled(double value) const;
 
     bool logarithmic_;
-    bool fixed_low_ = false;
+    std::optional<double> least_; ///< scaled
     double low_ = std::numeric_limits<double>::infinity();
     double high_ = -std::numeric_limits<double>::infinity();
 };
