@@ -66,6 +66,7 @@ void add_family(const SetUpResult& result, const Family& family, const Measure& 
         return glm::dvec2(one.times_floor, measure.of(one.error.mean));
     };
     std::vector<glm::dvec2> places;
+    places.reserve(members.size());
     for (const TechniqueResult* one : members) {
         places.push_back(place(*one));
     }
@@ -198,7 +199,8 @@ std::string overall_svg(std::span<const ArtifactResults> artifacts) {
     const std::array notes = {
         std::string(
             "Lines: the error that at least half of the artifacts reach at that cost. Faint marks: each "
-            "technique on each artifact, mean of all poses. Two-pass at its best eye image."),
+            "technique on each artifact, mean of all poses. Two-pass at its best eye image; peers take one "
+            "sample a pixel."),
         "Artifacts: " + titles + "."};
     return svg_sheet(
         fmt::format("Error against cost, {} artifact{}", artifacts.size(), artifacts.size() == 1 ? "" : "s"),

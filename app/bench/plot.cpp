@@ -231,7 +231,7 @@ private:
             if (!at || point.label.empty()) {
                 continue;
             }
-            const double width = static_cast<double>(point.label.size()) * letter_width;
+            const double width = static_cast<double>(point.label.size()) * letter_width + letter / 2.0;
             const std::optional<Rect> box = free_place(*at, width);
             if (!box) {
                 continue;
