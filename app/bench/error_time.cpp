@@ -11,6 +11,10 @@ namespace {
 /// Fewer frame times than this have no steady median on a busy machine.
 constexpr int least_samples = 60;
 
+int rounds_of(const ErrorTimeOptions& options) {
+    return std::max(options.timing_rounds, least_samples / options.poses);
+}
+
 /// The pack's level `level` where its geometric error is greatest.
 Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
                              std::uint32_t level) {
@@ -30,9 +34,26 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
     return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), *drawn);
 }
 
+Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth,
+                       const glm::dmat4& prop_from_artifact, const PeerChoice& choice) {
+    Result<void> added;
+    if (choice.mesh || choice.two_pass) {
+        added = set.add_peers(mesh, prop_from_artifact, choice.mesh,
+                              choice.two_pass ? choice.eye_pixels : std::vector<int>{});
+    }
+    if (added && choice.ray_cast) {
+        added = set.add_ray_cast(truth);
+    }
+    if (added && (choice.lod || choice.two_pass_lod)) {
+        added = set.add_levels_of_detail(mesh, prop_from_artifact, choice);
+    }
+    return added;
+}
+
 Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
                             const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
                             const StepProgress& progress) {
+    progress(set_up.name + ": meshes", 0.0);
     Result<std::unique_ptr<TechniqueSet>> opened = TechniqueSet::open(set_up);
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
@@ -52,9 +73,11 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     for (std::uint32_t level = 0; ready && level < pack.levels.size(); ++level) {
         ready = set.add_level(pack, level, options.picture);
     }
-    if (ready && options.peers) {
-        ready = set.add_peers(*mesh, prop_from_artifact, true, options.two_pass_pixels);
+    if (ready) {
+        ready = add_peers(set, *mesh, *truth, prop_from_artifact, options.peers);
     }
+    progress(set_up.name + ": meshes", 1.0);
+    progress(set_up.name + ": errors", 0.0);
     if (ready) {
         ready = set.measure_errors(*truth, *poses, 0,
                                    [&](double done) { progress(set_up.name + ": errors", done); });
@@ -62,8 +85,9 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     if (!ready) {
         return tl::unexpected<Error>(ready.error());
     }
-    const int rounds = std::max(options.timing_rounds, least_samples / options.poses);
-    set.measure_times(*poses, rounds, [&](double done) { progress(set_up.name + ": times", done); });
+    progress(set_up.name + ": times", 0.0);
+    set.measure_times(*poses, rounds_of(options),
+                      [&](double done) { progress(set_up.name + ": times", done); });
     const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
     SetUpResult result{set_up.name, set.driver(), pack.default_level, finest, {}, set.results(), {}};
     for (const auto& [name, level] :
@@ -79,6 +103,22 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
 }
 
 } // namespace
+
+std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
+                                 const ErrorTimeOptions& options) {
+    const PeerChoice& peers = options.peers;
+    const auto eye_images = static_cast<double>(peers.eye_pixels.size());
+    const auto details = static_cast<double>(peers.lod_triangles.size());
+    const double full = (peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0);
+    const double small = static_cast<double>(pack.levels.size()) + (peers.ray_cast ? 1.0 : 0.0) +
+                         (peers.lod ? details : 0.0) + (peers.two_pass_lod ? details * eye_images : 0.0);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
+    return {
+        {set_up.name + ": meshes", "meshes", 0.5 + 4e-6 * triangles},
+        {set_up.name + ": errors", "errors", options.poses * (0.3 + 0.04 * (small + full) + 2.0 * frames_s)},
+        {set_up.name + ": times", "times", options.poses * rounds_of(options) * frames_s}};
+}
 
 Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
                                const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/bench/technique_set.h"
+#include "app/bench/time_left.h"
 
 namespace frustumscreen {
 
@@ -25,12 +26,15 @@ struct ErrorTimeOptions {
     std::uint64_t seed = 1;
     int timing_rounds = 3; ///< at least; few poses are drawn more often
     PictureOptions picture;
-    bool peers = true; ///< full mesh and two-pass
-    std::vector<int> two_pass_pixels = {640, 1024, 1600};
+    PeerChoice peers;
 };
 
 /// What is being done, and the share of it that is done.
 using StepProgress = std::function<void(const std::string& step, double done)>;
+
+/// The steps that `error_time` tells of, with guesses of their seconds.
+[[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
+                                               const ErrorTimeOptions& options);
 
 [[nodiscard]] Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
                                              const std::shared_ptr<const SourceMesh>& mesh,

@@ -55,4 +55,16 @@ std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_p
     return verdicts;
 }
 
+Result<void> require_true(std::span<const Verdict> figures, const std::string& pack) {
+    const auto false_one =
+        std::find_if(figures.begin(), figures.end(), [](const Verdict& verdict) { return !verdict.held; });
+    if (false_one == figures.end()) {
+        return {};
+    }
+    return bad_input(
+        fmt::format("{}: its own error figures are false, so the exhibit would choose its levels "
+                    "wrongly; {}, {}; bake it again",
+                    pack, false_one->what, false_one->found));
+}
+
 } // namespace frustumscreen

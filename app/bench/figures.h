@@ -13,6 +13,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
 
 #include <vector>
 
@@ -28,5 +29,7 @@ inline constexpr double slack_box = 5e-5; ///< some micrometres on a prop
 inline constexpr double slack_share = 0.25;
 /// One for each level: mean and 95th percentile.
 [[nodiscard]] std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box);
+/// An error that names the first false figure.
+[[nodiscard]] Result<void> require_true(std::span<const Verdict> figures, const std::string& pack);
 
 } // namespace frustumscreen

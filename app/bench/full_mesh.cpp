@@ -17,10 +17,12 @@ void main() { result = vec4(0.0); })";
 
 class FullMesh final : public Technique {
 public:
-    FullMesh(const Stage& stage, const PeerMesh& mesh, GlProgram mark, OffscreenTarget points)
-        : stage_(stage), mesh_(mesh), mark_(std::move(mark)), points_(std::move(points)) {}
+    FullMesh(const Stage& stage, const PeerMesh& mesh, std::string name, GlProgram mark,
+             OffscreenTarget points)
+        : stage_(stage), mesh_(mesh), name_(std::move(name)), mark_(std::move(mark)),
+          points_(std::move(points)) {}
 
-    [[nodiscard]] std::string name() const override { return "full mesh"; }
+    [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
         draw_into(stage_.framebuffer, pose, PeerMesh::Output::Colour);
     }
@@ -43,6 +45,7 @@ private:
         glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
         mark_faces(view);
+        visible_.find(mesh_.triangles(), view);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
@@ -52,7 +55,7 @@ private:
                 collineation(view.faces[k]->plane, view.eye_m, view.clip_from_prop, mesh_.box());
             if (clip) {
                 glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
-                mesh_.draw(*clip, output, GL_CW);
+                mesh_.draw(*clip, output, GL_CW, visible_, k);
             }
         }
         glDisable(GL_STENCIL_TEST);
@@ -77,14 +80,17 @@ private:
 
     const Stage& stage_;
     const PeerMesh& mesh_;
+    std::string name_;
     GlProgram mark_;
     OffscreenTarget points_;
     FaceQuads quads_;
+    VisibleParts visible_;
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh) {
+Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
+                                                  std::string name) {
     Result<GlProgram> mark = make_program("", mark_vertex, mark_fragment);
     if (!mark) {
         return tl::unexpected<Error>(mark.error());
@@ -93,7 +99,7 @@ Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const Peer
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    return std::make_unique<FullMesh>(stage, mesh, std::move(*mark), std::move(*points));
+    return std::make_unique<FullMesh>(stage, mesh, std::move(name), std::move(*mark), std::move(*points));
 }
 
 } // namespace frustumscreen

@@ -83,9 +83,9 @@ Result<std::unique_ptr<PeerMesh>> PeerMesh::upload(const SourceMesh& mesh,
     }
     peer->array_ = GlVertexArray::generate();
     glBindVertexArray(peer->array_.get());
-    peer->upload_vertices(mesh, prop_from_artifact);
-    peer->upload_parts(mesh);
     peer->closed_ = is_closed(mesh);
+    const std::vector<glm::vec3> positions_m = peer->upload_vertices(mesh, prop_from_artifact);
+    peer->upload_parts(mesh, positions_m);
     glBindVertexArray(0);
     const Image8 white(1, 1, glm::u8vec4(255));
     peer->textures_.push_back(upload_texture(white, Wrap::Repeat, Wrap::Repeat));
@@ -115,7 +115,8 @@ Result<void> PeerMesh::make_programs() {
     return {};
 }
 
-void PeerMesh::upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
+std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
+                                                 const glm::dmat4& prop_from_artifact) {
     const auto attribute = [this](GLuint index, GLint components, std::span<const std::byte> bytes) {
         buffers_.push_back(make_buffer(GL_ARRAY_BUFFER, bytes));
         glEnableVertexAttribArray(index);
@@ -137,9 +138,10 @@ void PeerMesh::upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_fr
     if (!mesh.colours.empty()) {
         attribute(2, 4, std::as_bytes(std::span(mesh.colours)));
     }
+    return positions;
 }
 
-void PeerMesh::upload_parts(const SourceMesh& mesh) {
+void PeerMesh::upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m) {
     std::vector<std::size_t> next(mesh.materials.size() + 1, 0); // counting sort by material
     for (const std::uint32_t material : mesh.triangle_materials) {
         next[material + 1] += 3;
@@ -152,7 +154,8 @@ void PeerMesh::upload_parts(const SourceMesh& mesh) {
             const bool textured = material.texture >= 0 && !mesh.uvs.empty();
             parts_.push_back({material.base_colour,
                               textured ? static_cast<std::size_t>(material.texture) + 1 : 0,
-                              material.alpha_mask ? material.alpha_cutoff : -1.0F, next[k], count});
+                              material.alpha_mask ? material.alpha_cutoff : -1.0F,
+                              {static_cast<std::uint32_t>(next[k]), static_cast<std::uint32_t>(count)}});
         }
     }
     std::vector<std::uint32_t> indices(3 * mesh.triangles.size());
@@ -162,32 +165,64 @@ void PeerMesh::upload_parts(const SourceMesh& mesh) {
             indices[at++] = corner;
         }
     }
-    buffers_.push_back(make_buffer(GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(indices))));
+    std::vector<std::span<std::uint32_t>> parts;
+    for (const Part& part : parts_) {
+        parts.push_back(std::span(indices).subspan(part.all.first, part.all.count));
+    }
+    triangles_ = peer_triangles(positions_m, box_, parts, closed_);
+    indices_ = make_buffer(GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(indices)));
 }
 
-void PeerMesh::draw(const glm::dmat4& clip_from_prop, Output output, GLenum front) const {
+void PeerMesh::begin(GLenum front) const {
     glFrontFace(front);
     glCullFace(GL_BACK);
     (closed_ ? glEnable : glDisable)(GL_CULL_FACE);
-    const glm::mat4 clip(clip_from_prop);
     glBindVertexArray(array_.get());
     glVertexAttrib4f(2, 1.0F, 1.0F, 1.0F, 1.0F); // where there are no vertex colours
     glActiveTexture(GL_TEXTURE0);
-    for (const Part& part : parts_) {
-        const GLuint program = programs_[output == Output::Point ? 1 : 0][part.cutoff >= 0.0F ? 1 : 0].get();
-        glUseProgram(program);
-        glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_prop"), 1, GL_FALSE,
-                           glm::value_ptr(clip));
-        glUniform4fv(glGetUniformLocation(program, "base_colour"), 1, glm::value_ptr(part.base_colour));
-        glUniform1f(glGetUniformLocation(program, "cutoff"), part.cutoff);
-        glBindTexture(GL_TEXTURE_2D, textures_[part.texture].get());
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
-                       // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                       reinterpret_cast<const void*>(part.first_index * sizeof(std::uint32_t)));
-    }
+}
+
+namespace {
+void end_mesh() {
     glBindVertexArray(0);
     glDisable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
+}
+} // namespace
+
+void PeerMesh::draw(const glm::dmat4& clip_from_prop, Output output, GLenum front) const {
+    begin(front);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
+    for (const Part& part : parts_) {
+        draw_part(part, part.all, glm::mat4(clip_from_prop), output);
+    }
+    end_mesh();
+}
+
+void PeerMesh::draw(const glm::dmat4& clip_from_prop, Output output, GLenum front,
+                    const VisibleParts& visible, std::size_t face) const {
+    begin(front);
+    visible.bind();
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        draw_part(parts_[k], visible.range(face, k), glm::mat4(clip_from_prop), output);
+    }
+    end_mesh();
+}
+
+void PeerMesh::draw_part(const Part& part, const IndexRange& range, const glm::mat4& clip,
+                         Output output) const {
+    if (range.count == 0) {
+        return;
+    }
+    const GLuint program = programs_[output == Output::Point ? 1 : 0][part.cutoff >= 0.0F ? 1 : 0].get();
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_prop"), 1, GL_FALSE, glm::value_ptr(clip));
+    glUniform4fv(glGetUniformLocation(program, "base_colour"), 1, glm::value_ptr(part.base_colour));
+    glUniform1f(glGetUniformLocation(program, "cutoff"), part.cutoff);
+    glBindTexture(GL_TEXTURE_2D, textures_[part.texture].get());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                   // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                   reinterpret_cast<const void*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));
 }
 
 } // namespace frustumscreen

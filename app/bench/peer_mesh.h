@@ -5,6 +5,7 @@
 /// two-sided. Threads  the one whose context is current.
 #pragma once
 
+#include "app/bench/peer_culling.h"
 #include "app/bench/peer_gl.h"
 #include "app/geometry/collineation.h"
 #include "assets_baked/bake/source_mesh.h"
@@ -25,6 +26,10 @@ public:
     /// left out. `front`: GL_CCW, or GL_CW where the clip matrix mirrors (row 0 of the projector's picture is
     /// its top).
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front) const;
+    /// Only what was found to be visible on a face of the view.
+    void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front, const VisibleParts& visible,
+              std::size_t face) const;
+    [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }
     [[nodiscard]] const Box& box() const { return box_; }
 
 private:
@@ -32,14 +37,16 @@ private:
         glm::vec4 base_colour{1.0F};
         std::size_t texture = 0; ///< 0 is white
         float cutoff = -1.0F;    ///< below 0: not masked
-        std::size_t first_index = 0;
-        std::size_t index_count = 0;
+        IndexRange all;          ///< of the mesh's own indices
     };
 
     PeerMesh() = default;
     [[nodiscard]] Result<void> make_programs();
-    void upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
-    void upload_parts(const SourceMesh& mesh);
+    /// Positions as they were uploaded.
+    std::vector<glm::vec3> upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
+    void upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m);
+    void begin(GLenum front) const;
+    void draw_part(const Part& part, const IndexRange& range, const glm::mat4& clip, Output output) const;
 
     Box box_;
     bool closed_ = false;
@@ -47,6 +54,8 @@ private:
     std::vector<GlBuffer> buffers_;
     std::vector<GlTexture> textures_;
     std::vector<Part> parts_;
+    GlBuffer indices_;
+    PeerTriangles triangles_;
     std::array<std::array<GlProgram, 2>, 2> programs_; ///< [output][masked]
 };
 

@@ -1,8 +1,5 @@
 #include "app/bench/report.h"
 
-#include "app/bench/plot.h"
-#include "app/bench/verdicts.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +35,7 @@ nlohmann::json json_of(const PictureError& error) {
 
 nlohmann::json json_of(const TechniqueResult& technique) {
     nlohmann::json json = {{"name", technique.name},
+                           {"kind", name_of(technique.kind)},
                            {"triangles", technique.triangles},
                            {"median_ms", technique.time_ms.median},
                            {"p10_ms", technique.time_ms.p10},
@@ -56,41 +54,28 @@ nlohmann::json json_of(const TechniqueResult& technique) {
     return json;
 }
 
-Plot error_plot(const SetUpResult& result, const std::string& title, const std::string& y_label,
-                double (*figure)(const PictureError&), std::vector<PlotLimit> limits) {
-    Plot plot{title,
-              "median frame time / floor",
-              y_label,
-              true,
-              true,
-              {{"mean, levels", {}, true},
-               {"worst pose, levels", {}, true},
-               {"full mesh", {}, false},
-               {"two-pass, mean", {}, true}},
-              std::move(limits)};
-    for (const TechniqueResult& technique : result.techniques) {
-        const double mean = figure(technique.error.mean);
-        if (technique.kind == TechniqueKind::PackLevel) {
-            plot.series[0].points.push_back({{technique.times_floor, mean}, technique.name});
-            plot.series[1].points.push_back({{technique.times_floor, figure(technique.error.worst)}});
-        } else if (technique.kind == TechniqueKind::FullMesh) {
-            plot.series[2].points.push_back({{technique.times_floor, mean}, technique.name});
-        } else if (technique.kind == TechniqueKind::TwoPass) {
-            plot.series[3].points.push_back({{technique.times_floor, mean}, technique.name});
-        }
+nlohmann::json json_of(std::span<const Verdict> verdicts) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const Verdict& verdict : verdicts) {
+        json.push_back({{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
     }
-    const auto by_cost = [](const PlotPoint& a, const PlotPoint& b) { return a.at.x < b.at.x; };
-    for (PlotSeries& series : plot.series) {
-        std::stable_sort(series.points.begin(), series.points.end(), by_cost);
+    return json;
+}
+
+/// RFC 4180: a field that may hold commas.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        result += c == '"' ? "\"\"" : std::string(1, c);
     }
-    std::erase_if(plot.series, [](const PlotSeries& series) { return series.points.empty(); });
-    return plot;
+    return result + "\"";
 }
 
 } // namespace
 
 std::string summary_csv(std::span<const SetUpResult> results) {
-    std::string csv = "set_up,technique,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
+    std::string csv =
+        "set_up,technique,kind,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
     for (const char* which : {"mean", "worst"}) {
         for (const Figure& figure : figures) {
             csv += fmt::format(",{}_{}", which, figure.name);
@@ -99,10 +84,10 @@ std::string summary_csv(std::span<const SetUpResult> results) {
     csv += ",worst_pose\n";
     for (const SetUpResult& result : results) {
         for (const TechniqueResult& technique : result.techniques) {
-            csv += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
-                               technique.name, technique.triangles, technique.time_ms.median,
-                               technique.time_ms.p10, technique.time_ms.p90, technique.times_floor,
-                               technique.cpu_ms, technique.cpu_times_floor);
+            csv += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
+                               technique.name, name_of(technique.kind), technique.triangles,
+                               technique.time_ms.median, technique.time_ms.p10, technique.time_ms.p90,
+                               technique.times_floor, technique.cpu_ms, technique.cpu_times_floor);
             for (const PictureError* error : {&technique.error.mean, &technique.error.worst}) {
                 for (const Figure& figure : figures) {
                     csv += technique.errors.empty() ? std::string(",")
@@ -142,53 +127,48 @@ std::string poses_csv(std::span<const SetUpResult> results) {
     return csv;
 }
 
-std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title) {
-    nlohmann::json json = {{"pack", pack_title}, {"set_ups", nlohmann::json::array()}};
+std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
+                        std::span<const Verdict> pack_figures) {
+    nlohmann::json json = {
+        {"pack", pack_title}, {"pack_figures", json_of(pack_figures)}, {"set_ups", nlohmann::json::array()}};
     for (const SetUpResult& result : results) {
         nlohmann::json set_up = {{"name", result.name},
                                  {"driver", result.driver},
                                  {"poses", result.poses.size()},
                                  {"default_level", result.default_level},
                                  {"techniques", nlohmann::json::array()},
-                                 {"verdicts", nlohmann::json::array()}};
+                                 {"verdicts", json_of(judge(result))}};
         for (const TechniqueResult& technique : result.techniques) {
             set_up["techniques"].push_back(json_of(technique));
-        }
-        for (const Verdict& verdict : judge(result)) {
-            set_up["verdicts"].push_back(
-                {{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
         }
         json["set_ups"].push_back(std::move(set_up));
     }
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string error_time_svg(const SetUpResult& result, const std::string& pack_title) {
-    const std::string where = fmt::format("{}, {} set-up", pack_title, result.name);
-    const std::array plots = {error_plot(result, "Silhouette error: " + where, "% of the artifact's pixels",
-                                         [](const PictureError& e) { return e.silhouette_percent; },
-                                         {{default_level_limits.silhouette_percent, "default level's limit"},
-                                          {finest_level_limits.silhouette_percent, "finest level's limit"}}),
-                              error_plot(result, "Geometric error: " + where, "mean distance, mm",
-                                         [](const PictureError& e) { return e.geometric_mean_mm; },
-                                         {{default_level_limits.geometric_mean_mm, "default level's limit"},
-                                          {finest_level_limits.geometric_mean_mm, "finest level's limit"}}),
-                              error_plot(result, "Colour error: " + where,
-                                         "RMSE against 16 rays, 8-bit codes",
-                                         [](const PictureError& e) { return e.sixteen_rays.rmse; },
-                                         {{default_level_limits.colour_rmse, "default level's limit"},
-                                          {finest_level_limits.colour_rmse, "finest level's limit"}})};
-    return svg_of(plots);
+std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const Verdict> pack_figures) {
+    std::string csv = "set_up,what,found,verdict\n";
+    const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
+        for (const Verdict& verdict : verdicts) {
+            csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
+                               verdict.held ? "held" : "missed");
+        }
+    };
+    add("pack", pack_figures);
+    for (const SetUpResult& result : results) {
+        add(result.name, judge(result));
+    }
+    return csv;
 }
 
 std::string console_table(const SetUpResult& result) {
     std::string table =
-        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<20}{:>10}{:>9}{:>15}{:>9}{:>10}  "
+        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<23}{:>10}{:>9}{:>15}{:>9}{:>10}  "
                     "{:<17}{:<17}{:<18}{:<15}\n",
                     result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor",
                     "CPU x fl.", "silhouette %", "outline px", "geometric mm", "RMSE 16 rays");
     for (const TechniqueResult& technique : result.techniques) {
-        table += fmt::format("{:<20}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
+        table += fmt::format("{:<23}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
                              technique.triangles, technique.time_ms.median,
                              fmt::format("{:.1f}..{:.1f}", technique.time_ms.p10, technique.time_ms.p90),
                              technique.times_floor, technique.cpu_times_floor);

@@ -1,9 +1,9 @@
-/// What the bench found, as CSV, JSON, SVG and a table for the console.
+/// What the bench found, as CSV, JSON and a table for the console.
 ///
 /// Threads  pure; any.
 #pragma once
 
-#include "app/bench/error_time.h"
+#include "app/bench/verdicts.h"
 
 #include <span>
 #include <string>
@@ -14,9 +14,12 @@ namespace frustumscreen {
 [[nodiscard]] std::string summary_csv(std::span<const SetUpResult> results);
 /// One row for each technique in each pose.
 [[nodiscard]] std::string poses_csv(std::span<const SetUpResult> results);
-[[nodiscard]] std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title);
-/// Three plots: silhouette, geometric and colour error over cost.
-[[nodiscard]] std::string error_time_svg(const SetUpResult& result, const std::string& pack_title);
+/// `pack_figures`: the verdicts on the pack's own figures.
+[[nodiscard]] std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
+                                      std::span<const Verdict> pack_figures);
+/// Every verdict: of which set-up ('pack': on the pack's own figures), what, found, held or missed.
+[[nodiscard]] std::string verdicts_csv(std::span<const SetUpResult> results,
+                                       std::span<const Verdict> pack_figures);
 /// The table that a person reads, with the verdicts below it.
 [[nodiscard]] std::string console_table(const SetUpResult& result);
 

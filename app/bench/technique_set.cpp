@@ -1,16 +1,30 @@
 #include "app/bench/technique_set.h"
 
 #include "app/bench/floor_technique.h"
+#include "app/bench/level_of_detail.h"
+#include "app/bench/ray_cast.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
 namespace {
+
+/// Every kind.
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 7> kind_names = {{
+    {TechniqueKind::Floor, "floor"},
+    {TechniqueKind::PackLevel, "pack level"},
+    {TechniqueKind::FullMesh, "full mesh"},
+    {TechniqueKind::TwoPass, "two-pass"},
+    {TechniqueKind::RayCast, "ray cast"},
+    {TechniqueKind::Lod, "LOD"},
+    {TechniqueKind::TwoPassLod, "two-pass LOD"},
+}};
 
 TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
     TechniqueResult result;
@@ -26,6 +40,18 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
 }
 
 } // namespace
+
+std::string_view name_of(TechniqueKind kind) {
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [kind](const auto& one) { return one.first == kind; });
+    return named->second;
+}
+
+std::optional<TechniqueKind> kind_of(std::string_view name) {
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [name](const auto& one) { return one.second == name; });
+    return named != kind_names.end() ? std::optional(named->first) : std::nullopt;
+}
 
 Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
     const Pinhole& pinhole = set_up.settings.projector.pinhole;
@@ -65,30 +91,60 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));
 }
 
-Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
-                                     bool full_mesh, const std::vector<int>& two_pass_pixels) {
+Result<const PeerMesh*> TechniqueSet::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
     Result<std::unique_ptr<PeerMesh>> uploaded = PeerMesh::upload(mesh, prop_from_artifact);
     if (!uploaded) {
         return tl::unexpected<Error>(uploaded.error());
     }
     meshes_.push_back(std::move(*uploaded));
-    const PeerMesh& peer = *meshes_.back();
+    return meshes_.back().get();
+}
+
+Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                     bool full_mesh, const std::vector<int>& two_pass_pixels) {
+    const Result<const PeerMesh*> peer = upload(mesh, prop_from_artifact);
+    if (!peer) {
+        return tl::unexpected<Error>(peer.error());
+    }
     const std::uint64_t triangles = mesh.triangles.size();
+    Result<void> added;
     if (full_mesh) {
-        if (Result<void> added =
-                add(make_full_mesh(stage_, peer), described(TechniqueKind::FullMesh, -1, triangles));
-            !added) {
+        added = add(make_full_mesh(stage_, **peer), described(TechniqueKind::FullMesh, -1, triangles));
+    }
+    for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
+        added = add(make_two_pass(stage_, **peer, two_pass_pixels[k]),
+                    described(TechniqueKind::TwoPass, -1, triangles));
+    }
+    return added;
+}
+
+Result<void> TechniqueSet::add_ray_cast(const Truth& truth) {
+    return add(make_ray_cast(stage_, truth.traced()),
+               described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size()));
+}
+
+Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                                const PeerChoice& choice) {
+    Result<void> added;
+    for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
+        const std::string name = fmt::format("LOD {}k", level.target / 1000);
+        const std::uint64_t triangles = level.mesh.triangles.size();
+        const Result<const PeerMesh*> peer = upload(level.mesh, prop_from_artifact);
+        if (!peer) {
+            return tl::unexpected<Error>(peer.error());
+        }
+        if (choice.lod) {
+            added = add(make_full_mesh(stage_, **peer, name), described(TechniqueKind::Lod, -1, triangles));
+        }
+        for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
+            added = add(make_two_pass(stage_, **peer, choice.eye_pixels[k], name),
+                        described(TechniqueKind::TwoPassLod, -1, triangles));
+        }
+        if (!added) {
             return added;
         }
     }
-    for (const int pixels : two_pass_pixels) {
-        if (Result<void> added =
-                add(make_two_pass(stage_, peer, pixels), described(TechniqueKind::TwoPass, -1, triangles));
-            !added) {
-            return added;
-        }
-    }
-    return {};
+    return added;
 }
 
 Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {

@@ -6,6 +6,7 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/pack_level.h"
+#include "app/bench/peer_choice.h"
 #include "app/bench/peers.h"
 #include "app/bench/timing.h"
 #include "app/pack/pack_file.h"
@@ -23,7 +24,18 @@ struct SetUp {
     Settings settings;
 };
 
-enum class TechniqueKind { Floor, PackLevel, FullMesh, TwoPass };
+enum class TechniqueKind {
+    Floor,
+    PackLevel,
+    FullMesh,
+    TwoPass,
+    RayCast, ///< the reference: reported, not judged
+    Lod,
+    TwoPassLod,
+};
+/// As tables and files say it.
+[[nodiscard]] std::string_view name_of(TechniqueKind kind);
+[[nodiscard]] std::optional<TechniqueKind> kind_of(std::string_view name);
 
 struct TechniqueResult {
     std::string name;
@@ -50,6 +62,11 @@ public:
                                          const PictureOptions& options);
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels);
+    [[nodiscard]] Result<void> add_ray_cast(const Truth& truth);
+    /// The source simplified; through the collineation and by two passes, as the choice says.
+    [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
+                                                    const glm::dmat4& prop_from_artifact,
+                                                    const PeerChoice& choice);
 
     /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
@@ -68,6 +85,8 @@ public:
 private:
     TechniqueSet(std::unique_ptr<Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
+    [[nodiscard]] Result<const PeerMesh*> upload(const SourceMesh& mesh,
+                                                 const glm::dmat4& prop_from_artifact);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below

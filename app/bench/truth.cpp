@@ -1,9 +1,7 @@
 #include "app/bench/truth.h"
 
-#include "app/geometry/collineation.h"
+#include "app/bench/traced_mesh.h"
 #include "firmware_host/base/parallel.h"
-
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +12,6 @@
 namespace frustumscreen {
 
 namespace {
-
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct ReleaseGeometry {
-    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-using Geometry = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
 struct PixelArea {
     int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
@@ -80,129 +65,17 @@ glm::u8vec4 code_of(const glm::vec3& linear) {
 
 } // namespace
 
-struct Truth::Scene {
-    std::shared_ptr<const SourceMesh> mesh;
-    std::vector<glm::dvec3> positions; ///< prop frame
-    Box box;                           ///< of the triangles' corners, with a margin for float rounding
-    Device device;
-    EmbreeScene embree;
-
-    /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
-    [[nodiscard]] bool refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
-                              glm::dvec3& t_u_v) const {
-        const std::array<std::uint32_t, 3>& corners = mesh->triangles[triangle];
-        const glm::dvec3 along_u = positions[corners[1]] - positions[corners[0]];
-        const glm::dvec3 along_v = positions[corners[2]] - positions[corners[0]];
-        const glm::dvec3 normal = glm::cross(along_u, along_v);
-        const double slope = glm::dot(direction, normal);
-        if (std::abs(slope) < 1e-9 * glm::length(normal)) {
-            return false;
-        }
-        const glm::dvec3 from_corner = origin - positions[corners[0]];
-        const double t = -glm::dot(from_corner, normal) / slope;
-        const glm::dvec3 in_plane = from_corner + t * direction;
-        const double square = glm::dot(normal, normal);
-        const double u = glm::dot(glm::cross(in_plane, along_v), normal) / square;
-        const double v = glm::dot(glm::cross(along_u, in_plane), normal) / square;
-        // The triangle was found in float: its edges may be missed by a rounding.
-        const double clamped_u = std::clamp(u, 0.0, 1.0);
-        t_u_v = {t, clamped_u, std::clamp(v, 0.0, 1.0 - clamped_u)};
-        return true;
-    }
-
-    void add_triangles();
-    static void cut_masked(const RTCFilterFunctionNArguments* arguments);
-};
-
-/// Embree asks before it accepts a hit: cut where the material's alpha is below its cut-off.
-void Truth::Scene::cut_masked(const RTCFilterFunctionNArguments* arguments) {
-    const auto& mesh = *static_cast<const SourceMesh*>(arguments->geometryUserPtr);
-    for (unsigned lane = 0; lane < arguments->N; ++lane) {
-        if (arguments->valid[lane] == 0) {
-            continue;
-        }
-        const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, lane);
-        const SourceMaterial& material = mesh.materials[mesh.triangle_materials[triangle]];
-        const double u = RTCHitN_u(arguments->hit, arguments->N, lane);
-        const double v = RTCHitN_v(arguments->hit, arguments->N, lane);
-        if (material.alpha_mask && surface_colour(mesh, triangle, u, v).alpha < material.alpha_cutoff) {
-            arguments->valid[lane] = 0;
-        }
-    }
-}
-
-void Truth::Scene::add_triangles() {
-    const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), positions.size()));
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh->triangles.size()));
-    if (vertices == nullptr || indices == nullptr) {
-        return; // rtcGetDeviceError tells `build`
-    }
-    for (const glm::dvec3& position : positions) {
-        for (int axis = 0; axis < 3; ++axis) {
-            *vertices++ = static_cast<float>(position[axis]);
-        }
-    }
-    for (const std::array<std::uint32_t, 3>& triangle : mesh->triangles) {
-        indices = std::copy(triangle.begin(), triangle.end(), indices);
-    }
-    const bool masked = std::any_of(mesh->materials.begin(), mesh->materials.end(),
-                                    [](const SourceMaterial& material) { return material.alpha_mask; });
-    if (masked) {
-        rtcSetGeometryUserData(geometry.get(), const_cast<SourceMesh*>(mesh.get()));
-        rtcSetGeometryIntersectFilterFunction(geometry.get(), cut_masked);
-    }
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(embree.get(), geometry.get(), 0);
-    rtcSetSceneFlags(embree.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(embree.get());
-}
-
-Truth::Truth(std::unique_ptr<Scene> scene) : scene_(std::move(scene)) {}
-Truth::Truth(Truth&&) noexcept = default;
-Truth& Truth::operator=(Truth&&) noexcept = default;
-Truth::~Truth() = default;
-
 Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact) {
-    if (!mesh || mesh->triangles.empty()) {
-        return bad_input(
-            "the mesh has no triangles to cast rays at; give the file that the pack was baked from");
+    Result<std::shared_ptr<const TracedMesh>> traced = TracedMesh::build(std::move(mesh), prop_from_artifact);
+    if (!traced) {
+        return tl::unexpected<Error>(traced.error());
     }
-    auto scene = std::make_unique<Scene>();
-    scene->mesh = std::move(mesh);
-    scene->positions.reserve(scene->mesh->positions.size());
-    for (const glm::dvec3& position : scene->mesh->positions) {
-        scene->positions.emplace_back(prop_from_artifact * glm::dvec4(position, 1.0));
-    }
-    Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
-            glm::dvec3(-std::numeric_limits<double>::infinity())};
-    for (const std::array<std::uint32_t, 3>& triangle : scene->mesh->triangles) {
-        for (const std::uint32_t corner : triangle) {
-            box.low = glm::min(box.low, scene->positions[corner]);
-            box.high = glm::max(box.high, scene->positions[corner]);
-        }
-    }
-    const double size = glm::distance(box.low, box.high);
-    if (!std::isfinite(size)) {
-        return bad_input("the pack's placement does not map the mesh to finite points; bake the pack again");
-    }
-    scene->box = {box.low - 1e-4 * size, box.high + 1e-4 * size};
-    scene->device.reset(rtcNewDevice(nullptr));
-    scene->embree.reset(rtcNewScene(scene->device.get()));
-    scene->add_triangles();
-    if (rtcGetDeviceError(scene->device.get()) != RTC_ERROR_NONE) {
-        return fail(ErrorKind::Internal,
-                    "Embree could not build the scene of the source mesh; free some memory");
-    }
-    return Truth(std::move(scene));
+    return Truth(std::move(*traced));
 }
 
 bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const {
     double enter = 0.0;
-    if (!enters(scene_->box, origin, direction, enter)) {
+    if (!enters(traced_->box(), origin, direction, enter)) {
         return false;
     }
     // Starting at the box keeps float's precision for the artifact.
@@ -221,14 +94,14 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_->embree.get(), &context, &ray);
+    rtcIntersect1(traced_->scene(), &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return false;
     }
     glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
-    (void)scene_->refine(ray.hit.primID, start, unit, t_u_v); // else Embree's own stands
+    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // else Embree's own stands
     hit = {ray.hit.primID, start + t_u_v.x * unit,
-           surface_colour(*scene_->mesh, ray.hit.primID, t_u_v.y, t_u_v.z)};
+           surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
     return true;
 }
 

@@ -25,6 +25,8 @@
 
 namespace frustumscreen {
 
+class TracedMesh;
+
 /// Who looks and who projects, seen from the prop.
 struct TruthView {
     Pinhole projector;
@@ -55,10 +57,6 @@ public:
     /// Errors: no triangles; a placement that is not finite; Embree has no memory.
     [[nodiscard]] static Result<Truth> build(std::shared_ptr<const SourceMesh> mesh,
                                              const glm::dmat4& prop_from_artifact);
-    Truth(Truth&&) noexcept;
-    Truth& operator=(Truth&&) noexcept;
-    ~Truth();
-
     struct Hit {
         std::uint32_t triangle = 0;
         glm::dvec3 point_m{0.0}; ///< prop frame
@@ -70,10 +68,12 @@ public:
     /// The whole picture; `sixteen_rays` false leaves `colour16` empty.
     [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const;
 
+    /// What the rays are cast at, for the ray-cast peer.
+    [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
+
 private:
-    struct Scene;
-    explicit Truth(std::unique_ptr<Scene> scene);
-    std::unique_ptr<Scene> scene_;
+    explicit Truth(std::shared_ptr<const TracedMesh> traced) : traced_(std::move(traced)) {}
+    std::shared_ptr<const TracedMesh> traced_;
 };
 
 } // namespace frustumscreen

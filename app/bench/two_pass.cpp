@@ -126,12 +126,12 @@ struct Pictures {
 
 class TwoPass final : public Technique {
 public:
-    TwoPass(const Stage& stage, const PeerMesh& mesh, std::array<GlProgram, 2> project, Pictures pictures)
-        : stage_(stage), mesh_(mesh), project_(std::move(project)), pictures_(std::move(pictures)) {}
+    TwoPass(const Stage& stage, const PeerMesh& mesh, std::string name, std::array<GlProgram, 2> project,
+            Pictures pictures)
+        : stage_(stage), mesh_(mesh), name_(std::move(name)), project_(std::move(project)),
+          pictures_(std::move(pictures)) {}
 
-    [[nodiscard]] std::string name() const override {
-        return fmt::format("two-pass {}", pictures_.eye_colours.width);
-    }
+    [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
         const PeerView view = peer_view(stage_, pose);
         const glm::dmat4 eye = eye_clip(view, mesh_.box());
@@ -196,6 +196,7 @@ private:
 
     const Stage& stage_;
     const PeerMesh& mesh_;
+    std::string name_;
     std::array<GlProgram, 2> project_; ///< colours, points
     Pictures pictures_;
     FaceQuads quads_;
@@ -203,7 +204,8 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh, int eye_pixels) {
+Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh, int eye_pixels,
+                                                 std::string of_mesh) {
     std::array<GlProgram, 2> project;
     for (std::size_t k = 0; k < 2; ++k) {
         Result<GlProgram> program =
@@ -225,8 +227,8 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerM
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return std::make_unique<TwoPass>(
-        stage, mesh, std::move(project),
-        Pictures{std::move(*colours), std::move(*eye_points), std::move(*points)});
+        stage, mesh, fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh),
+        std::move(project), Pictures{std::move(*colours), std::move(*eye_points), std::move(*points)});
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,7 @@
 #include "app/bench/verdicts.h"
 
+#include "app/bench/dominance.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,11 +24,6 @@ Verdict judge_silhouette(const TechniqueResult& level, const Limits& limits) {
         fmt::format("worst {:.3f} %, {:.3f} px; {} of {} poses beyond", level.error.worst.silhouette_percent,
                     level.error.worst.outline_shift_px, failed, level.errors.size()),
         failed == 0};
-}
-
-bool no_larger(const PictureError& a, const PictureError& b) {
-    return a.silhouette_percent <= b.silhouette_percent && a.geometric_mean_mm <= b.geometric_mean_mm &&
-           a.sixteen_rays.rmse <= b.sixteen_rays.rmse;
 }
 
 bool errors_hold(const TechniqueResult& level, const Limits& limits) {
@@ -85,8 +82,7 @@ std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
 const TechniqueResult* cheapest_as_good(const SetUpResult& result, const TechniqueResult& two_pass) {
     const TechniqueResult* best = nullptr;
     for (const TechniqueResult& technique : result.techniques) {
-        if (technique.kind == TechniqueKind::PackLevel &&
-            no_larger(technique.error.mean, two_pass.error.mean) &&
+        if (technique.kind == TechniqueKind::PackLevel && errs_no_more(technique, two_pass) &&
             (best == nullptr || technique.times_floor < best->times_floor)) {
             best = &technique;
         }
@@ -116,17 +112,21 @@ std::vector<Verdict> judge(const SetUpResult& result) {
             technique.level == static_cast<int>(result.finest_level)) {
             add("finest level", judge(technique, finest_level_limits));
         }
-        if (technique.kind == TechniqueKind::TwoPass && technique.triangles >= least_two_pass_triangles) {
-            const double least = least_two_pass_speed_up(technique.triangles);
-            const TechniqueResult* level = cheapest_as_good(result, technique);
-            const double speed_up = level != nullptr ? technique.times_floor / level->times_floor : 0.0;
-            add(technique.name, {{fmt::format("a level as good is >= {:g} x faster", least),
+    }
+    for (const TechniqueResult* two_pass : at_best_eye_images(result)) {
+        if (two_pass->kind == TechniqueKind::TwoPass && two_pass->triangles >= least_two_pass_triangles) {
+            const double least = least_two_pass_speed_up(two_pass->triangles);
+            const TechniqueResult* level = cheapest_as_good(result, *two_pass);
+            const double speed_up = level != nullptr ? two_pass->times_floor / level->times_floor : 0.0;
+            add(two_pass->name, {{fmt::format("a level as good is >= {:g} x faster", least),
                                   level != nullptr ? fmt::format("{}: {:.1f} x faster", level->name, speed_up)
                                                    : std::string("no level is as good"),
                                   speed_up >= least}});
         }
     }
     verdicts.push_back(judge_fine(result));
+    const std::vector<Verdict> dominance = judge_dominance(result);
+    verdicts.insert(verdicts.end(), dominance.begin(), dominance.end());
     return verdicts;
 }
 

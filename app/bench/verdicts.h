@@ -45,7 +45,8 @@ struct Verdict {
 [[nodiscard]] const TechniqueResult* cheapest_as_good(const SetUpResult& result,
                                                       const TechniqueResult& two_pass);
 
-/// Default level, finest level, and each two-pass picture of a large enough source.
+/// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
+/// level, and whether a peer dominates a level.
 [[nodiscard]] std::vector<Verdict> judge(const SetUpResult& result);
 
 } // namespace frustumscreen

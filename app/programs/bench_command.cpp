@@ -14,26 +14,21 @@
 namespace frustumscreen {
 
 BenchProgress::BenchProgress()
-    : on_terminal_(::isatty(STDERR_FILENO) != 0), started_(std::chrono::steady_clock::now()),
-      begun_(started_) {}
+    : on_terminal_(::isatty(STDERR_FILENO) != 0), started_(std::chrono::steady_clock::now()) {}
 
 BenchProgress::~BenchProgress() {
     clear();
 }
 
 void BenchProgress::show(const std::string& step, double done) {
-    const auto now = std::chrono::steady_clock::now();
-    if (step != step_) {
-        step_ = step;
-        begun_ = now;
-    }
-    const double passed_s = std::chrono::duration<double>(now - begun_).count();
-    if (!on_terminal_ || now - started_ < std::chrono::seconds(2)) {
+    const double passed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    const std::optional<double> left_s = time_left_.at(step, done, passed_s);
+    if (!on_terminal_ || passed_s < 2.0) {
         return;
     }
-    const int left_s = done > 0.0 ? static_cast<int>(passed_s * (1.0 - done) / done) : 0;
-    fmt::print(stderr, "\r\033[K{:3.0f} %  {}{}", done * 100.0, step,
-               done > 0.02 ? fmt::format(", {}:{:02} left", left_s / 60, left_s % 60) : std::string());
+    fmt::print(stderr, "\r\033[K{} {:.0f} %{}", step, done * 100.0,
+               left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string());
     std::fflush(stderr);
     written_ = true;
 }

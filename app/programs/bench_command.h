@@ -7,6 +7,7 @@
 
 #include "app/bench/pack_level.h"
 #include "app/bench/technique_set.h"
+#include "app/bench/time_left.h"
 #include "assets_baked/bake/source_mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -27,15 +28,16 @@ public:
     ~BenchProgress();
     BenchProgress(const BenchProgress&) = delete;
     BenchProgress& operator=(const BenchProgress&) = delete;
+    /// The steps to come, so that the time left is that of the whole run; without, of each step alone.
+    void plan(std::vector<WorkStep> steps) { time_left_ = TimeLeft(std::move(steps)); }
     void show(const std::string& step, double done);
     void clear();
 
 private:
     bool on_terminal_;
     bool written_ = false;
-    std::string step_;
     std::chrono::steady_clock::time_point started_;
-    std::chrono::steady_clock::time_point begun_;
+    TimeLeft time_left_;
 };
 
 struct BenchCommand {

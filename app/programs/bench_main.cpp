@@ -1,5 +1,6 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
 #include "app/programs/bench_error_time.h"
+#include "app/programs/bench_plot.h"
 #include "app/programs/bench_projection.h"
 #include "app/programs/bench_scaling.h"
 #include "app/programs/bench_shimmer.h"
@@ -20,8 +21,11 @@ int run(int argc, char** argv) {
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
-    const std::array commands = {error_time_command(app), scaling_command(app), projection_command(app),
-                                 shimmer_command(app), stability_command(app)};
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("frustumscreen-bench: {}\n", error.what());
+    });
+    const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
+                                 shimmer_command(app),    stability_command(app), plot_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,5 +1,6 @@
 #include "app/programs/bench_scaling.h"
 
+#include "app/bench/error_plot.h"
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
 #include "app/bench/verdicts.h"
@@ -44,6 +45,7 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
         compared.picture = arguments.options.picture;
         compared.poses = arguments.options.poses;
         compared.seed = arguments.options.seed;
+        compared.peers.ray_cast = compared.peers.lod = compared.peers.two_pass_lod = false;
         const Result<SetUpResult> result = error_time(set_up, source.pack, source.mesh, compared, show);
         if (!result) {
             return tl::unexpected<Error>(result.error());

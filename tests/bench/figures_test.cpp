@@ -25,6 +25,7 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     for (const Verdict& verdict : judge(figures, mm_per_box)) {
         EXPECT_TRUE(verdict.held) << verdict.what << "; " << verdict.found;
     }
+    EXPECT_TRUE(require_true(judge(figures, mm_per_box), "cat.fspack"));
     const float true_p95 = figures[0].said.p95_box;
     ASSERT_GT(true_p95, 5e-4F); // of the coarsest, far above the slack
     for (const float lie : {0.0F, 0.3F * true_p95, 3.0F * true_p95, std::nanf("")}) {
@@ -33,6 +34,10 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
         EXPECT_FALSE(verdicts[0].held) << lie;
         EXPECT_TRUE(
             std::all_of(verdicts.begin() + 1, verdicts.end(), [](const Verdict& v) { return v.held; }));
+        const Result<void> required = require_true(verdicts, "cat.fspack");
+        ASSERT_FALSE(required);
+        EXPECT_EQ(required.error().message.find("cat.fspack: "), 0U);
+        EXPECT_EQ(required.error().message.find('\n'), std::string::npos);
         EXPECT_NE(verdicts[0].what.find("the pack says"), std::string::npos);
         EXPECT_NE(verdicts[0].found.find("measured"), std::string::npos);
     }

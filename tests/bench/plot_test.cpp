@@ -98,6 +98,42 @@ TEST(Plot, PointsThatTheAxisCannotShowAreLeftOut) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+TEST(Plot, WhatLiesBelowTheLeastOfTheAxisIsDrawnThere) {
+    Plot plot = example();
+    plot.limits.clear();
+    plot.y_least = 0.001;
+    plot.series = {{"s", {{{1.0, 1.0}}, {{2.0, 0.001}}, {{3.0, 1e-7}}, {{4.0, 0.0}}}}};
+    const std::string svg = svg_of(std::array{plot});
+    EXPECT_EQ(count_of(svg, "<circle"), 4U + 1U);
+    EXPECT_EQ(count_of(svg, "cy=\"402.0\""), 3U); // the frame's lower edge
+    EXPECT_EQ(count_of(svg, ">≤ 0.001<"), 1U);
+    plot.series[0].points.resize(1);
+    EXPECT_EQ(count_of(svg_of(std::array{plot}), "≤"), 0U); // nothing lies there
+}
+
+TEST(Plot, ASheetHasEveryPlotAndOneLegend) {
+    const std::vector<std::string> notes = {"a note & more"};
+    const std::string svg = svg_sheet("A <sheet>", std::array{example(), example(), example()}, 2, notes);
+    EXPECT_TRUE(well_formed(svg));
+    EXPECT_EQ(count_of(svg, "<circle"), 3U * 5U + 2U);
+    EXPECT_EQ(count_of(svg, ">two-pass<"), 1U);
+    EXPECT_EQ(count_of(svg, "A &lt;sheet&gt;"), 1U);
+    EXPECT_EQ(count_of(svg, "a note &amp; more"), 1U);
+    EXPECT_TRUE(well_formed(svg_sheet("none", {}, 3, {})));
+}
+
+TEST(Plot, MarksAndLinesAreAsTheirSeriesSays) {
+    Plot plot = example();
+    plot.series = {{"s", {{{1.0, 1.0}}, {{2.0, 2.0}}, {{3.0, 1.0}}}, true, {2, PlotMark::Square, 3.0, true}},
+                   {"hidden", {{{1.5, 1.5}}}, true, {2, PlotMark::Cross}}};
+    plot.series[1].look.in_legend = false;
+    const std::string svg = svg_of(std::array{plot});
+    EXPECT_TRUE(well_formed(svg));
+    EXPECT_EQ(count_of(svg, "<circle"), 0U);
+    EXPECT_EQ(count_of(svg, "stroke-dasharray=\"5 4\""), 2U); // the line and its legend
+    EXPECT_EQ(count_of(svg, ">hidden<"), 0U);
+}
+
 TEST(Plot, AnEmptyPlotIsStillAPicture) {
     const std::string svg = svg_of(std::array{Plot{"nothing", "x", "y", false, true, {}, {}}});
     EXPECT_TRUE(well_formed(svg));

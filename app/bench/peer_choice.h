@@ -1,0 +1,34 @@
+/// Which peers a pack's levels are compared with, as `--peers` names them.
+///
+/// mesh          the full mesh through the collineation
+/// two-pass      the full mesh by the two-pass method
+/// ray-cast      the full mesh by a ray cast on the CPU; a reference, not judged
+/// lod           simplified meshes through the collineation
+/// two-pass-lod  simplified meshes by the two-pass method
+///
+/// Threads  values; any.
+/// Errors   a name that is none of these.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct PeerChoice {
+    bool mesh = true;
+    bool two_pass = true;
+    bool ray_cast = true;
+    bool lod = true;
+    bool two_pass_lod = true;
+    std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods
+    std::vector<std::size_t> lod_triangles = {10'000, 20'000, 40'000, 80'000};
+};
+
+/// `words`: none, all, or names with commas between them.
+[[nodiscard]] Result<PeerChoice> parse_peers(std::string_view words);
+
+} // namespace frustumscreen

@@ -1,0 +1,50 @@
+/// A source mesh placed in the prop, as Embree casts rays at it: the truth and the ray-cast peer share one.
+///
+/// Frame    prop frame, metres; placed in 64-bit, Embree's copy is 32-bit (robust).
+/// Threads  immutable once built; any.
+#pragma once
+
+#include "app/geometry/collineation.h"
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+
+namespace frustumscreen {
+
+class TracedMesh {
+public:
+    /// Errors: no triangles; a placement that is not finite; Embree has no memory.
+    [[nodiscard]] static Result<std::shared_ptr<const TracedMesh>>
+    build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact);
+
+    [[nodiscard]] const SourceMesh& mesh() const { return *mesh_; }
+    /// Of the triangles' corners, with a margin for float rounding.
+    [[nodiscard]] const Box& box() const { return box_; }
+    /// Cuts what a material masks.
+    [[nodiscard]] RTCScene scene() const { return scene_.get(); }
+    /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
+    [[nodiscard]] bool refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
+                              glm::dvec3& t_u_v) const;
+
+private:
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+        void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+    };
+
+    TracedMesh() = default;
+    void add_triangles();
+    static void cut_masked(const RTCFilterFunctionNArguments* arguments);
+
+    std::shared_ptr<const SourceMesh> mesh_;
+    std::vector<glm::dvec3> positions_; ///< prop frame
+    Box box_;
+    std::unique_ptr<RTCDeviceTy, Release> device_;
+    std::unique_ptr<RTCSceneTy, Release> scene_;
+};
+
+} // namespace frustumscreen

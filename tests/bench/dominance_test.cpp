@@ -1,0 +1,177 @@
+// Who dominates whom, on results that were made up.
+
+#include "app/bench/dominance.h"
+#include "app/bench/report.h"
+#include "app/bench/saved_results.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+namespace {
+
+/// Mean silhouette in percent, geometric error in mm, colour error in codes.
+struct Errors {
+    double silhouette, geometric, colour;
+};
+
+TechniqueResult technique(const std::string& name, TechniqueKind kind, double cost, const Errors& errors,
+                          std::uint64_t triangles = 1000) {
+    TechniqueResult result;
+    result.name = name;
+    result.kind = kind;
+    result.level = kind == TechniqueKind::PackLevel ? 0 : -1;
+    result.triangles = triangles;
+    result.times_floor = cost;
+    PictureError error;
+    error.silhouette_percent = errors.silhouette;
+    error.geometric_mean_mm = errors.geometric;
+    error.sixteen_rays.rmse = errors.colour;
+    result.errors = {error};
+    result.error = summarise(result.errors);
+    return result;
+}
+
+const Errors middling{0.2, 0.1, 8.0};
+
+SetUpResult with(std::vector<TechniqueResult> peers) {
+    SetUpResult result;
+    result.name = "near";
+    result.techniques = {technique("floor", TechniqueKind::Floor, 1.0, {0, 0, 0}),
+                         technique("mesh 0", TechniqueKind::PackLevel, 4.0, middling)};
+    result.techniques.insert(result.techniques.end(), peers.begin(), peers.end());
+    return result;
+}
+
+Verdict verdict_beside(const TechniqueResult& peer) {
+    const std::vector<Verdict> verdicts = judge_dominance(with({peer}));
+    EXPECT_EQ(verdicts.size(), 1U);
+    return verdicts.at(0);
+}
+
+TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominates) {
+    const Verdict verdict = verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 3.0, middling));
+    EXPECT_FALSE(verdict.held);
+    EXPECT_NE(verdict.what.find("mesh 0"), std::string::npos);
+    EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos);
+}
+
+TEST(Dominance, APeerThatIsWorseInOneFigureDoesNot) {
+    for (const Errors& errors : {Errors{0.21, 0.01, 1.0}, Errors{0.01, 0.11, 1.0}, Errors{0.01, 0.01, 8.1}}) {
+        EXPECT_TRUE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 1.5, errors)).held);
+    }
+    EXPECT_TRUE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 5.0, {0.0, 0.0, 0.0})).held);
+}
+
+TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
+    for (const double cost : {3.85, 4.0, 4.15}) {
+        const Verdict verdict = verdict_beside(technique("LOD 10k", TechniqueKind::Lod, cost, middling));
+        EXPECT_TRUE(verdict.held) << cost;
+        EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos) << cost;
+    }
+    EXPECT_FALSE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 3.8, middling)).held);
+}
+
+TEST(Dominance, FloorAndRayCastAreNotJudged) {
+    const Verdict verdict =
+        judge_dominance(with({technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0}),
+                              technique("LOD", TechniqueKind::Lod, 9.0, {0, 0, 0})}))
+            .at(0);
+    EXPECT_TRUE(verdict.held);
+    EXPECT_EQ(verdict.found.find("ray cast"), std::string::npos);
+    EXPECT_TRUE(
+        judge_dominance(with({technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0})})).empty());
+}
+
+TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
+    const auto best_of = [](double cost_640, double cost_1024, double cost_1600) {
+        const SetUpResult result =
+            with({technique("640", TechniqueKind::TwoPass, cost_640, {0.4, 0.2, 9.0}),
+                  technique("1024", TechniqueKind::TwoPass, cost_1024, {0.3, 0.1, 8.0}),
+                  technique("1600", TechniqueKind::TwoPass, cost_1600, {0.2, 0.05, 7.0}),
+                  technique("640 of another mesh", TechniqueKind::TwoPass, 2.0, {0.9, 0.9, 9.0}, 500)});
+        std::string names;
+        for (const TechniqueResult* one : at_best_eye_images(result)) {
+            names += one->kind == TechniqueKind::TwoPass ? one->name + ";" : "";
+        }
+        return names;
+    };
+    EXPECT_EQ(best_of(30.0, 40.0, 50.0), "640;640 of another mesh;");
+    EXPECT_EQ(best_of(30.0, 31.0, 50.0), "1024;640 of another mesh;"); // as good as for nothing
+    EXPECT_EQ(best_of(30.0, 31.0, 32.0), "1600;640 of another mesh;");
+}
+
+TEST(SavedResults, WhatWasWrittenIsReadAgain) {
+    const SetUpResult result = with({technique("LOD 10k", TechniqueKind::Lod, 3.0, {0.3, 0.2, 9.5}, 9999)});
+    const Result<ArtifactResults> read = read_results(report_json({&result, 1}, "Cat", {}));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->title, "Cat");
+    ASSERT_EQ(read->set_ups.size(), 1U);
+    ASSERT_EQ(read->set_ups[0].techniques.size(), 3U);
+    const TechniqueResult& lod = read->set_ups[0].techniques[2];
+    EXPECT_EQ(lod.kind, TechniqueKind::Lod);
+    EXPECT_EQ(lod.triangles, 9999U);
+    EXPECT_DOUBLE_EQ(lod.times_floor, 3.0);
+    EXPECT_DOUBLE_EQ(lod.error.mean.geometric_mean_mm, 0.2);
+    EXPECT_EQ(lines_of(judge_dominance(read->set_ups[0])), lines_of(judge_dominance(result)));
+}
+
+TEST(SavedResults, AMalformedFileIsOneLine) {
+    const SetUpResult result = with({});
+    const std::string good = report_json({&result, 1}, "Cat", {});
+    std::vector<std::string> bad = {"",
+                                    "{",
+                                    "[]",
+                                    "null",
+                                    "{\"pack\": 3, \"set_ups\": []}",
+                                    "{\"pack\": \"Cat\", \"set_ups\": []}",
+                                    "{\"pack\": \"Cat\", \"set_ups\": {\"name\": 1}}",
+                                    "\xff\xfe\n\n"};
+    for (const char* key : {"\"mean\"", "\"times_floor\"", "\"kind\"", "\"set_ups\"", "\"rmse_16_rays\""}) {
+        bad.push_back(good);
+        bad.back().replace(bad.back().find(key), 2, "\"_");
+    }
+    for (std::size_t length = 0; length < good.size() - 2; length += 97) {
+        bad.push_back(good.substr(0, length));
+    }
+    for (const std::string& text : bad) {
+        const Result<ArtifactResults> read = read_results(text);
+        ASSERT_FALSE(read) << text;
+        EXPECT_EQ(read.error().message.find('\n'), std::string::npos) << read.error().message;
+        EXPECT_NE(read.error().message.find("error-time"), std::string::npos) << read.error().message;
+    }
+}
+
+TEST(SavedResults, AKindThatIsNotKnownIsLeftOut) {
+    const SetUpResult result = with({technique("new", TechniqueKind::Lod, 3.0, middling)});
+    std::string text = report_json({&result, 1}, "Cat", {});
+    text.replace(text.find("\"LOD\""), 5, "\"a kind of 2050\"");
+    const Result<ArtifactResults> read = read_results(text);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->set_ups[0].techniques.size(), 2U);
+}
+
+TEST(Verdicts, TheTableOfVerdictsHasFourFieldsARow) {
+    const SetUpResult result = with({technique("a \"quoted\", name", TechniqueKind::Lod, 3.0, middling)});
+    const std::vector<Verdict> figures = {{"level 0: said, and", "found", false}};
+    const std::string csv = verdicts_csv({&result, 1}, figures);
+    EXPECT_EQ(csv.find("set_up,what,found,verdict\n"), 0U);
+    EXPECT_NE(csv.find("pack,\"level 0: said, and\",\"found\",missed\n"), std::string::npos);
+    EXPECT_NE(csv.find("a \"\"quoted\"\", name"), std::string::npos);
+    for (std::size_t at = 0; at < csv.size();) {
+        const std::size_t end = csv.find('\n', at);
+        std::size_t fields = 1;
+        bool inside = false;
+        for (; at < end; ++at) {
+            inside = csv[at] == '"' ? !inside : inside;
+            fields += !inside && csv[at] == ',' ? 1 : 0;
+        }
+        EXPECT_EQ(fields, 4U);
+        EXPECT_FALSE(inside);
+        at = end + 1;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
