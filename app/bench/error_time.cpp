@@ -55,6 +55,9 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     if (ready && options.peers) {
         ready = set.add_peers(*mesh, prop_from_artifact, true, options.two_pass_pixels);
     }
+    if (ready && options.relief_peers) {
+        ready = set.add_relief_peers(*truth, *mesh, prop_from_artifact, options.relief_texels);
+    }
     if (ready) {
         ready = set.measure_errors(*truth, *poses, 0,
                                    [&](double done) { progress(set_up.name + ": errors", done); });

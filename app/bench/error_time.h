@@ -25,7 +25,9 @@ struct ErrorTimeOptions {
     std::uint64_t seed = 1;
     int timing_rounds = 3; ///< at least; few poses are drawn more often
     PictureOptions picture;
-    bool peers = true; ///< full mesh and two-pass
+    bool peers = true;         ///< full mesh and two-pass
+    bool relief_peers = false; ///< marching and warping of relief images
+    int relief_texels = 512;   ///< a side of each of them
     std::vector<int> two_pass_pixels = {640, 1024, 1600};
 };
 

@@ -1,6 +1,7 @@
 #include "app/bench/technique_set.h"
 
 #include "app/bench/floor_technique.h"
+#include "app/bench/relief_peers.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
 
@@ -87,6 +88,19 @@ Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& p
             !added) {
             return added;
         }
+    }
+    return {};
+}
+
+Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                            const glm::dmat4& prop_from_artifact, int texels) {
+    Result<std::vector<ReliefPeer>> peers =
+        make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels);
+    if (!peers) {
+        return tl::unexpected<Error>(peers.error());
+    }
+    for (ReliefPeer& peer : *peers) {
+        (void)add(std::move(peer.technique), described(TechniqueKind::Relief, -1, peer.triangles));
     }
     return {};
 }

@@ -23,7 +23,7 @@ struct SetUp {
     Settings settings;
 };
 
-enum class TechniqueKind { Floor, PackLevel, FullMesh, TwoPass };
+enum class TechniqueKind { Floor, PackLevel, FullMesh, TwoPass, Relief };
 
 struct TechniqueResult {
     std::string name;
@@ -50,6 +50,10 @@ public:
                                          const PictureOptions& options);
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels);
+
+    /// Peers that show relief images of `texels` a side.
+    [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                                const glm::dmat4& prop_from_artifact, int texels);
 
     /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);

@@ -76,6 +76,11 @@ BenchCommand error_time_command(CLI::App& app) {
     add_picture_options(*command, arguments->options.picture);
     add_pose_options(*command, arguments->options.poses, arguments->options.seed);
     command->add_flag("--no-peers", arguments->no_peers, "leave out the full mesh and the two-pass method");
+    command->add_flag("--relief-peers", arguments->options.relief_peers,
+                      "marching and warping of relief images too");
+    command->add_option("--relief-texels", arguments->options.relief_texels, "a side of their images")
+        ->check(CLI::IsMember({128, 256, 512, 1024}))
+        ->capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
                 arguments->options.peers = !arguments->no_peers;
                 return run(*arguments, progress);
