@@ -40,7 +40,7 @@ Result<std::unique_ptr<Technique>> make_linear_march(const Stage& stage, const R
     }
     return make_relief_technique(
         stage, images,
-        {fmt::format("march linear {} + binary {}, {}", search.steps, search.bisections, images.texels),
+        {fmt::format("linear {}+{} {}", search.steps, search.bisections, images.texels),
          fmt::format("#define STEPS {}\n#define BISECTIONS {}\n", search.steps, search.bisections),
          linear_source, std::move(relief)});
 }

@@ -25,6 +25,8 @@ public:
     /// left out. `front`: GL_CCW, or GL_CW where the clip matrix mirrors (row 0 of the projector's picture is
     /// its top).
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front) const;
+    /// Also of a mesh that is not closed, if its triangles are only to be seen from outside.
+    void leave_out_backs() { closed_ = true; }
     [[nodiscard]] const Box& box() const { return box_; }
 
 private:

@@ -73,7 +73,7 @@ Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const
         }
     }
     return make_relief_technique(stage, images,
-                                 {fmt::format("march quadtree, {}", images.texels),
+                                 {fmt::format("quadtree {}", images.texels),
                                   fmt::format("#define COARSEST {}\n", coarsest), quadtree_source,
                                   std::move(relief)});
 }

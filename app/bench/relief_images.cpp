@@ -21,6 +21,22 @@ int axis_of(const glm::dvec3& normal) {
     return size.y >= size.z ? 1 : 2;
 }
 
+/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area.
+glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const glm::dvec3& inward,
+                          const glm::dvec3& across, const glm::dvec3& down) {
+    Truth::Hit hit;
+    glm::vec3 sum(0.0F);
+    int count = 0;
+    for (int k = 0; k < 4; ++k) {
+        const glm::dvec3 origin = middle + (k % 2 - 0.5) * 0.5 * across + (k / 2 - 0.5) * 0.5 * down;
+        if (truth.first_hit(origin, inward, hit)) {
+            sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
+            ++count;
+        }
+    }
+    return sum / static_cast<float>(std::max(count, 1));
+}
+
 void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
     const int texels = image.depth.width;
     const auto [across, down] = image_axes(image.axis);
@@ -30,6 +46,10 @@ void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
     origin[down] = box.low[down] + size[down] * (row + 0.5) / texels;
     glm::dvec3 inward(0.0);
     inward[image.axis] = image.high ? -1.0 : 1.0;
+    glm::dvec3 one_across(0.0);
+    glm::dvec3 one_down(0.0);
+    one_across[across] = size[across] / texels;
+    one_down[down] = size[down] / texels;
     Truth::Hit hit;
     for (int column = 0; column < texels; ++column) {
         origin[across] = box.low[across] + size[across] * (column + 0.5) / texels;
@@ -39,7 +59,7 @@ void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
         const double depth = std::abs(hit.point_m[image.axis] - origin[image.axis]) / size[image.axis];
         image.depth.at(column, row) =
             static_cast<std::uint16_t>(std::lround(std::clamp(depth, 0.0, 1.0) * depth_codes));
-        const glm::vec3& colour = hit.colour.linear;
+        const glm::vec3 colour = colour_of_texel(truth, origin, inward, one_across, one_down);
         image.colour.at(column, row) = {srgb8_from_linear(colour.r), srgb8_from_linear(colour.g),
                                         srgb8_from_linear(colour.b), 255};
     }

@@ -1,6 +1,7 @@
 #include "app/bench/relief_peers.h"
 
 #include "app/bench/relief_march.h"
+#include "app/bench/relief_warp.h"
 
 namespace frustumscreen {
 
@@ -19,9 +20,14 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         }
         return technique.has_value();
     };
+    Result<ReliefWarp> warp = make_relief_warp(stage, images);
+    if (!warp) {
+        return tl::unexpected<Error>(warp.error());
+    }
     const bool all = add(make_linear_march(stage, images, {32, 5}), 0) &&
                      add(make_linear_march(stage, images, {128, 6}), 0) &&
-                     add(make_quadtree_march(stage, images), 0);
+                     add(make_cone_march(stage, images), 0) && add(make_quadtree_march(stage, images), 0) &&
+                     add(std::move(warp->technique), warp->triangles);
     if (!all) {
         return tl::unexpected<Error>(added.error());
     }
