@@ -94,6 +94,20 @@ void continue_colours(Image8& colour, Image<std::uint8_t>& known) {
     }
 }
 
+/// Cosine between the surface and the line of sight, from the smaller steps of depth beside the texel.
+std::uint8_t squareness(const ReliefImage& image, const glm::dvec3& size, const glm::ivec2& at) {
+    const auto [across, down] = image_axes(image.axis);
+    const auto step = [&](int x, int y) {
+        const std::uint16_t beside = image.depth.at(at.x + x, at.y + y);
+        return beside == no_depth ? 1.0 : std::abs(beside - image.depth.at(at.x, at.y)) / depth_codes;
+    };
+    const double per_texel = image.depth.width * size[image.axis];
+    const double slope_across = std::min(step(-1, 0), step(1, 0)) * per_texel / size[across];
+    const double slope_down = std::min(step(0, -1), step(0, 1)) * per_texel / size[down];
+    const double cosine = 1.0 / std::sqrt(1.0 + slope_across * slope_across + slope_down * slope_down);
+    return static_cast<std::uint8_t>(std::max(std::lround(255.0 * cosine), 1L));
+}
+
 ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& normal, int texels) {
     const int axis = axis_of(normal);
     ReliefImage image{axis, normal[axis] > 0.0, {texels, texels}, {texels, texels, no_depth}};
@@ -102,6 +116,13 @@ ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& nor
             cast_row(truth, box, static_cast<int>(row), image);
         }
     });
+    for (int y = 1; y + 1 < texels; ++y) { // the rim is empty
+        for (int x = 1; x + 1 < texels; ++x) {
+            if (image.depth.at(x, y) != no_depth) {
+                image.colour.at(x, y).a = squareness(image, box.high - box.low, {x, y});
+            }
+        }
+    }
     Image<std::uint8_t> known(texels, texels);
     for (std::size_t k = 0; k < known.texels.size(); ++k) {
         known.texels[k] = image.depth.texels[k] != no_depth ? 1 : 0;

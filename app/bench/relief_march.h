@@ -7,7 +7,7 @@
 ///          Policarpo, Oliveira & Comba 2005: front and back along each axis). One image alone is solid down
 ///          to its far side, which would hang a curtain from every outline; the intersection of all five is
 ///          the most that single-layer images say, and what each search below looks for.
-/// Colour   of the image whose surface is nearest to the hit; bilinear, linear light.
+/// Colour   of the image that sees the surface at the hit most squarely; bilinear, linear light.
 /// Precision 16-bit depths, 32-bit rays in box coordinates.
 ///
 /// Threads  the one whose context is current; the stage must outlive the technique, the images need not.

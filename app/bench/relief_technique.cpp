@@ -50,8 +50,8 @@ bool inside(vec3 p) {
 }
 )";
 
-/// The image whose surface is nearest to the hit shows it best: a surface seen slantingly is read with the
-/// greatest error of depth. Layers of `colours`: 2 axis + (1 if high).
+/// Of the images whose surface the hit is on, the one that sees it most squarely shows it; if it is on none,
+/// the nearest. Layers of `colours`: 2 axis + (1 if high).
 constexpr std::string_view main_source = R"(
 vec3 colour_at(vec3 p) {
     vec2 x = material(p.yz, 0);
@@ -62,13 +62,20 @@ vec3 colour_at(vec3 p) {
     vec3 off_high = abs(q - vec3(x.y, y.y, z.y)) * box_size + no_image_high;
     vec3 off = min(off_low, off_high);
     vec3 layer = vec3(0.0, 2.0, 4.0) + vec3(lessThan(off_high, off_low));
+    ivec3 texel = ivec3(p * float(texels));
+    ivec3 whole = ivec3(layer);
+    vec3 square = vec3(texelFetch(colours, ivec3(texel.yz, whole.x), 0).a,
+                       texelFetch(colours, ivec3(texel.xz, whole.y), 0).a,
+                       texelFetch(colours, ivec3(texel.xy, whole.z), 0).a);
+    float two_texels = 2.0 * max(max(box_size.x, box_size.y), box_size.z) * box_codes / float(texels);
+    vec3 score = mix(-off, square, vec3(lessThan(off * square, vec3(two_texels))));
     vec3 best = vec3(p.yz, layer.x);
-    float least = off.x;
-    if (off.y < least) {
-        least = off.y;
+    float most = score.x;
+    if (score.y > most) {
+        most = score.y;
         best = vec3(p.xz, layer.y);
     }
-    if (off.z < least) {
+    if (score.z > most) {
         best = vec3(p.xy, layer.z);
     }
     return textureLod(colours, best, 0.0).rgb;
