@@ -44,7 +44,7 @@ glm::ivec2 onward(const glm::ivec2& offset) {
 
 /// Which of nine pyramids; (0, 0) has all texels.
 std::size_t pyramid_of(const glm::ivec2& direction) {
-    return static_cast<std::size_t>(3 * (direction.y + 1) + direction.x + 1);
+    return 3 * static_cast<std::size_t>(direction.y + 1) + static_cast<std::size_t>(direction.x + 1);
 }
 constexpr std::size_t all_texels = 4;
 

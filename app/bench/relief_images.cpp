@@ -28,7 +28,9 @@ glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const gl
     glm::vec3 sum(0.0F);
     int count = 0;
     for (int k = 0; k < 4; ++k) {
-        const glm::dvec3 origin = middle + (k % 2 - 0.5) * 0.5 * across + (k / 2 - 0.5) * 0.5 * down;
+        const double right = (k & 1) != 0 ? 0.25 : -0.25;
+        const double below = (k & 2) != 0 ? 0.25 : -0.25;
+        const glm::dvec3 origin = middle + right * across + below * down;
         if (truth.first_hit(origin, inward, hit)) {
             sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
             ++count;

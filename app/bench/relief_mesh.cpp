@@ -29,7 +29,7 @@ public:
           texel_m_(std::max({size_.x, size_.y, size_.z}) / images.texels) {}
 
     [[nodiscard]] Grid make() {
-        vertices_.assign(image_.depth.texels.size(), none);
+        vertices_ = {images_.texels, images_.texels, none};
         for (int y = 0; y + 1 < images_.texels; ++y) {
             for (int x = 0; x + 1 < images_.texels; ++x) {
                 add_square(x, y);
@@ -122,7 +122,7 @@ private:
     }
 
     [[nodiscard]] std::uint32_t vertex(const glm::ivec2& at) {
-        std::uint32_t& index = vertices_[static_cast<std::size_t>(at.y * images_.texels + at.x)];
+        std::uint32_t& index = vertices_.at(at.x, at.y);
         if (index == none) {
             index = static_cast<std::uint32_t>(grid_.positions.size());
             grid_.positions.push_back(point(at));
@@ -136,7 +136,7 @@ private:
     glm::dvec3 size_;
     double texel_m_;
     Grid grid_;
-    std::vector<std::uint32_t> vertices_;
+    Image<std::uint32_t> vertices_; ///< each texel's, once it has one
 };
 
 /// The least triangles within the tolerance.
