@@ -47,6 +47,9 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
     if (added && (choice.lod || choice.two_pass_lod)) {
         added = set.add_levels_of_detail(mesh, prop_from_artifact, choice);
     }
+    if (added && choice.relief) {
+        added = set.add_relief_peers(truth, mesh, prop_from_artifact, choice.relief_texels);
+    }
     return added;
 }
 

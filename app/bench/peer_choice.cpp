@@ -13,9 +13,12 @@ struct Named {
     std::string_view name;
     bool PeerChoice::*chosen;
 };
-constexpr std::array names = {Named{"mesh", &PeerChoice::mesh}, Named{"two-pass", &PeerChoice::two_pass},
-                              Named{"ray-cast", &PeerChoice::ray_cast}, Named{"lod", &PeerChoice::lod},
-                              Named{"two-pass-lod", &PeerChoice::two_pass_lod}};
+constexpr std::array names = {Named{"mesh", &PeerChoice::mesh},
+                              Named{"two-pass", &PeerChoice::two_pass},
+                              Named{"ray-cast", &PeerChoice::ray_cast},
+                              Named{"lod", &PeerChoice::lod},
+                              Named{"two-pass-lod", &PeerChoice::two_pass_lod},
+                              Named{"relief", &PeerChoice::relief}};
 
 } // namespace
 
@@ -37,7 +40,7 @@ Result<PeerChoice> parse_peers(std::string_view words) {
             std::find_if(names.begin(), names.end(), [word](const Named& each) { return each.name == word; });
         if (found == names.end()) {
             return bad_input(fmt::format("there is no peer '{}'; say none, all, or some of mesh, two-pass, "
-                                         "ray-cast, lod, two-pass-lod with commas between them",
+                                         "ray-cast, lod, two-pass-lod, relief with commas between them",
                                          word));
         }
         choice.*found->chosen = true;

@@ -5,6 +5,7 @@
 /// ray-cast      the full mesh by a ray cast on the CPU; a reference, not judged
 /// lod           simplified meshes through the collineation
 /// two-pass-lod  simplified meshes by the two-pass method
+/// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
 ///
 /// Threads  values; any.
 /// Errors   a name that is none of these.
@@ -24,8 +25,10 @@ struct PeerChoice {
     bool ray_cast = true;
     bool lod = true;
     bool two_pass_lod = true;
+    bool relief = true;
     std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods
     std::vector<std::size_t> lod_triangles = {10'000, 20'000, 40'000, 80'000};
+    int relief_texels = 512; ///< a side of each relief image
 };
 
 /// `words`: none, all, or names with commas between them.

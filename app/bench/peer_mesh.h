@@ -30,6 +30,8 @@ public:
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front, const VisibleParts& visible,
               std::size_t face) const;
     [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }
+    /// Also of a mesh that is not closed, if its triangles are only to be seen from outside.
+    void leave_out_backs() { closed_ = true; }
     [[nodiscard]] const Box& box() const { return box_; }
 
 private:

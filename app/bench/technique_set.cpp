@@ -3,6 +3,7 @@
 #include "app/bench/floor_technique.h"
 #include "app/bench/level_of_detail.h"
 #include "app/bench/ray_cast.h"
+#include "app/bench/relief_peers.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
 
@@ -16,7 +17,7 @@ namespace frustumscreen {
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 7> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 8> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
     {TechniqueKind::FullMesh, "full mesh"},
@@ -24,6 +25,7 @@ constexpr std::array<std::pair<TechniqueKind, std::string_view>, 7> kind_names =
     {TechniqueKind::RayCast, "ray cast"},
     {TechniqueKind::Lod, "LOD"},
     {TechniqueKind::TwoPassLod, "two-pass LOD"},
+    {TechniqueKind::Relief, "relief"},
 }};
 
 TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
@@ -145,6 +147,19 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
         }
     }
     return added;
+}
+
+Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                            const glm::dmat4& prop_from_artifact, int texels) {
+    Result<std::vector<ReliefPeer>> peers =
+        make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels);
+    if (!peers) {
+        return tl::unexpected<Error>(peers.error());
+    }
+    for (ReliefPeer& peer : *peers) {
+        (void)add(std::move(peer.technique), described(TechniqueKind::Relief, -1, peer.triangles));
+    }
+    return {};
 }
 
 Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {

@@ -32,6 +32,7 @@ enum class TechniqueKind {
     RayCast, ///< the reference: reported, not judged
     Lod,
     TwoPassLod,
+    Relief, ///< relief images, marched or warped
 };
 /// As tables and files say it.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
@@ -67,6 +68,10 @@ public:
     [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
                                                     const glm::dmat4& prop_from_artifact,
                                                     const PeerChoice& choice);
+
+    /// Peers that show relief images of `texels` a side.
+    [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                                const glm::dmat4& prop_from_artifact, int texels);
 
     /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);

@@ -107,8 +107,9 @@ BenchCommand error_time_command(CLI::App& app) {
     add_picture_options(*command, arguments->options.picture);
     add_pose_options(*command, arguments->options.poses, arguments->options.seed);
     command
-        ->add_option("--peers", arguments->peers,
-                     "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, with commas between")
+        ->add_option(
+            "--peers", arguments->peers,
+            "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, with commas between")
         ->check([](const std::string& words) {
             const Result<PeerChoice> choice = parse_peers(words);
             return choice ? std::string() : choice.error().message;

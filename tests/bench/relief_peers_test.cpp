@@ -1,0 +1,137 @@
+#include "app/bench/measure.h"
+#include "app/bench/relief_images.h"
+#include "app/bench/relief_peers.h"
+#include "app/bench/relief_technique.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/bench/near_stage.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+/// How high the ring's tube is above its middle plane at (x, z), from its equation; below 0 where it is not.
+double ring_height(double x, double z) {
+    const double off = std::hypot(x, z - 0.045) - 0.030;
+    return std::sqrt(std::fmax(0.010 * 0.010 - off * off, 0.0)) - (std::abs(off) > 0.010 ? 1.0 : 0.0);
+}
+
+TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
+    const auto mesh = ring();
+    const auto truth = Truth::build(mesh, glm::dmat4(1.0));
+    ASSERT_TRUE(truth);
+    constexpr int texels = 64;
+    const ReliefImages images =
+        cast_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_prop({}), texels);
+    ASSERT_EQ(images.images.size(), 5U);
+    const glm::dvec3 size = images.box.high - images.box.low;
+    int hits = 0;
+    for (const ReliefImage& image : images.images) {
+        if (image.axis != 1) {
+            continue;
+        }
+        for (int j = 0; j < texels; ++j) {
+            for (int i = 0; i < texels; ++i) {
+                const double x = images.box.low.x + size.x * (i + 0.5) / texels;
+                const double z = images.box.low.z + size.z * (j + 0.5) / texels;
+                const double height = ring_height(x, z);
+                if (std::abs(std::abs(std::hypot(x, z - 0.045) - 0.030) - 0.010) < 2e-4) {
+                    continue; // the mesh is a polygon there
+                }
+                ASSERT_EQ(image.depth.at(i, j) != no_depth, height >= 0.0) << i << ' ' << j;
+                ASSERT_EQ(image.colour.at(i, j).a != 0, height >= 0.0);
+                if (height >= 0.0) {
+                    const double depth_m = image.depth.at(i, j) / depth_codes * size.y;
+                    EXPECT_NEAR(depth_m, images.box.high.y - height, 3e-4);
+                    ++hits;
+                }
+            }
+        }
+    }
+    EXPECT_GT(hits, 1000);
+    const Image<glm::u16vec2> material = material_along(images, 1);
+    for (const glm::u16vec2& texel : material.texels) {
+        EXPECT_TRUE(texel == glm::u16vec2(65535, 0) || std::abs(texel.x + texel.y - 65535) < 400);
+    }
+}
+
+TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
+    const PropShape prop = make_prop({});
+    const Box box{{-0.02, -0.03, 0.01}, {0.03, 0.01, 0.09}};
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> random(0.0, 1.0);
+    int met = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        const glm::dvec3 eye(random(engine) - 0.5, random(engine) - 0.5, 0.15 + 0.5 * random(engine));
+        for (const PropFace& face : prop.faces) {
+            if (face.plane.distance(eye) <= 0.01) {
+                continue;
+            }
+            const std::vector<glm::dvec3> shadow = shadow_on_face(face, eye, box);
+            for (int k = 0; k < 50; ++k) {
+                const double u = random(engine);
+                const double v = random(engine);
+                const glm::dvec3 at = (1 - v) * ((1 - u) * face.corners[0] + u * face.corners[1]) +
+                                      v * ((1 - u) * face.corners[3] + u * face.corners[2]);
+                double least = 1.0; // signed distance inside the polygon
+                for (std::size_t c = 0; c < shadow.size(); ++c) {
+                    const glm::dvec3 edge = shadow[(c + 1) % shadow.size()] - shadow[c];
+                    if (glm::length(edge) > 1e-9) {
+                        least = std::fmin(least, glm::dot(glm::cross(face.plane.normal, glm::normalize(edge)),
+                                                          at - shadow[c]));
+                    }
+                }
+                const bool in_shadow = !shadow.empty() && least > 0.0;
+                const glm::dvec3 a = (box.low - eye) / (at - eye);
+                const glm::dvec3 b = (box.high - eye) / (at - eye);
+                const glm::dvec3 near = glm::min(a, b);
+                const glm::dvec3 far = glm::max(a, b);
+                const bool meets =
+                    std::fmax(std::fmax(near.x, near.y), near.z) < std::fmin(std::fmin(far.x, far.y), far.z);
+                if (shadow.empty() || std::abs(least) > 1e-6) {
+                    EXPECT_EQ(in_shadow, meets);
+                }
+                met += meets ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(met, 200);
+}
+
+/// The ring is a relief from two sides, so that every method can show it whole.
+TEST(ReliefPeers, EachComesNearToTheRayCastOfARing) {
+    auto display = SurfacelessDisplay::create(640, 400);
+    ASSERT_TRUE(display) << display.error().message;
+    const Stage stage{near_settings(), make_prop({}), (*display)->framebuffer()};
+    const auto mesh = ring();
+    const auto truth = Truth::build(mesh, glm::dmat4(1.0));
+    ASSERT_TRUE(truth);
+    auto peers = make_relief_peers(stage, *truth, *mesh, glm::dmat4(1.0), 256);
+    ASSERT_TRUE(peers) << peers.error().message;
+    ASSERT_EQ(peers->size(), 5U);
+    const auto poses = draw_poses(stage.settings, stage.prop, 4, 5);
+    ASSERT_TRUE(poses);
+    for (const BenchPose& pose : *poses) {
+        const TruthPicture picture = truth->cast(stage.prop, view_of(stage.settings, pose), true);
+        for (const ReliefPeer& peer : *peers) {
+            SCOPED_TRACE(peer.technique->name());
+            peer.technique->draw(pose);
+            Image8 colour = read_colour(stage.framebuffer, 640, 400);
+            auto points = peer.technique->hit_points(pose);
+            ASSERT_TRUE(points);
+            const PictureError error = measure(picture, {std::move(colour), std::move(*points)});
+            EXPECT_GT(error.truth_pixels, 300);
+            EXPECT_LT(error.outline_shift_px, peer.triangles > 0 ? 2.0 : 0.25);
+            EXPECT_LT(error.geometric_p95_mm, 0.3);
+            EXPECT_LT(error.geometric_mean_mm, 0.3);
+            EXPECT_LT(error.one_ray.rmse, 8.0);
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
