@@ -1,4 +1,5 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
+#include "app/programs/bench_counts.h"
 #include "app/programs/bench_error_time.h"
 #include "app/programs/bench_plot.h"
 #include "app/programs/bench_projection.h"
@@ -25,7 +26,8 @@ int run(int argc, char** argv) {
         return fmt::format("frustumscreen-bench: {}\n", error.what());
     });
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
-                                 shimmer_command(app),    stability_command(app), plot_command(app)};
+                                 shimmer_command(app),    stability_command(app), plot_command(app),
+                                 counts_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
