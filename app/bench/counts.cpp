@@ -97,13 +97,16 @@ std::string counts_json(std::span<const CountedPack> counted) {
         }
         all.push_back(std::move(entry));
     }
-    return nlohmann::ordered_json{{"mean_of_a_frame", std::move(all)}}.dump(1) + "\n";
+    nlohmann::ordered_json whole;
+    whole["mean_of_a_frame"] = std::move(all);
+    return whole.dump(1) + "\n";
 }
 
 Result<std::vector<CountedPack>> read_counts(std::string_view text) {
     std::vector<CountedPack> counted;
     try {
-        for (const nlohmann::json& entry : nlohmann::json::parse(text).at("mean_of_a_frame")) {
+        const nlohmann::json whole = nlohmann::json::parse(text);
+        for (const nlohmann::json& entry : whole.at("mean_of_a_frame")) {
             CountedPack one{
                 entry.at("artifact").get<std::string>(), entry.at("set_up").get<std::string>(), {}};
             for (const Quantity& quantity : quantities) {
