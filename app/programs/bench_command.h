@@ -11,8 +11,10 @@
 #include "assets_baked/bake/source_mesh.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -76,5 +78,38 @@ struct LoadedArtifact {
 /// Files in --out, all or the first that fails.
 [[nodiscard]] Result<void> write_all(const std::filesystem::path& folder,
                                      const std::vector<std::pair<std::string, std::string>>& files);
+
+/// One artifact in every set-up: `measure(set_up, pack, mesh, steps)` gives a result whose `worst` is a
+/// picture; its `table` goes to the console, the pictures to NAME_SETUP.png, all results to NAME.csv.
+template <typename Measure, typename Table, typename Csv>
+[[nodiscard]] Result<void> measure_set_ups(const std::string& name, const BenchPlace& place,
+                                           const BenchArtifact& measured, BenchProgress& progress,
+                                           const Measure& measure, const Table& table, const Csv& csv) {
+    const Result<std::vector<SetUp>> set_ups = load_set_ups(place);
+    if (!set_ups) {
+        return tl::unexpected<Error>(set_ups.error());
+    }
+    const Result<LoadedArtifact> artifact = load_artifact(measured);
+    if (!artifact) {
+        return tl::unexpected<Error>(artifact.error());
+    }
+    const auto steps = [&progress](const std::string& step, double done) { progress.show(step, done); };
+    using Measured = decltype(measure(set_ups->front(), *artifact->pack, artifact->mesh, steps));
+    std::vector<typename Measured::value_type> results;
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const SetUp& set_up : *set_ups) {
+        Measured result = measure(set_up, *artifact->pack, artifact->mesh, steps);
+        if (!result) {
+            return tl::unexpected<Error>(result.error());
+        }
+        progress.clear();
+        fmt::print("{}\n", table(*result));
+        std::fflush(stdout);
+        files.emplace_back(name + "_" + set_up.name + ".png", as_text(encode_png(result->worst)));
+        results.push_back(std::move(*result));
+    }
+    files.emplace_back(name + ".csv", csv(results));
+    return write_all(place.out, files);
+}
 
 } // namespace frustumscreen

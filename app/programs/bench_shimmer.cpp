@@ -2,9 +2,6 @@
 
 #include "app/bench/shimmer.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <memory>
 
 namespace frustumscreen {
@@ -19,31 +16,11 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
-    const Result<LoadedArtifact> artifact = load_artifact(arguments.artifact);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
-    std::vector<ShimmerResult> results;
-    std::vector<std::pair<std::string, std::string>> files;
-    for (const SetUp& set_up : *set_ups) {
-        Result<ShimmerResult> result =
-            shimmer(set_up, *artifact->pack, artifact->mesh, arguments.options,
-                    [&](const std::string& step, double done) { progress.show(step, done); });
-        if (!result) {
-            return tl::unexpected<Error>(result.error());
-        }
-        progress.clear();
-        fmt::print("{}\n", shimmer_table(*result));
-        std::fflush(stdout);
-        files.emplace_back("shimmer_" + set_up.name + ".png", as_text(encode_png(result->worst)));
-        results.push_back(std::move(*result));
-    }
-    files.emplace_back("shimmer.csv", shimmer_csv(results));
-    return write_all(arguments.place.out, files);
+    return measure_set_ups(
+        "shimmer", arguments.place, arguments.artifact, progress,
+        [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
+            const StepProgress& steps) { return shimmer(set_up, pack, mesh, arguments.options, steps); },
+        shimmer_table, [](const std::vector<ShimmerResult>& results) { return shimmer_csv(results); });
 }
 
 } // namespace

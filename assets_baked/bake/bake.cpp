@@ -22,7 +22,7 @@ namespace {
 /// library's 32-bit errors say nothing below some 3e-4, and it strays as far.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
-constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
+constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.5e-4F, 4.8e-4F, 8.5e-4F, 2e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// A level with the picture that it wears.
