@@ -210,6 +210,14 @@ void drop_useless(std::vector<Candidate>& candidates) {
     });
 }
 
+/// Nearer, and it does not pay for that by straying further in places or in colour.
+bool betters(const LevelError& dearer, const LevelError& cheaper) {
+    constexpr float scatter = 1.1F; // of a measure over random points
+    constexpr float least_rmse = 1.0F;
+    return dearer.mean_box < cheaper.mean_box && dearer.p95_box < scatter * cheaper.p95_box &&
+           dearer.colour_rmse < scatter * cheaper.colour_rmse + least_rmse;
+}
+
 /// Moves the kept candidates into the pack; equal textures are stored once.
 void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
     drop_useless(candidates);
@@ -252,7 +260,7 @@ std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
     });
     std::vector<std::size_t> front;
     for (const std::size_t k : order) {
-        if (front.empty() || levels[k].error.mean_box < levels[front.back()].error.mean_box) {
+        if (front.empty() || betters(levels[k].error, levels[front.back()].error)) {
             front.push_back(k);
         }
     }
