@@ -30,7 +30,7 @@ constexpr std::array families = {
     Family{TechniqueKind::TwoPassLod, "two-pass, LODs", {3, PlotMark::Square}},
     Family{TechniqueKind::FullMesh, "one pass, full mesh", {5, PlotMark::Diamond}},
     Family{TechniqueKind::Lod, "one pass, LODs", {2, PlotMark::Triangle}},
-    Family{TechniqueKind::Relief, "relief images", {6, PlotMark::Triangle}},
+    Family{TechniqueKind::Relief, "relief images", {7, PlotMark::Diamond}},
     Family{TechniqueKind::RayCast, "ray cast (reference)", {4, PlotMark::Cross}},
 };
 

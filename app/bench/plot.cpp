@@ -27,8 +27,8 @@ constexpr Frame alone{860.0, 460.0, 76.0, 190.0, 44.0, 58.0, true};
 constexpr Frame on_sheet{520.0, 430.0, 72.0, 18.0, 44.0, 58.0, false};
 
 /// Dark enough on white, and told apart with any colour vision (Okabe & Ito 2008, darkened).
-constexpr std::array<std::string_view, 7> colours = {"#00507f", "#b34700", "#00694d", "#8a3d6d",
-                                                     "#1f1f1f", "#7a6200", "#2f7fb0"};
+constexpr std::array<std::string_view, 8> colours = {"#00507f", "#b34700", "#00694d", "#8a3d6d",
+                                                     "#1f1f1f", "#7a6200", "#2f7fb0", "#d0308f"};
 
 struct Rect {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
