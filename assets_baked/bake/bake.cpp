@@ -22,7 +22,7 @@ namespace {
 /// library's 32-bit errors say nothing below some 3e-4, and it strays as far.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
-constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.5e-4F, 4.8e-4F, 8.5e-4F, 2e-3F};
+constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// A level with the picture that it wears.
@@ -173,7 +173,7 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 /// As a visitor sees it on the usual prop.
 bool good_enough(const PackLevel& level, const Pack& pack, const SourceScene& source, double mm_per_box) {
     // The worst of fifty poses in two set-ups shows up to three times as much of each.
-    constexpr double good_mean_mm = 0.075;
+    constexpr double good_mean_mm = 0.08;
     constexpr double good_outline_shift_mm = 0.04;
     constexpr double good_silhouette_share = 0.012; // a thin object is outline throughout
     const SeenError error = seen_error(level, pack.textures[level.texture], pack.box_size, source);
