@@ -198,15 +198,24 @@ std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind ki
     return level;
 }
 
-/// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.
+/// Levels that stray further than a visitor would forgive are no levels, nor are those of so few triangles
+/// that a nearer one costs a frame no more; the nearest one always stays.
 void drop_useless(std::vector<Candidate>& candidates) {
     constexpr float worst_mean_box = 3e-3F; // 0.3 mm on an artifact of 0.1 m
+    constexpr std::size_t few_triangles = 1500;
+    const auto is_cheap = [](const Candidate& one) { return one.level.indices.size() <= 3 * few_triangles; };
     float nearest = std::numeric_limits<float>::infinity();
+    float nearest_cheap = std::numeric_limits<float>::infinity();
     for (const Candidate& candidate : candidates) {
         nearest = std::min(nearest, candidate.level.error.mean_box);
+        if (is_cheap(candidate)) {
+            nearest_cheap = std::min(nearest_cheap, candidate.level.error.mean_box);
+        }
     }
     std::erase_if(candidates, [&](const Candidate& candidate) {
-        return candidate.level.error.mean_box > std::max(worst_mean_box, nearest);
+        const float mean_box = candidate.level.error.mean_box;
+        return mean_box > std::max(worst_mean_box, nearest) ||
+               (is_cheap(candidate) && mean_box > nearest_cheap);
     });
 }
 
