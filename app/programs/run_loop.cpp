@@ -3,8 +3,11 @@
 #include "app/render/probe.h"
 #include "app/render/read_back.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <thread>
 
@@ -138,7 +141,8 @@ private:
             }
         }
         for (const PanelEvent& event : events_) {
-            if (const std::optional<Wish> wish = wish_of(event.button)) {
+            const std::optional<Wish> wish = wish_of(event.button);
+            if (wish && event.kind == PressKind::Press) {
                 show_.wish(*wish, now);
             }
         }
@@ -181,7 +185,20 @@ private:
         if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
             result_.first_resident_mib = resident_mib();
         }
+        note_problem();
         status_file_.post(status);
+    }
+
+    /// One line in the journal each time that the panel's state changes.
+    void note_problem() {
+        const std::string problem = inputs_.panel ? inputs_.panel->problem() : std::string();
+        std::array<char, 160>& noted = result_.status.panel_problem;
+        if (problem.compare(0, noted.size() - 1, noted.data()) == 0) {
+            return;
+        }
+        std::fill(noted.begin(), noted.end(), '\0');
+        problem.copy(noted.data(), noted.size() - 1);
+        fmt::print(stderr, "frustumscreen: {}\n", problem.empty() ? "panel: its buttons are there" : problem);
     }
 
     [[nodiscard]] bool told_to_stop() const {

@@ -8,6 +8,7 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
+#include <array>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,7 @@ struct RunStatus {
     double resident_mib = 0.0;
     bool prop_known = false;
     bool head_known = false;
+    std::array<char, 160> panel_problem{}; ///< a sentence, ended by 0; empty = the panel is well
 };
 [[nodiscard]] std::string status_json(const RunStatus& status);
 

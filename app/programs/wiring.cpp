@@ -3,6 +3,7 @@
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/scripted_panel.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/replay_tracker.h"
@@ -44,11 +45,36 @@ Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, Monotoni
     return std::make_unique<SimulatedTracker>(visitor, start);
 }
 
+std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
+    LineRequest request{panel.chip, panel.lines, LineBias::AsIs, panel.active_low};
+    switch (panel.bias) {
+    case ButtonBias::AsIs:
+        break;
+    case ButtonBias::PullUp:
+        request.bias = LineBias::PullUp;
+        break;
+    case ButtonBias::PullDown:
+        request.bias = LineBias::PullDown;
+        break;
+    case ButtonBias::Disabled:
+        request.bias = LineBias::Disabled;
+        break;
+    }
+    ButtonTimes times;
+    times.debounce = nanoseconds(1e-3 * panel.debounce_ms);
+    times.stuck = nanoseconds(panel.stuck_s);
+    return std::make_unique<ButtonPanel>([request] { return open_gpio_lines(request); }, panel.lines.size(),
+                                         times);
+}
+
 std::unique_ptr<Panel> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
                                   MonotonicTime start) {
     if (press_every) {
         return std::make_unique<ScriptedPanel>(
             std::vector<PanelPress>{{*press_every / 2, next_artifact_button}}, *press_every, start);
+    }
+    if (settings.panel.kind == PanelKind::Gpio) {
+        return make_buttons(settings.panel);
     }
     std::vector<PanelPress> script;
     for (const ScriptedPress& press : settings.panel.script) {

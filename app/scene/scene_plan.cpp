@@ -247,17 +247,24 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
 
 DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
     const std::vector<ScriptedPress>& script = settings.panel.script;
+    const bool gpio = settings.panel.kind == PanelKind::Gpio;
     const auto presses = [&](int button) {
+        if (gpio) {
+            return static_cast<std::size_t>(button) < settings.panel.lines.size();
+        }
         return std::any_of(script.begin(), script.end(),
                            [button](const ScriptedPress& press) { return press.button == button; });
     };
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
-    plan.panel = pressed || !script.empty();
+    plan.panel = pressed || gpio || !script.empty();
     plan.other_packs = pressed || std::any_of(artifact_buttons.begin(), artifact_buttons.end(), presses);
     plan.language = !pressed && presses(language_button);
     plan.threads = {"the exhibit"};
+    if (gpio && !pressed) {
+        plan.threads.emplace_back("the buttons' watcher");
+    }
     if (status_file) {
         plan.threads.emplace_back("the status file's writer");
     }

@@ -71,7 +71,15 @@ Json panel_json(const PanelSettings& panel) {
     for (const ScriptedPress& press : panel.script) {
         script.push_back({{"at_s", press.at_s}, {"button", press.button}});
     }
-    return {{"script", script}, {"repeat_s", panel.repeat_s}};
+    return {{"kind", std::string(name_of(panel.kind))},
+            {"script", script},
+            {"repeat_s", panel.repeat_s},
+            {"chip", panel.chip},
+            {"lines", panel.lines},
+            {"bias", std::string(name_of(panel.bias))},
+            {"active_low", panel.active_low},
+            {"debounce_ms", panel.debounce_ms},
+            {"stuck_s", panel.stuck_s}};
 }
 
 Json exhibit_json(const ExhibitSettings& exhibit) {

@@ -20,6 +20,10 @@ constexpr std::size_t most_packs = 256;
 constexpr std::size_t most_presses = 1000;
 constexpr double longest_script_s = 86400.0;
 
+/// By PanelKind and ButtonBias.
+constexpr std::array<std::string_view, 2> panel_names{"scripted", "gpio"};
+constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
+constexpr std::size_t most_buttons = 3;
 /// By TrackerKind.
 constexpr std::array<std::string_view, 3> tracker_names{"simulated", "replay", "none"};
 
@@ -165,6 +169,17 @@ void read_tracker(TableReader table, const std::filesystem::path& folder, Tracke
 }
 
 void read_panel(TableReader table, PanelSettings& panel) {
+    int kind = 0;
+    table.choice("kind", kind, panel_names);
+    panel.kind = static_cast<PanelKind>(kind);
+    int bias = static_cast<int>(panel.bias);
+    table.choice("bias", bias, bias_names);
+    panel.bias = static_cast<ButtonBias>(bias);
+    table.text("chip", panel.chip);
+    table.texts("lines", panel.lines, most_buttons);
+    table.flag("active_low", panel.active_low);
+    table.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"});
+    table.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"});
     for (TableReader& press : table.tables("script", most_presses)) {
         ScriptedPress read;
         press.number("at_s", read.at_s, {0.0, longest_script_s, "seconds"});
@@ -230,6 +245,14 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
 }
 
 } // namespace
+
+std::string_view name_of(PanelKind kind) {
+    return panel_names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view name_of(ButtonBias bias) {
+    return bias_names[static_cast<std::size_t>(bias)];
+}
 
 std::string_view name_of(TrackerKind kind) {
     return tracker_names[static_cast<std::size_t>(kind)];

@@ -4,14 +4,24 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace frustumscreen {
 
+enum class PressKind : std::uint8_t {
+    Press,
+    LongPress, ///< follows the press while the button is still down
+    Chord,     ///< first and last button down together for long: staff; `button` is the first
+    Stuck,     ///< down longer than anyone presses: it counts as broken and is ignored
+    Freed,     ///< a stuck button came up: it counts again
+};
+
 struct PanelEvent {
     MonotonicTime time;
     int button = 0; ///< 0 = previous artifact, 1 = next artifact, 2 = language
+    PressKind kind = PressKind::Press;
 };
 
 class Panel {
@@ -20,6 +30,8 @@ public:
     /// Appends the events with time <= now that were not handed out before.
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
+    /// What is wrong with it, for a technician; empty = nothing.
+    [[nodiscard]] virtual std::string problem() const { return {}; }
 };
 
 } // namespace frustumscreen

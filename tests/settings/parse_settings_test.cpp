@@ -147,5 +147,18 @@ TEST(Settings, TheScriptIsReadInOrder) {
     EXPECT_EQ(settings.panel.repeat_s, 4.0);
 }
 
+TEST(Settings, TakesButtonsOnAGpioChip) {
+    const Settings settings =
+        parsed("[panel]\nkind = \"gpio\"\nchip = \"cp2112_gpio\"\nlines = [\"PREVIOUS\", \"5\"]\n"
+               "bias = \"as-is\"\nactive_low = false\ndebounce_ms = 12.5\nstuck_s = 60.0\n");
+    EXPECT_EQ(settings.panel.kind, PanelKind::Gpio);
+    EXPECT_EQ(settings.panel.chip, "cp2112_gpio");
+    EXPECT_EQ(settings.panel.lines, (std::vector<std::string>{"PREVIOUS", "5"}));
+    EXPECT_EQ(settings.panel.bias, ButtonBias::AsIs);
+    EXPECT_FALSE(settings.panel.active_low);
+    EXPECT_EQ(settings.panel.debounce_ms, 12.5);
+    EXPECT_EQ(settings.panel.stuck_s, 60.0);
+}
+
 } // namespace
 } // namespace frustumscreen

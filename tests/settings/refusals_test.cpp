@@ -134,6 +134,7 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[tracker]\nkind = \"magic\"",
          {":2: tracker.kind is the text \"magic\"", "\"simulated\", \"replay\""}},
         {"[eye]\ntracked = 1", {":2: eye.tracked is", "allowed are true and false"}},
+        {"[panel]\nkind = \"gpio\"", {":2: panel.kind is \"gpio\"", "panel.lines"}},
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},

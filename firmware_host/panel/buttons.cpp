@@ -1,0 +1,120 @@
+#include "firmware_host/panel/buttons.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace frustumscreen {
+
+Buttons::Buttons(std::size_t count, const ButtonTimes& times) : times_(times), buttons_(count) {}
+
+void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<PanelEvent>& events) {
+    assert(down.size() == buttons_.size());
+    if (last_ && now < *last_) {
+        return;
+    }
+    const bool first = !last_;
+    last_ = now;
+    const std::size_t begin = events.size();
+    for (std::size_t k = 0; k < buttons_.size(); ++k) {
+        Button& button = buttons_[k];
+        if (first) {
+            button = {down[k], down[k], down[k], false, now, now};
+        } else if (down[k] != button.level) {
+            button.level = down[k];
+            button.level_since = now;
+        }
+        settle(now, k, events);
+        hold(now, k, events);
+    }
+    hold_chord(now, events);
+    std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(begin), events.end(),
+                     [](const PanelEvent& a, const PanelEvent& b) { return a.time < b.time; });
+}
+
+/// A level that has held long enough counts.
+void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
+    Button& button = buttons_[which];
+    if (button.level == button.down || now - button.level_since < times_.debounce) {
+        return;
+    }
+    button.down = button.level;
+    const int number = static_cast<int>(which);
+    if (button.down) {
+        button.down_since = button.level_since;
+        events.push_back({button.level_since, number, PressKind::Press});
+        return;
+    }
+    if (button.stuck) {
+        events.push_back({button.level_since, number, PressKind::Freed});
+    }
+    button.mute = false;
+    button.stuck = false;
+}
+
+/// What a button that stays down comes to mean.
+void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
+    Button& button = buttons_[which];
+    if (!button.down || button.stuck) {
+        return;
+    }
+    const int number = static_cast<int>(which);
+    if (!button.mute && !chord_since() && now - button.down_since >= times_.long_press) {
+        button.mute = true;
+        events.push_back({button.down_since + times_.long_press, number, PressKind::LongPress});
+    }
+    if (now - button.down_since >= times_.stuck) {
+        button.stuck = true;
+        events.push_back({button.down_since + times_.stuck, number, PressKind::Stuck});
+    }
+}
+
+void Buttons::hold_chord(MonotonicTime now, std::vector<PanelEvent>& events) {
+    const std::optional<MonotonicTime> since = chord_since();
+    if (!since) {
+        chord_said_ = false;
+        return;
+    }
+    if (!chord_said_ && now - *since >= times_.chord) {
+        chord_said_ = true;
+        buttons_.front().mute = true;
+        buttons_.back().mute = true;
+        events.push_back({*since + times_.chord, 0, PressKind::Chord});
+    }
+}
+
+std::optional<MonotonicTime> Buttons::chord_since() const {
+    if (buttons_.size() < 2) {
+        return std::nullopt;
+    }
+    const Button& first = buttons_.front();
+    const Button& last = buttons_.back();
+    const bool held = first.down && last.down && !first.stuck && !last.stuck;
+    return held ? std::optional(std::max(first.down_since, last.down_since)) : std::nullopt;
+}
+
+std::optional<MonotonicTime> Buttons::due() const {
+    std::optional<MonotonicTime> next;
+    const auto consider = [&next](MonotonicTime time) { next = next ? std::min(*next, time) : time; };
+    const std::optional<MonotonicTime> chord = chord_since();
+    if (chord && !chord_said_) {
+        consider(*chord + times_.chord);
+    }
+    for (const Button& button : buttons_) {
+        if (button.level != button.down) {
+            consider(button.level_since + times_.debounce);
+        }
+        if (button.down && !button.stuck) {
+            consider(button.down_since + times_.stuck);
+            if (!button.mute && !chord) {
+                consider(button.down_since + times_.long_press);
+            }
+        }
+    }
+    return next;
+}
+
+bool Buttons::any_stuck() const {
+    return std::any_of(buttons_.begin(), buttons_.end(), [](const Button& button) { return button.stuck; });
+}
+
+} // namespace frustumscreen

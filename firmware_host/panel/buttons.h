@@ -1,0 +1,57 @@
+/// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick.
+///
+/// A level counts once it has held for the debounce time, from when it began. A button that is down at the
+/// first sample says nothing until it was up; so a chip's spurious first edge is no press.
+///
+/// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
+/// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
+#pragma once
+
+#include "firmware_host/panel/panel.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ButtonTimes {
+    Nanoseconds debounce = std::chrono::milliseconds(30);
+    Nanoseconds long_press = std::chrono::milliseconds(1500);
+    Nanoseconds chord = std::chrono::seconds(3);
+    Nanoseconds stuck = std::chrono::seconds(30);
+};
+
+class Buttons {
+public:
+    Buttons(std::size_t count, const ButtonTimes& times);
+
+    /// The levels at `now`, true = down, one each button. Appends what they mean, in ascending time.
+    void sample(MonotonicTime now, std::span<const bool> down, std::vector<PanelEvent>& events);
+    /// When something happens though no level changes; nothing = never.
+    [[nodiscard]] std::optional<MonotonicTime> due() const;
+    /// Some button counts as broken.
+    [[nodiscard]] bool any_stuck() const;
+
+private:
+    struct Button {
+        bool level = false; ///< as sampled last
+        bool down = false;  ///< as it counts
+        bool mute = false;  ///< nothing more is said until it comes up
+        bool stuck = false;
+        MonotonicTime level_since{};
+        MonotonicTime down_since{};
+    };
+    void settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
+    void hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
+    void hold_chord(MonotonicTime now, std::vector<PanelEvent>& events);
+    /// Since when the chord is held; nothing = it is not.
+    [[nodiscard]] std::optional<MonotonicTime> chord_since() const;
+
+    ButtonTimes times_;
+    std::vector<Button> buttons_;
+    std::optional<MonotonicTime> last_;
+    bool chord_said_ = false;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,137 @@
+#include "firmware_host/panel/button_lines.h"
+
+#include <fmt/format.h>
+#include <gpiod.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace frustumscreen {
+
+namespace {
+
+struct CloseChip {
+    void operator()(gpiod_chip* chip) const { ::gpiod_chip_close(chip); } // releases its lines too
+};
+using Chip = std::unique_ptr<gpiod_chip, CloseChip>;
+
+tl::unexpected<Error> lost(std::string message) {
+    return fail(ErrorKind::DeviceLost, std::move(message));
+}
+
+std::string reason(int error) {
+    switch (error) {
+    case EACCES:
+    case EPERM:
+        return "no permission; put the exhibit's user into the group gpio, or see its udev rule";
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+        return "it is not there; is it plugged in, and its driver loaded?";
+    case EBUSY:
+        return "another program holds it";
+    default:
+        return std::strerror(error);
+    }
+}
+
+gpiod_line* find(gpiod_chip* chip, const std::string& line) {
+    unsigned offset = 0;
+    const char* const end = line.data() + line.size();
+    const auto [stop, error] = std::from_chars(line.data(), end, offset);
+    return error == std::errc() && stop == end ? ::gpiod_chip_get_line(chip, offset)
+                                               : ::gpiod_chip_find_line(chip, line.c_str());
+}
+
+int flags_of(const LineRequest& request) {
+    int flags = request.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
+    switch (request.bias) {
+    case LineBias::AsIs:
+        return flags;
+    case LineBias::PullUp:
+        return flags | GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP;
+    case LineBias::PullDown:
+        return flags | GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
+    case LineBias::Disabled:
+        return flags | GPIOD_LINE_REQUEST_FLAG_BIAS_DISABLE;
+    }
+    return flags;
+}
+
+class GpiodLines final : public ButtonLines {
+public:
+    GpiodLines(Chip chip, std::string name, const gpiod_line_bulk& lines)
+        : chip_(std::move(chip)), name_(std::move(name)), lines_(lines) {}
+
+    [[nodiscard]] Result<void> read(std::span<bool> down) override {
+        for (std::size_t k = 0; k < down.size(); ++k) {
+            const int level = ::gpiod_line_get_value(lines_.lines[k]);
+            if (level < 0) {
+                return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+            }
+            down[k] = level == 1;
+        }
+        return {};
+    }
+
+    [[nodiscard]] Result<void> wait(Nanoseconds timeout) override {
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+        const timespec limit{seconds.count(), (timeout - seconds).count()};
+        gpiod_line_bulk changed{};
+        const int found = ::gpiod_line_event_wait_bulk(&lines_, &limit, &changed);
+        if (found < 0 && errno != EINTR) {
+            return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+        }
+        for (unsigned k = 0; found > 0 && k < changed.num_lines; ++k) {
+            // An edge only says that levels are worth reading.
+            std::array<gpiod_line_event, 16> events{};
+            if (::gpiod_line_event_read_multiple(changed.lines[k], events.data(), events.size()) < 0) {
+                return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+            }
+        }
+        return {};
+    }
+
+private:
+    Chip chip_;
+    std::string name_;
+    gpiod_line_bulk lines_;
+};
+
+} // namespace
+
+std::string_view name_of(LineBias bias) {
+    constexpr std::array<std::string_view, 4> names{"as-is", "pull-up", "pull-down", "disabled"};
+    return names.at(static_cast<std::size_t>(bias));
+}
+
+Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
+    Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));
+    if (!chip) {
+        return lost(fmt::format("panel: GPIO chip {}: {}", request.chip, reason(errno)));
+    }
+    gpiod_line_bulk lines{};
+    ::gpiod_line_bulk_init(&lines);
+    for (const std::string& name : request.lines) {
+        gpiod_line* const line = find(chip.get(), name);
+        if (line == nullptr) {
+            return lost(
+                fmt::format("panel: GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
+                            request.chip, name, ::gpiod_chip_num_lines(chip.get())));
+        }
+        ::gpiod_line_bulk_add(&lines, line);
+    }
+    const gpiod_line_request_config config{"frustumscreen", GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES,
+                                           flags_of(request)};
+    if (::gpiod_line_request_bulk(&lines, &config, nullptr) < 0) {
+        return lost(
+            fmt::format("panel: GPIO chip {}: its lines cannot be watched: {}", request.chip, reason(errno)));
+    }
+    return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, lines);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,121 @@
+#include "firmware_host/panel/button_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A chip that a test plugs, unplugs and presses.
+struct FakeChip {
+    std::array<std::atomic<bool>, 3> down{};
+    std::atomic<bool> plugged{true};
+    std::atomic<int> opened{0};
+};
+
+class FakeLines final : public ButtonLines {
+public:
+    explicit FakeLines(FakeChip& chip) : chip_(chip) {}
+    [[nodiscard]] Result<void> read(std::span<bool> down) override {
+        if (!chip_.plugged) {
+            return fail(ErrorKind::DeviceLost, "panel: unplugged");
+        }
+        for (std::size_t k = 0; k < down.size(); ++k) {
+            down[k] = chip_.down.at(k);
+        }
+        return {};
+    }
+    [[nodiscard]] Result<void> wait(Nanoseconds timeout) override {
+        std::this_thread::sleep_for(std::min<Nanoseconds>(timeout, milliseconds(2)));
+        return {};
+    }
+
+private:
+    FakeChip& chip_;
+};
+
+OpenLines opener(FakeChip& chip) {
+    return [&chip]() -> Result<std::unique_ptr<ButtonLines>> {
+        if (!chip.plugged) {
+            return fail(ErrorKind::DeviceLost, "panel: not there");
+        }
+        ++chip.opened;
+        return std::make_unique<FakeLines>(chip);
+    };
+}
+
+/// Polls until `done` or for ten seconds: no time is asserted.
+template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>& events, const Done& done) {
+    const auto give_up = std::chrono::steady_clock::now() + seconds(10);
+    while (!done()) {
+        if (std::chrono::steady_clock::now() > give_up) {
+            return false;
+        }
+        EXPECT_TRUE(panel.poll(MonotonicTime(std::chrono::steady_clock::now().time_since_epoch()), events));
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return true;
+}
+
+TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
+    FakeChip chip;
+    ButtonTimes times;
+    times.debounce = milliseconds(5);
+    ButtonPanel panel(opener(chip), 3, times);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+    chip.down[1] = true;
+    ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
+    EXPECT_EQ(events[0].button, 1);
+    chip.down[1] = false;
+    chip.plugged = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.problem() == "panel: not there"; }));
+    chip.plugged = true;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    EXPECT_EQ(chip.opened, 2);
+    std::this_thread::sleep_for(milliseconds(20));
+    events.clear();
+    chip.down[2] = true;
+    ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
+    EXPECT_EQ(events[0].button, 2);
+}
+
+TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
+    FakeChip chip;
+    ButtonTimes times;
+    times.debounce = milliseconds(1);
+    ButtonPanel panel(opener(chip), 3, times);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    for (std::size_t k = 0; k < ButtonPanel::most_waiting + 10; ++k) {
+        chip.down[0] = true;
+        std::this_thread::sleep_for(milliseconds(10));
+        chip.down[0] = false;
+        std::this_thread::sleep_for(milliseconds(10));
+    }
+    chip.down[2] = true;
+    std::this_thread::sleep_for(milliseconds(200));
+    events.clear();
+    ASSERT_TRUE(panel.poll(MonotonicTime(std::chrono::steady_clock::now().time_since_epoch()), events));
+    ASSERT_LE(events.size(), ButtonPanel::most_waiting);
+    ASSERT_FALSE(events.empty());
+    EXPECT_EQ(events.back().button, 2);
+}
+
+TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {
+    const Result<std::unique_ptr<ButtonLines>> lines = open_gpio_lines({"no-such-chip", {"0"}});
+    ASSERT_FALSE(lines);
+    EXPECT_EQ(lines.error().kind, ErrorKind::DeviceLost);
+    EXPECT_NE(lines.error().message.find("no-such-chip"), std::string::npos);
+    EXPECT_NE(lines.error().message.find("plugged in"), std::string::npos) << lines.error().message;
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,195 @@
+#include "firmware_host/panel/buttons.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+constexpr MonotonicTime start{seconds(50)};
+
+/// Three buttons, sampled by the millisecond.
+class Fingers {
+public:
+    explicit Fingers(const ButtonTimes& times = {}) : buttons_(3, times) { run(milliseconds(1)); }
+
+    void set(int button, bool down) { levels_.at(static_cast<std::size_t>(button)) = down; }
+    void run(Nanoseconds length) {
+        for (const MonotonicTime end = now_ + length; now_ < end; now_ += milliseconds(1)) {
+            buttons_.sample(now_, levels_, events);
+        }
+    }
+    void press(int button, Nanoseconds length) {
+        set(button, true);
+        run(length);
+        set(button, false);
+        run(milliseconds(100));
+    }
+    [[nodiscard]] MonotonicTime now() const { return now_; }
+    [[nodiscard]] int count(PressKind kind) const {
+        int found = 0;
+        for (const PanelEvent& event : events) {
+            found += event.kind == kind ? 1 : 0;
+        }
+        return found;
+    }
+
+    std::vector<PanelEvent> events;
+
+private:
+    Buttons buttons_;
+    MonotonicTime now_ = start;
+    std::array<bool, 3> levels_{};
+};
+
+TEST(Buttons, APressCountsOnceFromWhenItBegan) {
+    Fingers fingers;
+    const MonotonicTime began = fingers.now();
+    fingers.press(1, milliseconds(200));
+    ASSERT_EQ(fingers.events.size(), 1U);
+    EXPECT_EQ(fingers.events[0].time, began);
+    EXPECT_EQ(fingers.events[0].button, 1);
+    EXPECT_EQ(fingers.events[0].kind, PressKind::Press);
+}
+
+TEST(Buttons, ContactsBounceWithoutASecondPress) {
+    std::mt19937 engine(1);
+    Fingers fingers;
+    for (int press = 0; press < 50; ++press) {
+        for (const bool down : {true, false}) {
+            for (int bounce = 0; bounce < 12; ++bounce) { // for 24 ms at most, below the debounce time
+                fingers.set(0, (engine() & 1U) != 0);
+                fingers.run(milliseconds(1 + engine() % 2));
+            }
+            fingers.set(0, down);
+            fingers.run(milliseconds(150));
+        }
+    }
+    EXPECT_EQ(fingers.count(PressKind::Press), 50);
+    EXPECT_EQ(fingers.events.size(), 50U);
+}
+
+TEST(Buttons, AGlitchShorterThanTheDebounceTimeIsNothing) {
+    Fingers fingers;
+    for (int k = 0; k < 100; ++k) {
+        fingers.press(2, milliseconds(29));
+    }
+    EXPECT_TRUE(fingers.events.empty());
+}
+
+TEST(Buttons, ALongPressFollowsItsPressOnce) {
+    Fingers fingers;
+    const MonotonicTime began = fingers.now();
+    fingers.press(0, seconds(5));
+    ASSERT_EQ(fingers.events.size(), 2U);
+    EXPECT_EQ(fingers.events[1].kind, PressKind::LongPress);
+    EXPECT_EQ(fingers.events[1].time, began + milliseconds(1500));
+    fingers.press(0, milliseconds(100));
+    EXPECT_EQ(fingers.count(PressKind::Press), 2);
+}
+
+TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
+    Fingers fingers;
+    fingers.set(0, true);
+    fingers.run(milliseconds(700));
+    fingers.set(2, true);
+    const MonotonicTime both = fingers.now();
+    fingers.run(seconds(6));
+    EXPECT_EQ(fingers.count(PressKind::Chord), 1);
+    EXPECT_EQ(fingers.count(PressKind::LongPress), 0);
+    EXPECT_EQ(fingers.events.back().time, both + seconds(3));
+    fingers.set(0, false);
+    fingers.set(2, false);
+    fingers.run(milliseconds(100));
+    fingers.set(0, true);
+    fingers.set(2, true);
+    fingers.run(seconds(4));
+    EXPECT_EQ(fingers.count(PressKind::Chord), 2);
+}
+
+TEST(Buttons, AStuckButtonIsReportedOnceAndIgnoredUntilItComesUp) {
+    Fingers fingers;
+    fingers.set(1, true);
+    fingers.run(seconds(40));
+    EXPECT_EQ(fingers.count(PressKind::Press), 1);
+    EXPECT_EQ(fingers.count(PressKind::Stuck), 1);
+    fingers.press(0, milliseconds(100)); // the others go on
+    EXPECT_EQ(fingers.count(PressKind::Press), 2);
+    fingers.set(1, false);
+    fingers.run(milliseconds(100));
+    EXPECT_EQ(fingers.count(PressKind::Freed), 1);
+    fingers.press(1, milliseconds(100));
+    EXPECT_EQ(fingers.count(PressKind::Press), 3);
+}
+
+TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
+    Buttons buttons(3, {});
+    std::vector<PanelEvent> events;
+    const std::array<bool, 3> held{true, false, false};
+    for (int k = 0; k < 20'000; ++k) {
+        buttons.sample(start + milliseconds(k), held, events);
+    }
+    EXPECT_TRUE(events.empty());
+    for (int k = 20'000; k < 40'000; ++k) {
+        buttons.sample(start + milliseconds(k), held, events);
+    }
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].kind, PressKind::Stuck);
+    EXPECT_TRUE(buttons.any_stuck());
+}
+
+TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
+    Buttons buttons(3, {});
+    std::vector<PanelEvent> events;
+    const std::array<bool, 3> none{};
+    const std::array<bool, 3> one{true, false, false};
+    buttons.sample(start, none, events);
+    buttons.sample(start + seconds(1), one, events);
+    buttons.sample(start - seconds(5), none,
+                   events); // a clock never goes back; a caller's mistake does no harm
+    buttons.sample(start + seconds(1), one, events);
+    EXPECT_TRUE(events.empty());
+    buttons.sample(start + seconds(1000), one, events); // asleep for long: all that was due, in order
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0].kind, PressKind::Press);
+    EXPECT_EQ(events[1].kind, PressKind::LongPress);
+    EXPECT_EQ(events[2].kind, PressKind::Stuck);
+    EXPECT_FALSE(buttons.due());
+}
+
+TEST(Buttons, SamplingOnlyWhenSomethingIsDueGivesTheSameAsSamplingAlways) {
+    std::mt19937 engine(7);
+    for (int run = 0; run < 40; ++run) {
+        std::vector<std::array<bool, 3>> levels; // by the millisecond
+        std::array<bool, 3> now{};
+        while (levels.size() < 60'000) {
+            now.at(engine() % 3) = (engine() & 1U) != 0;
+            levels.insert(levels.end(), 1 + engine() % (run % 2 == 0 ? 100 : 6000), now);
+        }
+        Buttons always(3, {});
+        Buttons seldom(3, {});
+        std::vector<PanelEvent> expected;
+        std::vector<PanelEvent> found;
+        for (std::size_t k = 0; k < levels.size(); ++k) {
+            const MonotonicTime time = start + milliseconds(k);
+            always.sample(time, levels[k], expected);
+            const bool changed = k == 0 || levels[k] != levels[k - 1];
+            if (changed || (seldom.due() && *seldom.due() <= time)) {
+                seldom.sample(time, levels[k], found);
+            }
+        }
+        ASSERT_EQ(found.size(), expected.size()) << run;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            EXPECT_EQ(found[k].time, expected[k].time);
+            EXPECT_EQ(found[k].button, expected[k].button);
+            EXPECT_EQ(found[k].kind, expected[k].kind);
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
