@@ -53,9 +53,9 @@ double growth(double now, double reference) {
 }
 
 std::string cell(double now, double reference, bool compared) {
-    const std::string number = now < 100.0 ? fmt::format("{:.1f}", now)
-                               : now < 1e6 ? fmt::format("{:.0f}", now)
-                                           : fmt::format("{:.3f} M", 1e-6 * now);
+    std::string number = now < 100.0 ? fmt::format("{:.1f}", now)
+                         : now < 1e6 ? fmt::format("{:.0f}", now)
+                                     : fmt::format("{:.3f} M", 1e-6 * now);
     const double percent = 100.0 * (growth(now, reference) - 1.0);
     if (!compared) {
         return number;
