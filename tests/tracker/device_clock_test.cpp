@@ -8,7 +8,8 @@
 namespace frustumscreen {
 namespace {
 
-/// A device whose clock runs off, seen through transfers that are late, sometimes very. Computed in long double.
+/// A device whose clock runs off, seen through transfers that are late, sometimes very. Computed in long
+/// double.
 struct Simulation {
     long double tick_ns = 1e9L / 120;
     long double drift = 0.0L; ///< our time for each of the device's, less 1
@@ -62,8 +63,8 @@ TEST(DeviceClock, AMillisecondTimestampIsFollowedToItsOwnResolution) {
     DeviceClock clock(1e6);
     std::mt19937 engine(2);
     for (std::int64_t frame = 0; frame < 60 * 60; ++frame) {
-        const auto tick = static_cast<std::uint32_t>(std::floor(
-            static_cast<long double>(frame) * simulation.tick_ns / 1e6L));
+        const auto tick = static_cast<std::uint32_t>(
+            std::floor(static_cast<long double>(frame) * simulation.tick_ns / 1e6L));
         const MonotonicTime time = clock.time_of(tick, simulation.arrival(frame, engine));
         if (frame > 60 * 10) {
             EXPECT_NEAR(off_ns(simulation, frame, time), 0.0, 1.1e6);

@@ -1,5 +1,4 @@
 #include "firmware_host/tracker/patriot_codec.h"
-
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
@@ -12,9 +11,9 @@ namespace {
 
 using wire::Wire;
 
-const Wire frame_by_hand = wire::from_hex("5041 01 43 20 00 2800"               // PA, sensor 1, C, good, 40 bytes
-                                          "E8030000 3D000000 02000000"          // 1000 ms, frame 61, distortion 2
-                                          "0000C841 000048C2 0000C842"          // 25, -50, 100 cm
+const Wire frame_by_hand = wire::from_hex("5041 01 43 20 00 2800"      // PA, sensor 1, C, good, 40 bytes
+                                          "E8030000 3D000000 02000000" // 1000 ms, frame 61, distortion 2
+                                          "0000C841 000048C2 0000C842" // 25, -50, 100 cm
                                           "0000003F 0000003F 000000BF 0000003F" // 0.5, 0.5, -0.5, 0.5
 );
 
@@ -85,7 +84,8 @@ TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
     }
 }
 
-/// There is no checksum: a wrong bit elsewhere is refused, or moves the pose no further than the checks allow.
+/// There is no checksum: a wrong bit elsewhere is refused, or moves the pose no further than the checks
+/// allow.
 TEST(PatriotCodec, AnyOtherWrongBitGivesAPoseWithinTheTrackersReachOrNone) {
     for (std::size_t bit = 16; bit < frame_by_hand.size() * 8; ++bit) {
         Wire stream = frame_by_hand;

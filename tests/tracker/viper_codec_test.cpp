@@ -1,5 +1,4 @@
 #include "firmware_host/tracker/viper_codec.h"
-
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
@@ -200,8 +199,8 @@ TEST(ViperCodec, SixteenSensorsAreReadAndSeventeenRefused) {
 /// Each mutant in memory of exactly its size, so that the address sanitizer sees one byte too many.
 TEST(ViperCodec, AHundredThousandMutantsAreSafeAndGiveNoPoseThatWasNotSent) {
     Wire seed = frame_by_hand;
-    for (const Wire& more :
-         {wire::viper_reply(7, 3, wire::from_hex("03000000 02000000")), wire::viper_frame(9, {{}, {2}, {3}})}) {
+    for (const Wire& more : {wire::viper_reply(7, 3, wire::from_hex("03000000 02000000")),
+                             wire::viper_frame(9, {{}, {2}, {3}})}) {
         seed.insert(seed.end(), more.begin(), more.end());
     }
     const std::size_t frames_in_seed = 2;
