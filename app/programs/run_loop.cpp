@@ -170,6 +170,7 @@ private:
         RunStatus& status = result_.status;
         const ShowState state = show_.state(now);
         status.artifact = state.artifact;
+        status.tracker = inputs_.tracker ? inputs_.tracker->state() : std::string_view{};
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;

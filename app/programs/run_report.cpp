@@ -82,6 +82,7 @@ std::string status_json(const RunStatus& status) {
                                          {"probes", status.probes},
                                          {"skipped", status.late},
                                          {"device_errors", status.bad_samples},
+                                         {"tracker", status.tracker},
                                          {"prop_known", status.prop_known},
                                          {"head_known", status.head_known},
                                          {"panel_problem", status.panel_problem.data()},

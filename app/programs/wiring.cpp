@@ -5,9 +5,11 @@
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/scripted_panel.h"
+#include "firmware_host/tracker/libusb_transport.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/replay_tracker.h"
 #include "firmware_host/tracker/simulated_tracker.h"
+#include "firmware_host/tracker/usb_tracker.h"
 
 #include <cmath>
 
@@ -35,6 +37,9 @@ Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, Monotoni
             return tl::unexpected<Error>(samples.error());
         }
         return std::make_unique<ReplayTracker>(std::move(*samples), start, true);
+    }
+    if (settings.tracker.kind == TrackerKind::Usb) {
+        return std::make_unique<UsbTracker>(make_libusb_bus(), UsbTrackerSetUp{settings.tracker.hemisphere});
     }
     const Rectangle places = lit_zone(settings).any_eye_rectangle;
     SimulatedVisitor visitor;

@@ -24,8 +24,10 @@ constexpr double longest_script_s = 86400.0;
 constexpr std::array<std::string_view, 2> panel_names{"scripted", "gpio"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 constexpr std::size_t most_buttons = 3;
+constexpr double shortest_direction = 1e-3;
+
 /// By TrackerKind.
-constexpr std::array<std::string_view, 3> tracker_names{"simulated", "replay", "none"};
+constexpr std::array<std::string_view, 4> tracker_names{"simulated", "replay", "usb", "none"};
 
 constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
@@ -163,6 +165,10 @@ void read_tracker(TableReader table, const std::filesystem::path& folder, Tracke
     table.text("poses", poses);
     if (!poses.empty()) {
         tracker.poses = (folder / poses).lexically_normal();
+    }
+    table.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""});
+    if (glm::length(tracker.hemisphere) < shortest_direction) {
+        table.refuse("hemisphere", "gives no direction; allowed are three numbers of which one is not 0");
     }
     read_rigid(table, "table_from_tracker", tracker.table_from_tracker);
     table.finish();

@@ -89,12 +89,14 @@ TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
     EXPECT_EQ(visibility.lens.reach({0.0, 0.0, 1.0}), 1.2);
 }
 
-TEST(Visibility, OfARecordingProvesNothing) {
-    Settings settings;
-    settings.tracker.kind = TrackerKind::Replay;
-    const Visibility visibility = visibility_of(settings);
-    EXPECT_TRUE(std::isinf(visibility.eyes.reach({0.0, 0.0, -1.0})));
-    EXPECT_TRUE(std::isinf(visibility.lens.reach({0.0, 0.0, -1.0})));
+TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
+    for (const TrackerKind kind : {TrackerKind::Replay, TrackerKind::Usb}) {
+        Settings settings;
+        settings.tracker.kind = kind;
+        const Visibility visibility = visibility_of(settings);
+        EXPECT_TRUE(std::isinf(visibility.eyes.reach({0.0, 0.0, -1.0})));
+        EXPECT_TRUE(std::isinf(visibility.lens.reach({0.0, 0.0, -1.0})));
+    }
 }
 
 } // namespace

@@ -38,8 +38,16 @@ TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
     EXPECT_EQ(shipped.exhibit.captions, defaults.exhibit.captions);
     EXPECT_EQ(shipped.tracker.kind, defaults.tracker.kind);
     EXPECT_EQ(shipped.tracker.seed, defaults.tracker.seed);
+    EXPECT_EQ(shipped.tracker.hemisphere, defaults.tracker.hemisphere);
     EXPECT_EQ(shipped.exhibit.language, defaults.exhibit.language);
     EXPECT_EQ(shipped.exhibit.caption_height_m, defaults.exhibit.caption_height_m);
+}
+
+TEST(Settings, AUsbTrackerAndItsHemisphereAreRead) {
+    const Settings usb = parsed("[tracker]\nkind = \"usb\"\nhemisphere = [0, 0, -1]\n");
+    EXPECT_EQ(usb.tracker.kind, TrackerKind::Usb);
+    EXPECT_EQ(usb.tracker.hemisphere, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(name_of(TrackerKind::Usb), "usb");
 }
 
 TEST(Settings, AFixedSceneIsWrittenOut) {

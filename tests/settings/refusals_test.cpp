@@ -133,6 +133,7 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[tracker]\nkind = \"replay\"", {":2: tracker.kind is \"replay\"; it needs tracker.poses"}},
         {"[tracker]\nkind = \"magic\"",
          {":2: tracker.kind is the text \"magic\"", "\"simulated\", \"replay\""}},
+        {"[tracker]\nhemisphere = [0, 0, 0]", {":2: tracker.hemisphere gives no direction"}},
         {"[eye]\ntracked = 1", {":2: eye.tracked is", "allowed are true and false"}},
         {"[panel]\nkind = \"gpio\"", {":2: panel.kind is \"gpio\"", "panel.lines"}},
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},

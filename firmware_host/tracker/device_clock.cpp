@@ -1,0 +1,115 @@
+#include "firmware_host/tracker/device_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double block_ns = 1e9;
+/// Before this many seconds a slope says more of the delays than of the clock.
+constexpr std::size_t fewest_blocks = 4;
+/// Quartz is within 1e-4; this is far outside, and yet no clock of another rate.
+constexpr double most_drift = 1e-3;
+/// No arrival is this early, and none stays this late: the device's clock has jumped.
+constexpr double jump_ns = 0.5e9;
+constexpr Nanoseconds longest_late = std::chrono::seconds(1);
+
+} // namespace
+
+void DeviceClock::begin(std::uint32_t tick, MonotonicTime arrival) {
+    begun_ = true;
+    last_tick_ = tick;
+    ticks_ = 0;
+    first_arrival_ = arrival;
+    late_since_.reset();
+    block_count_ = 0;
+    block_.reset();
+    block_number_ = 0;
+    height_ns_ = 0.0; // the drift stays: it is the same quartz
+}
+
+DeviceClock::Point DeviceClock::point_of(std::int64_t ticks, MonotonicTime arrival) const {
+    const double device_ns = static_cast<double>(ticks) * tick_ns_;
+    return {device_ns, static_cast<double>((arrival - first_arrival_).count()) - device_ns};
+}
+
+/// Early at once; late only after a while, since a stalled transfer is late too and catches up.
+bool DeviceClock::jumped(const Point& point, MonotonicTime arrival) {
+    const double above_line = height_of(point) - height_ns_;
+    if (above_line <= jump_ns) {
+        late_since_.reset();
+        return above_line < -jump_ns;
+    }
+    if (!late_since_) {
+        late_since_ = arrival;
+    }
+    return arrival - *late_since_ > longest_late;
+}
+
+void DeviceClock::take(const Point& point) {
+    const auto number = static_cast<std::int64_t>(std::floor(point.device_ns / block_ns));
+    if (block_ && number != block_number_) {
+        blocks_[block_count_ % most_blocks] = *block_;
+        ++block_count_;
+        block_.reset();
+        fit();
+    }
+    if (!block_ || height_of(point) < height_of(*block_)) {
+        block_ = point;
+        block_number_ = number;
+    }
+    height_ns_ = std::min(height_ns_, height_of(point));
+}
+
+void DeviceClock::fit() {
+    const std::size_t count = std::min(block_count_, most_blocks);
+    if (count >= fewest_blocks) {
+        std::array<double, most_blocks*(most_blocks - 1) / 2> slopes{};
+        std::size_t pairs = 0;
+        for (std::size_t a = 1; a < count; ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                const double run = blocks_[a].device_ns - blocks_[b].device_ns;
+                slopes[pairs++] = (blocks_[a].late_ns - blocks_[b].late_ns) / run;
+            }
+        }
+        const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(pairs / 2);
+        std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
+        drift_ = std::clamp(*middle, -most_drift, most_drift);
+    }
+    height_ns_ = height_of(blocks_[0]);
+    for (std::size_t k = 1; k < count; ++k) {
+        height_ns_ = std::min(height_ns_, height_of(blocks_[k]));
+    }
+}
+
+MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
+    if (begun_ && tick == last_tick_ && last_time_) {
+        return *last_time_;
+    }
+    const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device does
+    if (!begun_) {
+        begin(tick, arrival);
+    } else {
+        const Point next = point_of(ticks_ + step, arrival);
+        if (step < 0 || jumped(next, arrival)) {
+            ++restarts_;
+            begin(tick, arrival);
+        } else {
+            ticks_ += step;
+            last_tick_ = tick;
+        }
+    }
+    const Point point = point_of(ticks_, arrival);
+    take(point);
+    const double since_first = point.device_ns * (1.0 + drift_) + height_ns_;
+    MonotonicTime time = first_arrival_ + Nanoseconds(std::llround(since_first));
+    if (last_time_ && time <= *last_time_) {
+        time = *last_time_ + Nanoseconds(1000);
+    }
+    last_time_ = time;
+    return time;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,54 @@
+/// What a tracker sends at one instant, whoever made it: the meeting point of the codecs and the policy.
+///
+/// Frame    tracker K, metres, quaternion w x y z.
+/// Threads  values.
+#pragma once
+
+#include "firmware_host/tracker/tracker.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace frustumscreen {
+
+struct SensorPose {
+    int sensor = 0; ///< as the connectors are numbered, from 1
+    glm::dvec3 position_m{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    int distortion = 0;  ///< 0 = an undisturbed field, 255 = the most that the device can say
+    bool usable = false; ///< finite, within reach, a rotation, and the device reports no fault of this sensor
+};
+
+struct DeviceFrame {
+    static constexpr std::size_t most_sensors = 16;
+
+    std::uint32_t counter = 0; ///< counts frames, wraps; says what was lost, doubled or comes late
+    std::uint32_t tick = 0;    ///< the device's clock, wraps; the unit is the device's
+    std::array<SensorPose, most_sensors> sensors;
+    std::size_t count = 0;    ///< of `sensors`
+    bool units_as_set = true; ///< false: not metres and quaternions; no pose of this frame is usable
+};
+
+/// Why bytes were thrown away.
+enum class Refusal {
+    Garbage,  ///< no frame begins here
+    Length,   ///< a header whose size cannot be
+    Checksum, ///< a whole frame whose CRC is wrong
+    Content,  ///< fields that contradict each other
+};
+
+/// A rotation within what 32-bit numbers and a bent sensor may do, and a place that a magnetic tracker
+/// reaches.
+[[nodiscard]] inline bool is_pose(const glm::dvec3& position_m, const glm::dquat& rotation) {
+    constexpr double farthest_m = 10.0;
+    constexpr double quaternion_tolerance = 0.01;
+    const double length = std::sqrt(rotation.w * rotation.w + rotation.x * rotation.x +
+                                    rotation.y * rotation.y + rotation.z * rotation.z);
+    // Written so that NaN fails.
+    return std::abs(length - 1.0) < quaternion_tolerance && std::abs(position_m.x) < farthest_m &&
+           std::abs(position_m.y) < farthest_m && std::abs(position_m.z) < farthest_m;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,43 @@
+/// One device's talk from the moment it is opened: set-up, verification, streaming. Bytes in, bytes out; no
+/// I/O.
+///
+/// Time     a parameter throughout, so that a session runs under a simulated clock.
+/// Threads  one caller; allocates nothing once `samples` has its room.
+#pragma once
+
+#include "firmware_host/tracker/frame_intake.h"
+
+#include <span>
+
+namespace frustumscreen {
+
+/// What is asked of a tracker, whatever its make.
+struct UsbTrackerSetUp {
+    /// Towards the half space of the source in which the sensors are; the tracker cannot tell it from the
+    /// other.
+    glm::dvec3 hemisphere{1.0, 0.0, 0.0};
+};
+
+class DeviceSession {
+public:
+    virtual ~DeviceSession() = default;
+    /// The command to send now; empty: none is due. Valid until the next call.
+    [[nodiscard]] virtual std::span<const std::byte> due(MonotonicTime now) = 0;
+    virtual void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
+                         std::vector<PoseSample>& samples) = 0;
+    [[nodiscard]] virtual UsbTrackerState state(MonotonicTime now) const = 0;
+    /// This device will not stream: close it, and look for one again.
+    [[nodiscard]] virtual bool failed() const = 0;
+    [[nodiscard]] virtual const FrameIntake& intake() const = 0;
+};
+
+/// Times that both makes share.
+struct SessionTimes {
+    static constexpr Nanoseconds reply = std::chrono::milliseconds(200); ///< then a command is sent again
+    static constexpr Nanoseconds booting = std::chrono::milliseconds(300);
+    static constexpr Nanoseconds quiet =
+        std::chrono::milliseconds(250); ///< then streaming is asked for again
+    static constexpr int tries = 3;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,52 @@
+/// A PATRIOT's or LIBERTY's session: text for the set-up, the units read back, then binary frames.
+///
+/// The family answers no command that it accepts; only the questions are answered. What was set besides the
+/// units shows in the frames: their size is the chosen fields', their quaternion has length 1. Frame, units,
+/// time, threads: see device_session.h.
+#pragma once
+
+#include "firmware_host/tracker/device_session.h"
+#include "firmware_host/tracker/patriot_codec.h"
+#include "firmware_host/tracker/stream_buffer.h"
+
+#include <string>
+
+namespace frustumscreen {
+
+class PatriotSession final : public DeviceSession {
+public:
+    explicit PatriotSession(const UsbTrackerSetUp& set_up);
+
+    [[nodiscard]] std::span<const std::byte> due(MonotonicTime now) override;
+    void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
+                 std::vector<PoseSample>& samples) override;
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
+    [[nodiscard]] bool failed() const override { return failed_; }
+    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+
+private:
+    enum class Need { Nothing, AnyText, Metric };
+    struct Step {
+        std::string command;
+        Need need = Need::Nothing;
+    };
+
+    void read_answer(MonotonicTime now);
+    void read_frames(MonotonicTime arrival, std::vector<PoseSample>& samples);
+    void next(MonotonicTime now);
+    void try_again(UsbTrackerState trouble, MonotonicTime now);
+    [[nodiscard]] bool streaming() const { return at_ == steps_.size(); }
+
+    std::vector<Step> steps_;
+    std::size_t at_ = 0;
+    int tries_ = 0;
+    std::optional<MonotonicTime> sent_;
+    std::optional<MonotonicTime> pause_;
+    std::optional<MonotonicTime> awake_;
+    UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
+    bool failed_ = false;
+    StreamBuffer stream_;
+    FrameIntake intake_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,46 @@
+/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again.
+///
+/// Time     read from the clock handed in, since a read takes its time. A device that is back is found within
+///          `between_searches` and streams one set-up later, together well below 2 s.
+/// Threads  one caller; a step blocks for at most one write and one read.
+/// Errors   none; `state` says what is the matter.
+#pragma once
+
+#include "firmware_host/tracker/device_session.h"
+#include "firmware_host/tracker/usb_transport.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+class UsbTrackerDriver {
+public:
+    static constexpr Nanoseconds between_searches = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds write_timeout = std::chrono::milliseconds(200);
+    static constexpr Nanoseconds read_timeout = std::chrono::milliseconds(20);
+
+    using Clock = std::function<MonotonicTime()>;
+    UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock);
+
+    /// One round; appends what came in. Returns how long to rest before the next.
+    [[nodiscard]] Nanoseconds step(std::vector<PoseSample>& samples);
+    [[nodiscard]] UsbTrackerState state() const { return state_; }
+    /// Of the device that is open now; zeros if none is.
+    [[nodiscard]] IntakeCounts counts() const;
+    [[nodiscard]] double clock_drift() const;
+
+private:
+    [[nodiscard]] Nanoseconds search();
+    [[nodiscard]] Nanoseconds lose(UsbTrackerState state);
+    void report(UsbTrackerState state);
+
+    std::unique_ptr<UsbBus> bus_;
+    UsbTrackerSetUp set_up_;
+    Clock clock_;
+    std::unique_ptr<UsbTransport> transport_;
+    std::unique_ptr<DeviceSession> session_;
+    UsbTrackerState state_ = UsbTrackerState::NotConnected;
+    std::array<std::byte, 4096> buffer_{}; ///< a multiple of any bulk packet: a transfer never overflows it
+};
+
+} // namespace frustumscreen

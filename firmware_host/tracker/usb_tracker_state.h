@@ -1,0 +1,67 @@
+/// What is the matter with a USB tracker, and the sentence that says so to the person beside it.
+///
+/// Threads  values.
+#pragma once
+
+#include <string_view>
+
+namespace frustumscreen {
+
+enum class UsbTrackerState {
+    NotConnected,
+    NoPermission,
+    FirmwareNotLoaded,
+    InUse,
+    UsbFailed,
+    SettingUp,
+    Booting,
+    WrongUnits,
+    SetUpRefused,
+    Silent,
+    Streaming,
+    SensorMissing,
+    MetalNear,
+};
+
+/// One plain sentence: what, and what to do. Streaming, where all is well, says so too.
+[[nodiscard]] constexpr std::string_view sentence_of(UsbTrackerState state) {
+    switch (state) {
+    case UsbTrackerState::NotConnected:
+        return "no tracker is connected; check its USB cable and its power";
+    case UsbTrackerState::NoPermission:
+        return "a tracker is connected, but this user may not open it; install the udev rule for USB vendor "
+               "0f44";
+    case UsbTrackerState::FirmwareNotLoaded:
+        return "the tracker is connected, but its firmware is not loaded; load it with Polhemus' own loader";
+    case UsbTrackerState::InUse:
+        return "the tracker is in use by another program; end that program";
+    case UsbTrackerState::UsbFailed:
+        return "USB cannot be used on this machine; check that /dev/bus/usb is there";
+    case UsbTrackerState::SettingUp:
+        return "the tracker is being set up";
+    case UsbTrackerState::Booting:
+        return "the tracker is still booting; wait";
+    case UsbTrackerState::WrongUnits:
+        return "the tracker does not keep metric units; switch it off and on, and update its firmware if it "
+               "stays so";
+    case UsbTrackerState::SetUpRefused:
+        return "the tracker refuses its set-up or does not answer; switch it off and on";
+    case UsbTrackerState::Silent:
+        return "the tracker has stopped sending; if it stays so, switch it off and on";
+    case UsbTrackerState::Streaming:
+        return "the tracker is running";
+    case UsbTrackerState::SensorMissing:
+        return "the tracker runs, but the prop's sensor is missing; plug it into connector 1";
+    case UsbTrackerState::MetalNear:
+        return "the tracker's field is distorted; take metal away from its source and sensors";
+    }
+    return "";
+}
+
+/// Poses come in, good or less good.
+[[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
+    return state == UsbTrackerState::Streaming || state == UsbTrackerState::SensorMissing ||
+           state == UsbTrackerState::MetalNear;
+}
+
+} // namespace frustumscreen

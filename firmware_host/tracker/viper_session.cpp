@@ -1,0 +1,184 @@
+#include "firmware_host/tracker/viper_session.h"
+
+#include "firmware_host/base/byte_reader.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uint32_t rate_120_hz = 2;
+constexpr double rate_hz = 120.0;
+constexpr double least_agreement = 0.999; ///< cosine between the hemispheres set and answered
+/// F, FLow, FHigh, factor: 0, 1, 0, 0 is no filter.
+constexpr std::array<float, 4> no_filter{0.0F, 1.0F, 0.0F, 0.0F};
+
+template <typename T> std::span<const std::byte> bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+std::array<float, 3> direction(const glm::dvec3& v) {
+    const glm::dvec3 unit = glm::normalize(v);
+    return {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)};
+}
+
+struct HemispherePayload {
+    std::uint32_t track = 0; ///< 0: the half space stays where it is
+    std::array<float, 3> direction{};
+};
+using UnitsPayload = std::array<std::uint32_t, 2>;
+
+} // namespace
+
+ViperSession::ViperSession(const UsbTrackerSetUp& set_up)
+    : hemisphere_(direction(set_up.hemisphere)), intake_(1e9 / rate_hz) {
+    using C = ViperCommand;
+    using A = ViperAction;
+    const UnitsPayload units{viper_metres, viper_quaternion};
+    const HemispherePayload half{0, hemisphere_};
+    const auto add = [this](C name, A action, Need need, std::span<const std::byte> payload = {},
+                            std::size_t set_by = 0, std::uint32_t arg2 = 0) {
+        steps_.push_back(
+            {ViperCommandBytes(name, action, payload, viper_all_sensors, arg2), name, need, set_by});
+    };
+    add(C::Continuous, A::Reset, Need::Try); // whatever an earlier program left running
+    add(C::WhoAmI, A::Get, Need::Ack);
+    add(C::Units, A::Set, Need::Ack, bytes_of(units));
+    add(C::Units, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::Hemisphere, A::Set, Need::Ack, bytes_of(half));
+    add(C::Hemisphere, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 0);
+    add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 1);
+    add(C::FrameRate, A::Set, Need::Ack, bytes_of(rate_120_hz));
+    add(C::FrameRate, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::Continuous, A::Set, Need::Ack);
+}
+
+std::span<const std::byte> ViperSession::due(MonotonicTime now) {
+    if (streaming()) {
+        const MonotonicTime heard = std::max(intake_.latest().value_or(*awake_), *awake_);
+        if (now - heard <= SessionTimes::quiet) {
+            return {};
+        }
+        try_again(steps_.size() - 1, UsbTrackerState::Silent);
+    }
+    if (sent_ && now - *sent_ > SessionTimes::reply) {
+        if (steps_[at_].need == Need::Try) {
+            next();
+        } else {
+            try_again(at_, trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_);
+        }
+    }
+    if (failed_ || sent_ || streaming() || (pause_ && now < *pause_)) {
+        return {};
+    }
+    if (stream_stale_) {
+        stream_.clear(); // half a frame would swallow the answer
+        stream_stale_ = false;
+    }
+    pause_.reset();
+    sent_ = now;
+    return steps_[at_].command.bytes();
+}
+
+void ViperSession::next() {
+    ++at_;
+    sent_.reset();
+}
+
+void ViperSession::try_again(std::size_t from, UsbTrackerState trouble) {
+    at_ = from;
+    sent_.reset();
+    stream_stale_ = true;
+    trouble_ = trouble;
+    failed_ = ++tries_ >= SessionTimes::tries;
+}
+
+bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
+    ByteReader reader(reply.payload);
+    switch (steps_[at_].name) {
+    case ViperCommand::Units: {
+        const auto units = reader.read<UnitsPayload>();
+        return reader.ok() && units == UnitsPayload{viper_metres, viper_quaternion};
+    }
+    case ViperCommand::FrameRate:
+        return reader.read<std::uint32_t>() == rate_120_hz && reader.ok();
+    case ViperCommand::Hemisphere: {
+        const auto half = reader.read<HemispherePayload>();
+        double cosine = 0.0;
+        double squared = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto component = static_cast<double>(half.direction[k]);
+            cosine += component * static_cast<double>(hemisphere_[k]);
+            squared += component * component;
+        }
+        return reader.ok() && cosine >= least_agreement * std::sqrt(squared) && squared > 0.0;
+    }
+    default:
+        return true;
+    }
+}
+
+void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
+    if (streaming() || !sent_ || reply.command != static_cast<std::uint32_t>(steps_[at_].name)) {
+        return; // late, or not asked for
+    }
+    const Step& step = steps_[at_];
+    if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
+        if (step.need == Need::Same && !repeats_what_was_set(reply)) {
+            const bool units = step.name == ViperCommand::Units;
+            try_again(step.set_by, units ? UsbTrackerState::WrongUnits : UsbTrackerState::SetUpRefused);
+            return;
+        }
+        next();
+        if (streaming()) {
+            awake_ = now;
+        }
+        return;
+    }
+    const auto nak = ByteReader(reply.payload).read<std::uint32_t>();
+    if (reply.payload.size() >= 4 && nak == static_cast<std::uint32_t>(ViperNak::Booting)) {
+        trouble_ = UsbTrackerState::Booting; // no try is spent: it may take as long as it takes
+        sent_.reset();
+        pause_ = now + SessionTimes::booting;
+    } else if (step.need == Need::Try) {
+        next();
+    } else {
+        try_again(at_, UsbTrackerState::SetUpRefused);
+    }
+}
+
+void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arrival,
+                           std::vector<PoseSample>& samples) {
+    while (!bytes.empty()) {
+        bytes = bytes.subspan(stream_.append(bytes));
+        while (true) {
+            const ViperStep step = parse_viper(stream_.bytes());
+            if (step.consumed == 0) {
+                break;
+            }
+            if (const auto* reply = std::get_if<ViperReply>(&step.message)) {
+                answer(*reply, arrival);
+            } else if (std::holds_alternative<Refusal>(step.message)) {
+                intake_.count_refusal();
+            } else if (const auto* frame = std::get_if<DeviceFrame>(&step.message); frame && streaming()) {
+                if (!frame->units_as_set) {
+                    try_again(0, UsbTrackerState::WrongUnits);
+                } else {
+                    intake_.take(*frame, arrival, samples);
+                    tries_ = 0;
+                    trouble_ = UsbTrackerState::SettingUp;
+                }
+            }
+            stream_.drop(step.consumed);
+        }
+    }
+}
+
+UsbTrackerState ViperSession::state(MonotonicTime now) const {
+    const bool heard = streaming() && intake_.latest() && *intake_.latest() >= *awake_;
+    return heard ? intake_.state(now) : trouble_;
+}
+
+} // namespace frustumscreen

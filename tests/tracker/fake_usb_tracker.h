@@ -1,0 +1,215 @@
+/// A tracker on a fake bus under a fake clock, spoken to in the wire formats' own bytes; it misbehaves as it
+/// is told.
+#pragma once
+
+#include "firmware_host/tracker/usb_transport.h"
+#include "tests/tracker/wire_bytes.h"
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace frustumscreen {
+
+struct FakeUsbTracker {
+    UsbTrackerModel model = UsbTrackerModel::Viper;
+    MonotonicTime now = from_microseconds(1'000'000);
+    UsbTrackerState in_the_way = UsbTrackerState::NotConnected; ///< what a search says while not plugged in
+    bool plugged = true;
+    MonotonicTime boots_until{}; ///< until then commands are answered with 'still booting'
+    bool keeps_inches = false;   ///< answers that units were set, and does not set them
+    bool deaf = false;           ///< answers nothing
+    bool mute = false;           ///< sends no frames
+    bool refuses_filter = false;
+    bool streaming = false;
+    std::uint32_t counter = 0;
+    std::uint32_t highest = 0; ///< counter of all that were sent
+    std::vector<int> connectors{1, 2};
+    unsigned distortion = 0;
+    unsigned position_units = 3;
+    /// What becomes of a frame on its way; empty: nothing.
+    std::function<std::vector<wire::Wire>(wire::Wire)> mischief;
+
+    std::deque<wire::Wire> to_host;
+    std::vector<std::uint32_t> commands;   ///< VIPER: command * 16 + action, as they came
+    std::string text;                      ///< PATRIOT: all that came
+    std::optional<int> unplug_after_calls; ///< then the cable comes out
+    MonotonicTime next_frame{};
+
+    [[nodiscard]] Nanoseconds period() const {
+        return Nanoseconds(model == UsbTrackerModel::Viper ? 8'333'333 : 16'666'667);
+    }
+    /// Different in every frame and sensor, exact in 32 bits; metres.
+    [[nodiscard]] static glm::dvec3 position_of(std::uint32_t frame, int connector) {
+        return {static_cast<double>(frame % 1024) / 1024.0, static_cast<double>(frame / 1024 % 64) / 64.0,
+                connector / 16.0};
+    }
+    /// Whether a sample at this place was ever sent.
+    [[nodiscard]] bool was_sent(const PoseSample& sample) const {
+        const auto low = static_cast<std::uint32_t>(std::lround(sample.position_m.x * 1024.0));
+        const auto high = static_cast<std::uint32_t>(std::lround(sample.position_m.y * 64.0));
+        const std::uint32_t frame = high * 1024 + low;
+        return frame <= highest &&
+               glm::distance(position_of(frame, sample.station), sample.position_m) < 1e-6;
+    }
+
+    void restart() {
+        streaming = false;
+        to_host.clear();
+        next_frame = {};
+    }
+    /// Frames up to now.
+    void run() {
+        if (!streaming || mute) {
+            next_frame = now + period();
+            return;
+        }
+        for (; next_frame <= now; next_frame += period()) {
+            highest = std::max(highest, ++counter);
+            for (wire::Wire& frame : frames()) {
+                for (wire::Wire& bytes : mischief ? mischief(frame) : std::vector<wire::Wire>{frame}) {
+                    to_host.push_back(std::move(bytes));
+                }
+            }
+        }
+    }
+    [[nodiscard]] std::vector<wire::Wire> frames() const {
+        std::vector<wire::Pose> poses;
+        const double units = model == UsbTrackerModel::Viper ? 1.0 : 100.0;
+        for (const int connector : connectors) {
+            const glm::vec3 at(position_of(counter, connector) * units);
+            poses.push_back(
+                {connector, {at.x, at.y, at.z}, {0.5F, 0.5F, -0.5F, 0.5F}, distortion, position_units});
+        }
+        if (model == UsbTrackerModel::Viper) {
+            return {wire::viper_frame(counter, poses)};
+        }
+        std::vector<wire::Wire> all;
+        for (const wire::Pose& pose : poses) {
+            all.push_back(
+                wire::patriot_frame(static_cast<std::uint32_t>(counter * 16.666667), counter, pose));
+        }
+        return all;
+    }
+
+    void hear(std::span<const std::byte> bytes) {
+        if (deaf) {
+            return;
+        }
+        model == UsbTrackerModel::Viper ? hear_viper(bytes) : hear_patriot(bytes);
+    }
+    void hear_viper(std::span<const std::byte> bytes) {
+        const auto word = [&](std::size_t at) {
+            std::uint32_t value = 0;
+            std::memcpy(&value, bytes.data() + at, sizeof(value));
+            return value;
+        };
+        const std::uint32_t command = word(12);
+        const std::uint32_t action = word(16);
+        commands.push_back(command * 16 + action);
+        wire::Wire payload;
+        if (now < boots_until) {
+            wire::put(payload, std::uint32_t{1});
+            to_host.push_back(wire::viper_reply(command, 4, payload));
+            return;
+        }
+        if (command == 1 && refuses_filter) {
+            wire::put(payload, std::uint32_t{2});
+            to_host.push_back(wire::viper_reply(command, 4, payload));
+            return;
+        }
+        if (action == 0 && bytes.size() > 32) {
+            settings[command].assign(bytes.begin() + 28, bytes.end() - 4);
+        }
+        if (action == 1) {
+            payload = settings[command];
+        }
+        if (command == 7 && keeps_inches && action == 1) {
+            payload = wire::from_hex("00000000 02000000");
+        }
+        if (command == 19) {
+            streaming = action == 0;
+            next_frame = now + period();
+        }
+        to_host.push_back(wire::viper_reply(command, 3, payload));
+    }
+    void hear_patriot(std::span<const std::byte> bytes) {
+        const std::string line(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        text += line;
+        const auto say = [&](std::string_view answer) {
+            const auto said = std::as_bytes(std::span(answer.data(), answer.size()));
+            to_host.emplace_back(said.begin(), said.end());
+        };
+        if (line == "P" || line == "C\r") {
+            streaming = line != "P";
+            next_frame = now + period();
+        } else if (line == "\x16\r") {
+            say("00V PATRIOT\r\n");
+        } else if (line == "U\r") {
+            say(keeps_inches ? "00U 0\r\n" : "00U 1\r\n");
+        }
+    }
+    std::array<wire::Wire, 32> settings; ///< VIPER: payloads set, by command
+};
+
+class FakeTransport final : public UsbTransport {
+public:
+    explicit FakeTransport(FakeUsbTracker& device) : device_(device) {}
+    [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds timeout) override {
+        if (gone()) {
+            return fail(ErrorKind::DeviceLost, "unplugged");
+        }
+        device_.run();
+        if (device_.to_host.empty()) {
+            device_.now += device_.streaming ? std::min(timeout, device_.period()) : timeout;
+            device_.run();
+        }
+        if (device_.to_host.empty()) {
+            return 0U;
+        }
+        device_.now += std::chrono::microseconds(50);
+        const wire::Wire bytes = std::move(device_.to_host.front());
+        device_.to_host.pop_front();
+        std::copy(bytes.begin(), bytes.end(), buffer.begin());
+        return bytes.size();
+    }
+    [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds) override {
+        if (gone()) {
+            return fail(ErrorKind::DeviceLost, "unplugged");
+        }
+        device_.now += std::chrono::microseconds(100);
+        device_.run();
+        device_.hear(bytes);
+        return {};
+    }
+    void close() override {}
+
+private:
+    [[nodiscard]] bool gone() {
+        if (device_.unplug_after_calls && --*device_.unplug_after_calls < 0) {
+            device_.plugged = false;
+            device_.unplug_after_calls.reset();
+            device_.restart();
+        }
+        return !device_.plugged;
+    }
+    FakeUsbTracker& device_;
+};
+
+class FakeBus final : public UsbBus {
+public:
+    explicit FakeBus(FakeUsbTracker& device) : device_(device) {}
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+        if (!device_.plugged) {
+            return tl::unexpected(device_.in_the_way);
+        }
+        return FoundTracker{std::make_unique<FakeTransport>(device_), device_.model};
+    }
+
+private:
+    FakeUsbTracker& device_;
+};
+
+} // namespace frustumscreen

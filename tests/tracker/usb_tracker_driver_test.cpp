@@ -1,0 +1,345 @@
+#include "firmware_host/tracker/usb_ids.h"
+#include "firmware_host/tracker/usb_tracker_driver.h"
+#include "tests/tracker/fake_usb_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class Bench {
+public:
+    explicit Bench(UsbTrackerModel model)
+        : driver_(std::make_unique<FakeBus>(device), {}, [this] { return device.now; }) {
+        device.model = model;
+    }
+
+    /// Runs on; what came meanwhile is in `samples`, checked against what was sent.
+    void run(Nanoseconds length) {
+        const MonotonicTime end = device.now + length;
+        while (device.now < end) {
+            step();
+        }
+    }
+    /// Until it streams; how long that took, or nothing within `longest`.
+    std::optional<Nanoseconds> until_streaming(Nanoseconds longest) {
+        const MonotonicTime start = device.now;
+        while (device.now - start < longest) {
+            step();
+            if (is_streaming(state())) {
+                return device.now - start;
+            }
+        }
+        return std::nullopt;
+    }
+    [[nodiscard]] UsbTrackerState state() const { return driver_.state(); }
+    [[nodiscard]] IntakeCounts counts() const { return driver_.counts(); }
+
+    FakeUsbTracker device;
+    std::vector<PoseSample> samples;
+
+private:
+    void step() {
+        const std::size_t before = samples.size();
+        device.now += driver_.step(samples);
+        for (std::size_t k = before; k < samples.size(); ++k) {
+            EXPECT_TRUE(!samples[k].ok || device.was_sent(samples[k]));
+            EXPECT_LE(samples[k].time, device.now);
+            EXPECT_TRUE(k == 0 || samples[k - 1].time <= samples[k].time);
+        }
+    }
+    UsbTrackerDriver driver_;
+};
+
+const std::vector<UsbTrackerModel> models{UsbTrackerModel::Viper, UsbTrackerModel::Patriot};
+
+TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        ASSERT_TRUE(bench.until_streaming(seconds(2)));
+        bench.run(seconds(5));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+        const double rate = model == UsbTrackerModel::Viper ? 120.0 : 60.0;
+        EXPECT_NEAR(static_cast<double>(bench.samples.size()), 2 * 5 * rate, 6.0);
+        EXPECT_LT(bench.device.now - bench.samples.back().time, milliseconds(18));
+        EXPECT_EQ(bench.counts().lost + bench.counts().duplicated + bench.counts().reordered, 0U);
+        EXPECT_EQ(bench.counts().refused + bench.counts().unusable + bench.counts().strange, 0U);
+        EXPECT_LT(glm::distance(bench.samples.back().rotation * glm::dvec3(1, 0, 0),
+                                glm::dquat(0.5, 0.5, -0.5, 0.5) * glm::dvec3(1, 0, 0)),
+                  1e-12);
+    }
+}
+
+TEST(UsbTrackerDriver, AViperStreamsOnlyAfterUnitsHemisphereAndRateWereReadBack) {
+    Bench bench(UsbTrackerModel::Viper);
+    ASSERT_TRUE(bench.until_streaming(seconds(2)));
+    constexpr std::uint32_t set = 0;
+    constexpr std::uint32_t get = 1;
+    const std::vector<std::uint32_t> expected{19 * 16 + 2,  20 * 16 + get, 7 * 16 + set, 7 * 16 + get,
+                                              0 * 16 + set, 0 * 16 + get,  1 * 16 + set, 1 * 16 + set,
+                                              6 * 16 + set, 6 * 16 + get,  19 * 16 + set};
+    EXPECT_EQ(bench.device.commands, expected);
+    EXPECT_EQ(bench.device.settings[7], wire::from_hex("03000000 02000000"));
+    EXPECT_EQ(bench.device.settings[0], wire::from_hex("00000000 0000803F 00000000 00000000"));
+    EXPECT_EQ(bench.device.settings[6], wire::from_hex("02000000"));
+}
+
+TEST(UsbTrackerDriver, APatriotIsToldEverythingBeforeItStreams) {
+    Bench bench(UsbTrackerModel::Patriot);
+    ASSERT_TRUE(bench.until_streaming(seconds(2)));
+    EXPECT_EQ(bench.device.text, "PF0\r\x16\rU1\rU\rH*,1.0000,0.0000,0.0000\rX0,1,0,0\rY0,1,0,0\r"
+                                 "O*,8,9,11,3,7\r@B0\rF1\rC\r");
+}
+
+TEST(UsbTrackerDriver, ADeviceThatStreamsAlreadyIsSetUpAllTheSame) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        bench.device.streaming = true;
+        bench.device.position_units = model == UsbTrackerModel::Viper ? 0 : 3;
+        const auto good = [&](wire::Wire frame) { // inches until it is told
+            bench.device.position_units = bench.device.settings[7].empty() ? 0 : 3;
+            return std::vector<wire::Wire>{std::move(frame)};
+        };
+        if (model == UsbTrackerModel::Viper) {
+            bench.device.mischief = good;
+        }
+        EXPECT_TRUE(bench.until_streaming(seconds(2)));
+    }
+}
+
+TEST(UsbTrackerDriver, ADeviceThatKeepsInchesNeverStreams) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        bench.device.keeps_inches = true;
+        bench.run(seconds(10));
+        EXPECT_TRUE(bench.samples.empty());
+        EXPECT_EQ(bench.state(), UsbTrackerState::WrongUnits);
+        bench.device.keeps_inches = false;
+        EXPECT_TRUE(bench.until_streaming(seconds(2)));
+    }
+}
+
+TEST(UsbTrackerDriver, UnitsThatChangeWhileItStreamsAreSetAgainAndNoPoseOfThemIsUsed) {
+    Bench bench(UsbTrackerModel::Viper);
+    ASSERT_TRUE(bench.until_streaming(seconds(2)));
+    bench.device.commands.clear();
+    bench.device.position_units = 2;
+    bench.run(milliseconds(100));
+    const std::size_t before = bench.samples.size();
+    bench.run(seconds(1));
+    EXPECT_EQ(bench.samples.size(), before);
+    EXPECT_FALSE(is_streaming(bench.state()));
+    EXPECT_FALSE(bench.device.commands.empty());
+    bench.device.position_units = 3;
+    EXPECT_TRUE(bench.until_streaming(seconds(2)));
+}
+
+TEST(UsbTrackerDriver, ABootingDeviceIsWaitedForAndSaysSo) {
+    Bench bench(UsbTrackerModel::Viper);
+    bench.device.boots_until = bench.device.now + seconds(8);
+    bench.run(milliseconds(7900));
+    EXPECT_EQ(bench.state(), UsbTrackerState::Booting);
+    EXPECT_TRUE(bench.until_streaming(seconds(2)));
+}
+
+TEST(UsbTrackerDriver, ADeafDeviceIsTriedAgainUntilItAnswers) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        bench.device.deaf = true;
+        bench.run(seconds(20));
+        EXPECT_EQ(bench.state(), UsbTrackerState::SetUpRefused);
+        bench.device.deaf = false;
+        EXPECT_TRUE(bench.until_streaming(seconds(2)));
+    }
+}
+
+TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsNoReasonNotToStream) {
+    Bench bench(UsbTrackerModel::Viper);
+    bench.device.refuses_filter = true;
+    EXPECT_TRUE(bench.until_streaming(seconds(2)));
+}
+
+/// The cable comes out at every single read and write of set-up and streaming, and is back three seconds
+/// later.
+TEST(UsbTrackerDriver, UnpluggedAtAnyMomentItIsBackWithinTwoSeconds) {
+    for (const UsbTrackerModel model : models) {
+        for (int calls = 0; calls < 120; ++calls) {
+            Bench bench(model);
+            bench.device.unplug_after_calls = calls;
+            bench.run(seconds(5));
+            ASSERT_EQ(bench.state(), UsbTrackerState::NotConnected) << calls;
+            bench.device.plugged = true;
+            const std::optional<Nanoseconds> took = bench.until_streaming(seconds(2));
+            ASSERT_TRUE(took) << calls;
+            EXPECT_LT(*took, seconds(1)) << calls;
+        }
+    }
+}
+
+TEST(UsbTrackerDriver, ADeviceThatFallsSilentIsReportedAndTakenUpAgain) {
+    for (const UsbTrackerModel model : models) {
+        for (const Nanoseconds length : {Nanoseconds(milliseconds(400)), Nanoseconds(seconds(10))}) {
+            Bench bench(model);
+            ASSERT_TRUE(bench.until_streaming(seconds(2)));
+            bench.device.mute = true;
+            bench.run(length);
+            EXPECT_EQ(bench.state(), UsbTrackerState::Silent);
+            bench.device.mute = false;
+            EXPECT_TRUE(bench.until_streaming(seconds(2)));
+            bench.run(seconds(1));
+            EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+        }
+    }
+}
+
+TEST(UsbTrackerDriver, SaysInPlainWordsWhatIsInTheWay) {
+    const std::vector<std::pair<UsbTrackerState, std::string>> cases{
+        {UsbTrackerState::NotConnected, "no tracker is connected"},
+        {UsbTrackerState::NoPermission, "may not open it"},
+        {UsbTrackerState::FirmwareNotLoaded, "firmware is not loaded"},
+        {UsbTrackerState::InUse, "another program"},
+    };
+    for (const auto& [state, words] : cases) {
+        Bench bench(UsbTrackerModel::Viper);
+        bench.device.plugged = false;
+        bench.device.in_the_way = state;
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), state);
+        EXPECT_NE(sentence_of(bench.state()).find(words), std::string_view::npos);
+    }
+}
+
+TEST(UsbTrackerDriver, KnowsTheDevicesByTheirIds) {
+    EXPECT_EQ(known_tracker(0x0f44, 0xbf01)->model, UsbTrackerModel::Viper);
+    EXPECT_TRUE(known_tracker(0x0f44, 0xef12)->firmware_loaded);
+    EXPECT_FALSE(known_tracker(0x0f44, 0xef11)->firmware_loaded);
+    EXPECT_EQ(known_tracker(0x0f44, 0xff20)->model, UsbTrackerModel::Liberty);
+    EXPECT_FALSE(known_tracker(0x0f44, 0x0001));
+    EXPECT_FALSE(known_tracker(0x10c4, 0xbf01));
+}
+
+TEST(UsbTrackerDriver, MetalAndAMissingSensorAreSaid) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        ASSERT_TRUE(bench.until_streaming(seconds(2)));
+        bench.device.distortion = 200;
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::MetalNear);
+        bench.device.distortion = 0;
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+        bench.device.connectors = {2};
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::SensorMissing);
+        bench.device.connectors = {1, 2};
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+    }
+}
+
+TEST(UsbTrackerDriver, LostDoubledAndLateFramesAreCountedAndNoneIsHandedOutTwice) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        bench.device.connectors = {1};
+        std::mt19937 engine(9);
+        std::uint64_t lost = 0;
+        std::uint64_t doubled = 0;
+        std::optional<wire::Wire> held;
+        std::uint64_t late = 0;
+        bench.device.mischief = [&](wire::Wire frame) -> std::vector<wire::Wire> {
+            if (held) { // comes after its successor
+                ++late;
+                const wire::Wire before = *std::exchange(held, std::nullopt);
+                return {frame, before};
+            }
+            switch (engine() % 12) {
+            case 0:
+                ++lost;
+                return {};
+            case 1:
+                ++doubled;
+                return {frame, frame};
+            case 2:
+                held = frame;
+                return {};
+            default:
+                return {frame};
+            }
+        };
+        bench.run(seconds(20));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+        EXPECT_NEAR(static_cast<double>(bench.counts().lost), static_cast<double>(lost + late), 2.0);
+        EXPECT_EQ(bench.counts().duplicated, doubled);
+        EXPECT_EQ(bench.counts().reordered, late);
+        for (std::size_t k = 1; k < bench.samples.size(); ++k) {
+            EXPECT_LT(bench.samples[k - 1].time, bench.samples[k].time);
+            EXPECT_NE(bench.samples[k - 1].position_m, bench.samples[k].position_m);
+        }
+    }
+}
+
+TEST(UsbTrackerDriver, ABrokenStreamHandsOutOnlyPosesThatWereSent) {
+    Bench bench(UsbTrackerModel::Viper);
+    std::mt19937 engine(10);
+    bench.device.mischief = [&](wire::Wire frame) -> std::vector<wire::Wire> {
+        const std::size_t at = engine() % frame.size();
+        switch (engine() % 6) {
+        case 0:
+            frame[at] ^= static_cast<std::byte>(1U << engine() % 8);
+            return {frame};
+        case 1:
+            frame.resize(at);
+            return {frame};
+        case 2: { // split over two transfers
+            const auto middle = frame.begin() + static_cast<std::ptrdiff_t>(at);
+            return {wire::Wire(frame.begin(), middle), wire::Wire(middle, frame.end())};
+        }
+        case 3:
+            return {wire::from_hex("565052 00FFFF 5650"), frame};
+        default:
+            return {frame};
+        }
+    };
+    bench.run(seconds(60)); // every sample is held against what was sent
+    EXPECT_TRUE(is_streaming(bench.state()));
+    EXPECT_GT(bench.samples.size(), 2U * 60U * 120U / 3U);
+    EXPECT_GT(bench.counts().refused, 1000U);
+}
+
+TEST(UsbTrackerDriver, NumbersThatAreNoneAreMarkedAndCounted) {
+    Bench bench(UsbTrackerModel::Viper);
+    bench.device.mischief = [&](const wire::Wire&) -> std::vector<wire::Wire> {
+        wire::Pose pose;
+        pose.position[1] = std::numeric_limits<float>::quiet_NaN();
+        return {wire::viper_frame(bench.device.counter, {pose})};
+    };
+    bench.run(seconds(2));
+    ASSERT_GT(bench.samples.size(), 100U);
+    for (const PoseSample& sample : bench.samples) {
+        EXPECT_FALSE(sample.ok);
+        EXPECT_EQ(sample.position_m, glm::dvec3(0.0));
+    }
+    EXPECT_EQ(bench.counts().unusable, bench.samples.size());
+}
+
+TEST(UsbTrackerDriver, ADeviceThatCountsFromTheBeginningAgainIsBelieved) {
+    for (const UsbTrackerModel model : models) {
+        Bench bench(model);
+        ASSERT_TRUE(bench.until_streaming(seconds(2)));
+        bench.run(seconds(3));
+        bench.device.counter = 0;
+        bench.run(seconds(1));
+        const std::size_t before = bench.samples.size();
+        bench.run(seconds(1));
+        EXPECT_GT(bench.samples.size(), before + 100);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,169 @@
+#include "firmware_host/tracker/usb_tracker.h"
+#include "tests/tracker/wire_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+/// A device on the machine's own clock that comes and goes; lives on the tracker's thread alone.
+class RestlessTransport final : public UsbTransport {
+public:
+    RestlessTransport(std::uint32_t seed, std::uint32_t& counter) : engine_(seed), counter_(counter) {}
+
+    [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds) override {
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+        if (engine_() % 2000 == 0) {
+            return fail(ErrorKind::DeviceLost, "unplugged");
+        }
+        wire::Wire bytes = std::exchange(reply_, {});
+        if (bytes.empty() && streaming_) {
+            bytes = wire::viper_frame(++counter_, {wire::Pose{}, wire::Pose{2}});
+        }
+        std::copy(bytes.begin(), bytes.end(), buffer.begin());
+        return bytes.size();
+    }
+    [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds) override {
+        const auto command = static_cast<std::uint32_t>(bytes[12]);
+        const auto action = static_cast<std::uint32_t>(bytes[16]);
+        if (action == 0) {
+            set_.assign(bytes.begin() + 28, bytes.end() - 4);
+        }
+        streaming_ = command == 19 && action == 0;
+        reply_ = wire::viper_reply(command, 3, action == 1 ? set_ : wire::Wire{});
+        return {};
+    }
+    void close() override {}
+
+private:
+    std::mt19937 engine_;
+    std::uint32_t& counter_;
+    wire::Wire set_;
+    wire::Wire reply_;
+    bool streaming_ = false;
+};
+
+class RestlessBus final : public UsbBus {
+public:
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+        if (++searches_ % 3 == 2) {
+            return tl::unexpected(UsbTrackerState::NotConnected);
+        }
+        return FoundTracker{std::make_unique<RestlessTransport>(searches_, counter_), UsbTrackerModel::Viper};
+    }
+
+private:
+    std::uint32_t searches_ = 0;
+    std::uint32_t counter_ = 0;
+};
+
+/// A device that takes its time over every call.
+class SlowBus final : public UsbBus {
+public:
+    explicit SlowBus(std::atomic<int>& searches) : searches_(searches) {}
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        ++searches_;
+        return tl::unexpected(UsbTrackerState::NoPermission);
+    }
+
+private:
+    std::atomic<int>& searches_;
+};
+
+MonotonicTime steady_now() {
+    return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
+}
+
+TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
+    UsbTracker tracker(std::make_unique<RestlessBus>(), {});
+    EXPECT_FALSE(tracker.reports_table_frame());
+    std::vector<PoseSample> samples;
+    const MonotonicTime end = steady_now() + std::chrono::milliseconds(1500);
+    std::size_t taken = 0;
+    int lost = 0;
+    MonotonicTime last{};
+    while (steady_now() < end || taken == 0) {
+        samples.clear();
+        const MonotonicTime now = steady_now();
+        const Result<void> polled = tracker.poll(now, samples);
+        lost += polled ? 0 : 1;
+        EXPECT_TRUE(polled || polled.error().kind == ErrorKind::DeviceLost);
+        EXPECT_FALSE(tracker.state().empty());
+        for (const PoseSample& sample : samples) {
+            EXPECT_LE(sample.time, now);
+            EXPECT_EQ(sample.position_m, glm::dvec3(0.25, -0.5, 1.0));
+        }
+        taken += samples.size();
+        last = samples.empty() ? last : samples.back().time;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_GT(last, end - std::chrono::seconds(2));
+    SUCCEED() << taken << " samples, lost " << lost << " times";
+}
+
+TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
+    std::atomic<int> searches{0};
+    UsbTracker tracker(std::make_unique<SlowBus>(searches), {});
+    std::vector<PoseSample> samples;
+    int polls_within_a_search = 0;
+    while (searches == 0) {
+        EXPECT_TRUE(tracker.poll(steady_now(), samples));
+        ++polls_within_a_search;
+    }
+    EXPECT_GT(polls_within_a_search, 1);
+    EXPECT_TRUE(samples.empty());
+}
+
+TEST(SampleMailbox, KeepsTheNewestAndHandsOutNothingFromTheFuture) {
+    SampleMailbox mailbox;
+    std::vector<PoseSample> put(1);
+    for (int k = 1; k <= 1000; ++k) {
+        put[0].time = from_microseconds(k);
+        mailbox.put(put);
+    }
+    std::vector<PoseSample> taken;
+    mailbox.take(from_microseconds(900), taken);
+    ASSERT_EQ(taken.size(), SampleMailbox::capacity - 100);
+    EXPECT_EQ(taken.front().time, from_microseconds(1001 - static_cast<int>(SampleMailbox::capacity)));
+    EXPECT_EQ(taken.back().time, from_microseconds(900));
+    taken.clear();
+    mailbox.take(from_microseconds(2000), taken);
+    EXPECT_EQ(taken.size(), 100U);
+    taken.clear();
+    mailbox.take(from_microseconds(2000), taken);
+    EXPECT_TRUE(taken.empty());
+}
+
+TEST(SampleMailbox, PutAndTakenFromTwoThreadsLosesNoOrder) {
+    SampleMailbox mailbox;
+    constexpr int count = 20'000;
+    std::thread device([&] {
+        std::vector<PoseSample> put(3);
+        for (int k = 1; k <= count; ++k) {
+            for (PoseSample& sample : put) {
+                sample.time = from_microseconds(k);
+                sample.position_m = glm::dvec3(k);
+            }
+            mailbox.put(put);
+        }
+    });
+    std::vector<PoseSample> taken;
+    MonotonicTime last{};
+    while (last < from_microseconds(count)) {
+        taken.clear();
+        mailbox.take(from_microseconds(count), taken);
+        for (const PoseSample& sample : taken) {
+            EXPECT_GE(sample.time, last);
+            EXPECT_EQ(sample.position_m.z, static_cast<double>(to_microseconds(sample.time)));
+            last = sample.time;
+        }
+        std::this_thread::yield(); // a poll that spins would keep the lock to itself
+    }
+    device.join();
+}
+
+} // namespace
+} // namespace frustumscreen
