@@ -63,7 +63,8 @@ Json tracker_json(const TrackerSettings& tracker) {
     return {{"kind", std::string(name_of(tracker.kind))},
             {"seed", tracker.seed},
             {"poses", tracker.poses.string()},
-            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())}};
+            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())},
+            {"display_latency_ms", tracker.display_latency_ms}};
 }
 
 Json panel_json(const PanelSettings& panel) {

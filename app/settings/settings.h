@@ -51,6 +51,8 @@ struct TrackerSettings {
     std::uint64_t seed = 1;            ///< simulated
     std::filesystem::path poses;       ///< replay: a pose file; resolved against the settings file's folder
     RigidTransform table_from_tracker; ///< registration, for devices that report in their own frame
+    /// From the flip of a picture until it is lit: the projector's own. Poses are predicted to then.
+    double display_latency_ms = 17.0;
 };
 
 /// A press that the scripted panel makes.
