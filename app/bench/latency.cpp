@@ -16,9 +16,6 @@ namespace {
 constexpr double clock_drift = 1.0003;
 constexpr double warm_up_s = 1.0;
 constexpr int stops = 200;
-constexpr double stop_speed_m_s = 0.5;
-constexpr double stop_braking_m_s2 = 5.0;
-constexpr double latency_speed_m_s = 0.25;
 
 MonotonicTime time_at(double t_s) {
     // Far from zero, as a real clock is.
@@ -89,6 +86,11 @@ double mean(const std::vector<double>& values) {
            static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
+double rms(const std::vector<double>& values) {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                     static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+}
+
 } // namespace
 
 std::vector<Contestant> contestants() {
@@ -135,15 +137,12 @@ std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples, cons
 
 Slip slip_of(std::span<const LitPicture> pictures, double lever_m) {
     std::vector<double> slips;
-    double squares = 0.0;
     for (const LitPicture& picture : pictures) {
         if (picture.lit_s >= warm_up_s) {
             slips.push_back(1e3 * slip_m(step_between(picture.truth, picture.drawn), lever_m));
-            squares += slips.back() * slips.back();
         }
     }
-    const double count = static_cast<double>(std::max<std::size_t>(slips.size(), 1));
-    return {mean(slips), quantile(slips, 0.95), std::sqrt(squares / count)};
+    return {mean(slips), quantile(slips, 0.95), rms(slips)};
 }
 
 Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, const Contestant& contestant,
@@ -166,12 +165,13 @@ Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, 
             }
         }
     }
-    return {mean(past), quantile(past, 0.95), quantile(past, 1.0), mean(ahead), quantile(ahead, 0.95)};
+    return {mean(past),  quantile(past, 0.95),  quantile(past, 1.0), rms(past),
+            mean(ahead), quantile(ahead, 0.95), rms(ahead)};
 }
 
 TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options) {
-    TrackerResult result{tracker, {}};
     const LatencySetting& setting = options.setting;
+    TrackerResult result{tracker, tracker.latency_ms + setting.display_latency_ms, {}};
     for (const Contestant& contestant : contestants()) {
         ContestantResult one{contestant.name, contestant.predicts, {}, {}, {}, {}};
         const auto slip = [&](const HandMotion& motion, const LatencySetting& with) {
@@ -196,8 +196,8 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
 }
 
 RecordingResult measure_recording(const Recording& recording, const LatencyOptions& options) {
-    RecordingResult result{recording.name, {}};
     TrackedBy tracker{recording.name, 60.0, 18.0, {}};
+    RecordingResult result{recording.name, tracker.latency_ms + options.setting.display_latency_ms, {}};
     if (recording.poses.size() > 1) {
         tracker.rate_hz = static_cast<double>(recording.poses.size() - 1) /
                           (recording.poses.back().t_s - recording.poses.front().t_s);

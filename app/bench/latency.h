@@ -61,6 +61,10 @@ struct LitPicture {
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);
 
+inline constexpr double stop_speed_m_s = 0.5;
+inline constexpr double stop_braking_m_s2 = 5.0;
+inline constexpr double latency_speed_m_s = 0.25; ///< of the strokes against latency
+
 /// In mm, over the pictures after the first second.
 struct Slip {
     double mean = 0.0;
@@ -75,8 +79,10 @@ struct Overshoot {
     double mean = 0.0;
     double p95 = 0.0; ///< of the runs
     double worst = 0.0;
+    double rms = 0.0;
     double ahead_mean = 0.0; ///< of the prop, from the braking on
     double ahead_p95 = 0.0;
+    double ahead_rms = 0.0;
 };
 [[nodiscard]] Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting,
                                      const Contestant& contestant, std::uint64_t seed);
@@ -99,6 +105,7 @@ struct ContestantResult {
 };
 struct TrackerResult {
     TrackedBy tracker;
+    double total_ms = 0.0; ///< tracker and display
     std::vector<ContestantResult> contestants;
 };
 
@@ -118,6 +125,7 @@ struct Recording {
 };
 struct RecordingResult {
     std::string name;
+    double total_ms = 0.0;
     std::vector<std::pair<std::string, Slip>> slips; ///< by contestant
 };
 [[nodiscard]] RecordingResult measure_recording(const Recording& recording, const LatencyOptions& options);

@@ -10,32 +10,29 @@ namespace {
 
 using Kind = MotionModel::Kind;
 
-constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0002}, MotionModel{Kind::Glide, 0.15},
-                                     MotionModel{Kind::Manoeuvre, 12.0}};
-constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0017}, MotionModel{Kind::Glide, 1.0},
-                                    MotionModel{Kind::Manoeuvre, 60.0}};
-constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.8}};
-constexpr std::array turn_glide = {MotionModel{Kind::Glide, 5.0}};
+// Glide is so loose that it is the model of a knock; a hand that moves is mostly Manoeuvre's.
+constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Glide, 3.0},
+                                     MotionModel{Kind::Manoeuvre, 7.4}};
+constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
+                                    MotionModel{Kind::Manoeuvre, 5.7}};
+constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
+constexpr std::array turn_glide = {MotionModel{Kind::Glide, 0.3}};
 
-/// How far an acceleration that fades with time constant `lasts` carries in `ahead`.
-double carried(double ahead, double lasts) {
-    if (lasts <= 0.0) {
-        return 0.0;
-    }
-    const double x = ahead / lasts;
-    // x - 1 + exp(-x), without the cancellation where x is small.
-    return lasts * lasts * (x < 1e-3 ? x * x * (0.5 - x / 6.0) : x + std::expm1(-x));
+/// The time that a motion which fades with time constant `lasts_s` is worth.
+double faded(double ahead_s, double lasts_s) {
+    return lasts_s > 0.0 ? -lasts_s * std::expm1(-ahead_s / lasts_s) : ahead_s;
 }
 
-glm::dvec3 way(const MotionTrack& track, double ahead, double lasts) {
-    return ahead * track.velocity() + carried(ahead, lasts) * track.acceleration();
+glm::dvec3 way(const MotionTrack& track, double ahead_s, double manoeuvre_lasts_s) {
+    const double t = glm::mix(ahead_s, faded(ahead_s, manoeuvre_lasts_s), track.manoeuvring());
+    return t * track.velocity() + 0.5 * t * t * track.acceleration();
 }
 
 } // namespace
 
 MotionFilterOptions exhibit_filter(const PoseNoise& noise) {
     return {
-        {place_models, noise.place_m, 0.3, 3.0, 1.0}, {turn_models, noise.turn_rad, 2.0, 20.0, 1.0}, 0.05};
+        {place_models, noise.place_m, 0.065, 2.0, 0.02}, {turn_models, noise.turn_rad, 0.18, 5.0, 0.8}, 0.08};
 }
 
 MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {
@@ -43,7 +40,7 @@ MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {
 }
 
 MotionFilter::MotionFilter(const MotionFilterOptions& options)
-    : place_(options.place), turn_(options.turn), acceleration_lasts_s_(options.acceleration_lasts_s) {}
+    : place_(options.place), turn_(options.turn), manoeuvre_lasts_s_(options.manoeuvre_lasts_s) {}
 
 void MotionFilter::restart(const RigidTransform& measured) {
     place_.restart();
@@ -59,8 +56,7 @@ void MotionFilter::take(const RigidTransform& measured, double dt_s) {
 }
 
 RigidTransform MotionFilter::ahead(double ahead_s) const {
-    return moved(pose_,
-                 {way(place_, ahead_s, acceleration_lasts_s_), way(turn_, ahead_s, acceleration_lasts_s_)});
+    return moved(pose_, {way(place_, ahead_s, manoeuvre_lasts_s_), way(turn_, ahead_s, manoeuvre_lasts_s_)});
 }
 
 } // namespace frustumscreen

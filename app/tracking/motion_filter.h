@@ -15,8 +15,9 @@ namespace frustumscreen {
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
     MotionTrackOptions turn;  ///< radians
-    /// Accelerations are believed to last this long; 0 = not at all.
-    double acceleration_lasts_s = 0.0;
+    /// While it manoeuvres, its motion fades with this time constant: a hand that changes its way may stop.
+    /// 0 = it does not fade.
+    double manoeuvre_lasts_s = 0.0;
 };
 
 /// What a tracker's poses scatter by at rest, each axis, RMS.
@@ -38,7 +39,7 @@ public:
 private:
     MotionTrack place_;
     MotionTrack turn_;
-    double acceleration_lasts_s_;
+    double manoeuvre_lasts_s_;
     RigidTransform pose_; ///< the tracks' reference
 };
 

@@ -157,6 +157,14 @@ glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
     return rebase();
 }
 
+double MotionTrack::manoeuvring() const {
+    double sum = 0.0;
+    for (std::size_t m = 0; m < count_; ++m) {
+        sum += models_[m].kind == MotionModel::Kind::Manoeuvre ? beliefs_[m].weight : 0.0;
+    }
+    return sum;
+}
+
 glm::dvec3 MotionTrack::rebase() {
     glm::dvec3 place(0.0);
     velocity_ = acceleration_ = glm::dvec3(0.0);

@@ -59,6 +59,9 @@ public:
     [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
     [[nodiscard]] const glm::dvec3& acceleration() const { return acceleration_; }
 
+    /// How likely it manoeuvres, 0 to 1.
+    [[nodiscard]] double manoeuvring() const;
+
 private:
     struct Belief {
         std::array<glm::dvec3, 3> mean{}; ///< place, velocity, acceleration
