@@ -1,6 +1,7 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
 #include "app/programs/bench_counts.h"
 #include "app/programs/bench_error_time.h"
+#include "app/programs/bench_latency.h"
 #include "app/programs/bench_plot.h"
 #include "app/programs/bench_projection.h"
 #include "app/programs/bench_scaling.h"
@@ -18,7 +19,7 @@ namespace {
 
 int run(int argc, char** argv) {
     CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
-                 " shimmer, numerical stability.",
+                 " shimmer, numerical stability, latency.",
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
@@ -27,7 +28,7 @@ int run(int argc, char** argv) {
     });
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
-                                 counts_command(app)};
+                                 counts_command(app),     latency_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 
 #include "app/render/probe.h"
 #include "app/render/read_back.h"
+#include "app/tracking/live_situation.h"
 
 #include <fmt/format.h>
 
@@ -49,10 +50,11 @@ public:
           start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
           head_is_followed_(settings.eye.tracked),
+          light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           situation_(inputs.tracker && !inputs.tracker->reports_table_frame()
                          ? settings.tracker.table_from_tracker
                          : RigidTransform{},
-                     settings.eye.default_m),
+                     settings.eye.default_m, 0.5 * settings.prop.height_m),
           times_(window_frames), presented_(start) {
         samples_.reserve(1024);
         events_.reserve(64);
@@ -88,15 +90,17 @@ private:
     [[nodiscard]] Result<void> frame(MonotonicTime now) {
         const MonotonicTime begin = clock_now();
         poll(now);
-        const Situation situation = situation_.at(now);
+        const Situation situation = situation_.at(now + light_delay_.from_now());
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe = options_.redraw == Redraw::Changes && now - presented_ >= between_probes;
         const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
         if (drawn.drawn) {
             write_probe(target.framebuffer, ++probe_code_, drawn.lit);
-            if (Result<MonotonicTime> shown = display_.present(now); !shown) {
+            const Result<MonotonicTime> shown = display_.present(now);
+            if (!shown) {
                 return tl::unexpected<Error>(shown.error());
             }
+            light_delay_.flipped(now, *shown);
             presented_ = now;
         }
         const double ms = milliseconds_since(begin);
@@ -231,7 +235,8 @@ private:
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;
-    SituationTracker situation_;
+    LightDelay light_delay_;
+    LiveSituation situation_;
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;

@@ -64,7 +64,8 @@ Json tracker_json(const TrackerSettings& tracker) {
             {"seed", tracker.seed},
             {"poses", tracker.poses.string()},
             {"hemisphere", list_of(tracker.hemisphere)},
-            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())}};
+            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())},
+            {"display_latency_ms", tracker.display_latency_ms}};
 }
 
 Json panel_json(const PanelSettings& panel) {

@@ -171,6 +171,7 @@ void read_tracker(TableReader table, const std::filesystem::path& folder, Tracke
         table.refuse("hemisphere", "gives no direction; allowed are three numbers of which one is not 0");
     }
     read_rigid(table, "table_from_tracker", tracker.table_from_tracker);
+    table.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"});
     table.finish();
 }
 

@@ -54,6 +54,8 @@ struct TrackerSettings {
     /// Usb: towards the half space of the tracker's source in which the prop moves, in the tracker's axes.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
     RigidTransform table_from_tracker; ///< registration, for devices that report in their own frame
+    /// From the flip of a picture until it is lit: the projector's own. Poses are predicted to then.
+    double display_latency_ms = 17.0;
 };
 
 /// A press that the scripted panel makes.

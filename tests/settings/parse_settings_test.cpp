@@ -39,6 +39,7 @@ TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
     EXPECT_EQ(shipped.tracker.kind, defaults.tracker.kind);
     EXPECT_EQ(shipped.tracker.seed, defaults.tracker.seed);
     EXPECT_EQ(shipped.tracker.hemisphere, defaults.tracker.hemisphere);
+    EXPECT_EQ(shipped.tracker.display_latency_ms, defaults.tracker.display_latency_ms);
     EXPECT_EQ(shipped.exhibit.language, defaults.exhibit.language);
     EXPECT_EQ(shipped.exhibit.caption_height_m, defaults.exhibit.caption_height_m);
 }

@@ -37,6 +37,8 @@ TEST(Refusals, OfWrongTypes) {
         {"[prop]\nbase_m.x = 1", {":2: prop.base_m is a table"}},
         {"[projector]\nwidth = 1280.0", {":2: projector.width is 1280", "whole numbers 64 to 8192"}},
         {"[tracker]\nseed = -1", {":2: tracker.seed is -1", "from 0"}},
+        {"[tracker]\ndisplay_latency_ms = 300",
+         {":2: tracker.display_latency_ms is 300", "0 to 200 milliseconds"}},
         {"prop = 5", {":1: prop is 5; allowed is a table, [prop]"}},
         {"[[prop]]\nbase_m = 1", {"prop is a list of 1"}},
         {"[eye]\ndefault_m = [0, 1]", {":2: eye.default_m is a list of 2", "[x, y, z]"}},

@@ -1,0 +1,47 @@
+/// The 1 Euro filter, and no filter: what the exhibit's is compared with.
+///
+/// Threads  one caller. Allocates nothing.
+/// Source   Casiez, Roussel and Vogel, 1 Euro filter: a simple speed-based low-pass filter for noisy input in
+///          interactive systems, 2012, algorithm 1; turns as a rotation vector from the pose before. Differs
+///          in `ahead`, which the paper does not have: the filtered derivative goes on.
+#pragma once
+
+#include "app/tracking/pose_filter.h"
+#include "app/tracking/pose_math.h"
+
+namespace frustumscreen {
+
+struct OneEuroOptions {
+    double least_cutoff_hz = 1.0;
+    double place_beta_per_m = 200.0; ///< cut-off per m/s
+    double turn_beta_per_rad = 20.0; ///< cut-off per rad/s
+    double derivative_cutoff_hz = 8.0;
+};
+
+class OneEuroFilter final : public PoseFilter {
+public:
+    explicit OneEuroFilter(const OneEuroOptions& options = {}) : options_(options) {}
+
+    void restart(const RigidTransform& measured) override;
+    void take(const RigidTransform& measured, double dt_s) override;
+    [[nodiscard]] RigidTransform ahead(double ahead_s) const override;
+
+private:
+    OneEuroOptions options_;
+    RigidTransform measured_;
+    RigidTransform pose_;
+    PoseStep rate_; ///< a second
+};
+
+/// The latest pose as it came.
+class NoFilter final : public PoseFilter {
+public:
+    void restart(const RigidTransform& measured) override { pose_ = measured; }
+    void take(const RigidTransform& measured, double /*dt_s*/) override { pose_ = measured; }
+    [[nodiscard]] RigidTransform ahead(double /*ahead_s*/) const override { return pose_; }
+
+private:
+    RigidTransform pose_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,68 @@
+#include "app/tracking/live_situation.h"
+
+#include "app/tracking/motion_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double longest_flip_s = 0.1;
+constexpr double flip_follows = 0.1; ///< share of each new flip time
+/// The eye is a metre away: there a turn of the head says nothing, its place alone counts.
+constexpr double head_lever_m = 0.0;
+
+PoseEstimator estimator() {
+    return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
+}
+
+} // namespace
+
+LiveSituation::LiveSituation(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
+                             double lever_m)
+    : table_from_device_(table_from_device), default_eye_m_(default_eye_m), prop_(estimator()),
+      head_(estimator()), shown_prop_({.lever_m = lever_m}), shown_head_({.lever_m = head_lever_m}) {}
+
+bool LiveSituation::take(const PoseSample& sample) {
+    if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
+        return true;
+    }
+    const std::optional<glm::dquat> rotation = normalised(sample.rotation);
+    if (!rotation) {
+        return false;
+    }
+    PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
+    const Taken taken =
+        estimator.take(sample.time, table_from_device_ * RigidTransform{*rotation, sample.position_m});
+    return taken == Taken::Used || taken == Taken::Late;
+}
+
+Situation LiveSituation::at(MonotonicTime lit) {
+    Situation situation;
+    situation.time = lit;
+    situation.eye_m = default_eye_m_;
+    const PoseEstimate prop = prop_.at(lit);
+    if (prop.uptakes > 0) {
+        situation.table_from_prop = shown_prop_.follow(prop, lit);
+        situation.prop_age = prop.age;
+        situation.prop_known = prop.status != PoseStatus::Stale;
+    }
+    const PoseEstimate head = head_.at(lit);
+    if (head.uptakes > 0 && head.status != PoseStatus::Stale) {
+        situation.eye_m = shown_head_.follow(head, lit).translation;
+        situation.head_known = true;
+    }
+    return situation;
+}
+
+void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {
+    flip_s_ += flip_follows * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
+}
+
+Nanoseconds LightDelay::from_now() const {
+    return display_latency_ + Nanoseconds(std::llround(flip_s_ * 1e9));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,62 @@
+#include "app/tracking/motion_filter.h"
+
+#include "app/tracking/pose_math.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+using Kind = MotionModel::Kind;
+
+// Glide is so loose that it is the model of a knock; a hand that moves is mostly Manoeuvre's.
+constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Glide, 3.0},
+                                     MotionModel{Kind::Manoeuvre, 7.4}};
+constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
+                                    MotionModel{Kind::Manoeuvre, 5.7}};
+constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
+constexpr std::array turn_glide = {MotionModel{Kind::Glide, 0.3}};
+
+/// The time that a motion which fades with time constant `lasts_s` is worth.
+double faded(double ahead_s, double lasts_s) {
+    return lasts_s > 0.0 ? -lasts_s * std::expm1(-ahead_s / lasts_s) : ahead_s;
+}
+
+glm::dvec3 way(const MotionTrack& track, double ahead_s, double manoeuvre_lasts_s) {
+    const double t = glm::mix(ahead_s, faded(ahead_s, manoeuvre_lasts_s), track.manoeuvring());
+    return t * track.velocity() + 0.5 * t * t * track.acceleration();
+}
+
+} // namespace
+
+MotionFilterOptions exhibit_filter(const PoseNoise& noise) {
+    return {
+        {place_models, noise.place_m, 0.065, 2.0, 0.02}, {turn_models, noise.turn_rad, 0.18, 5.0, 0.8}, 0.08};
+}
+
+MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {
+    return {{place_glide, noise.place_m, 0.3, 0.0, 0.0}, {turn_glide, noise.turn_rad, 2.0, 0.0, 0.0}, 0.0};
+}
+
+MotionFilter::MotionFilter(const MotionFilterOptions& options)
+    : place_(options.place), turn_(options.turn), manoeuvre_lasts_s_(options.manoeuvre_lasts_s) {}
+
+void MotionFilter::restart(const RigidTransform& measured) {
+    place_.restart();
+    turn_.restart();
+    pose_ = measured;
+}
+
+void MotionFilter::take(const RigidTransform& measured, double dt_s) {
+    const PoseStep expected{place_.advance(dt_s), turn_.advance(dt_s)};
+    pose_ = moved(pose_, expected);
+    const PoseStep off = step_between(pose_, measured);
+    pose_ = moved(pose_, {place_.correct(off.shift_m), turn_.correct(off.turn_rad)});
+}
+
+RigidTransform MotionFilter::ahead(double ahead_s) const {
+    return moved(pose_, {way(place_, ahead_s, manoeuvre_lasts_s_), way(turn_, ahead_s, manoeuvre_lasts_s_)});
+}
+
+} // namespace frustumscreen

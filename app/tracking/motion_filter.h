@@ -1,0 +1,46 @@
+/// The exhibit's filter of poses: a MotionTrack for the place and one for the turn.
+///
+/// Models   rest, glide and manoeuvre; the defaults are tuned by frustumscreen-bench latency, whose noise
+///          they expect. With the one model Glide it is the constant-velocity Kalman filter.
+/// Threads  one caller. Allocates nothing.
+/// Source   motion_track.h; the turn is the error state of Sola, Quaternion kinematics for the error-state
+///          Kalman filter, 2017, 5, its angular velocity in the table's axes.
+#pragma once
+
+#include "app/tracking/motion_track.h"
+#include "app/tracking/pose_filter.h"
+
+namespace frustumscreen {
+
+struct MotionFilterOptions {
+    MotionTrackOptions place; ///< metres
+    MotionTrackOptions turn;  ///< radians
+    /// While it manoeuvres, its motion fades with this time constant: a hand that changes its way may stop.
+    /// 0 = it does not fade.
+    double manoeuvre_lasts_s = 0.0;
+};
+
+/// What a tracker's poses scatter by at rest, each axis, RMS.
+struct PoseNoise {
+    double place_m = 0.0003;
+    double turn_rad = 0.0026; ///< 0.15 degrees
+};
+[[nodiscard]] MotionFilterOptions exhibit_filter(const PoseNoise& noise = {});
+[[nodiscard]] MotionFilterOptions constant_velocity_filter(const PoseNoise& noise = {});
+
+class MotionFilter final : public PoseFilter {
+public:
+    explicit MotionFilter(const MotionFilterOptions& options);
+
+    void restart(const RigidTransform& measured) override;
+    void take(const RigidTransform& measured, double dt_s) override;
+    [[nodiscard]] RigidTransform ahead(double ahead_s) const override;
+
+private:
+    MotionTrack place_;
+    MotionTrack turn_;
+    double manoeuvre_lasts_s_;
+    RigidTransform pose_; ///< the tracks' reference
+};
+
+} // namespace frustumscreen

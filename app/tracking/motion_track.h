@@ -1,0 +1,86 @@
+/// Where a point in three dimensions is and goes, of noisy measurements: several models of how a hand moves,
+/// each a Kalman filter, weighted by how well they foretell what is measured.
+///
+/// The three axes share one covariance, since noise and motion prefer none: a model is three vectors
+/// (place, velocity, acceleration) and a 3 x 3 matrix. Places count from a reference that the caller keeps,
+/// so that the same arithmetic serves positions and, as rotation vectors, orientations.
+///
+/// Units    the caller's: metres or radians, and seconds.
+/// Time     steps above 0; state transition and process noise are the exact integrals over a step, so that
+///          no step is too long or too short to be stable.
+/// Threads  one caller. Allocates nothing.
+/// Source   Blom and Bar-Shalom, The interacting multiple model algorithm for systems with Markovian
+/// switching
+///          coefficients, 1988; models after Bar-Shalom, Li and Kirubarajan, Estimation with Applications to
+///          Tracking and Navigation, 2001, 6.2. Differs in that the chance of a change of model is the exact
+///          exponential of a rate, not a number per step. One model alone is the ordinary Kalman filter.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <span>
+
+namespace frustumscreen {
+
+/// How a hand may move.
+struct MotionModel {
+    enum class Kind {
+        Rest,      ///< it stands; the place walks randomly
+        Glide,     ///< constant velocity, driven by white acceleration
+        Manoeuvre, ///< constant acceleration, driven by white jerk
+    };
+    Kind kind = Kind::Glide;
+    double noise = 1.0; ///< root of the driving noise's density: unit / s^0.5, / s^1.5, / s^2.5
+};
+
+struct MotionTrackOptions {
+    std::span<const MotionModel> models; ///< 1 to `most_models`; copied
+    double measured_sd = 1.0;            ///< of each axis
+    double first_velocity_sd = 1.0;
+    double first_acceleration_sd = 1.0;
+    double changes_per_s = 1.0; ///< of model
+};
+
+class MotionTrack {
+public:
+    static constexpr std::size_t most_models = 3;
+
+    explicit MotionTrack(const MotionTrackOptions& options);
+
+    /// The reference is a first measurement; all else is unknown.
+    void restart();
+    /// Time passes: the expected way of the reference, to which the caller must move it.
+    [[nodiscard]] glm::dvec3 advance(double dt_s);
+    /// A measurement, seen from the reference: the correction, by which the caller must move the reference.
+    [[nodiscard]] glm::dvec3 correct(const glm::dvec3& measured);
+
+    /// Of the weighted mean of the models.
+    [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
+    [[nodiscard]] const glm::dvec3& acceleration() const { return acceleration_; }
+
+    /// How likely it manoeuvres, 0 to 1.
+    [[nodiscard]] double manoeuvring() const;
+
+private:
+    struct Belief {
+        std::array<glm::dvec3, 3> mean{}; ///< place, velocity, acceleration
+        glm::dmat3 covariance{0.0};       ///< of each axis
+        double weight = 1.0;
+    };
+    using Beliefs = std::array<Belief, most_models>;
+
+    void mix(double dt_s);
+    /// Takes the weighted mean place out of every model's and returns it.
+    glm::dvec3 rebase();
+    [[nodiscard]] std::span<Belief> beliefs() { return {beliefs_.data(), count_}; }
+
+    std::array<MotionModel, most_models> models_{};
+    std::size_t count_;
+    MotionTrackOptions options_;
+    Beliefs beliefs_{};
+    glm::dvec3 velocity_{0.0};
+    glm::dvec3 acceleration_{0.0};
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,134 @@
+#include "app/tracking/pose_estimator.h"
+
+#include "app/tracking/pose_math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+PoseEstimator::PoseEstimator(std::unique_ptr<PoseFilter> filter, const PoseEstimatorOptions& options)
+    : filter_(std::move(filter)), options_(options) {}
+
+const PoseEstimator::Moment& PoseEstimator::moment(std::size_t back) const {
+    return history_[(next_ + remembered - 1 - back) % remembered];
+}
+
+void PoseEstimator::remember(const Moment& moment) {
+    history_[next_] = moment;
+    next_ = (next_ + 1) % remembered;
+    count_ = std::min(count_ + 1, remembered);
+    outliers_ = 0;
+    late_ = 0;
+}
+
+Taken PoseEstimator::take_up(const Moment& measured) {
+    filter_->restart(measured.pose);
+    count_ = 0; // nothing is known between then and now
+    remember(measured);
+    ++uptakes_;
+    return Taken::Used;
+}
+
+bool PoseEstimator::plausible(const RigidTransform& expected, const RigidTransform& measured,
+                              double dt_s) const {
+    const PoseStep off = step_between(expected, measured);
+    return glm::length(off.shift_m) <= options_.surprise_m + options_.speed_m_s * dt_s &&
+           glm::length(off.turn_rad) <= options_.surprise_rad + options_.turn_rad_s * dt_s;
+}
+
+Taken PoseEstimator::doubt(const Moment& measured) {
+    const double dt_s = to_seconds(measured.time - doubtful_.time);
+    const bool agrees = outliers_ > 0 && dt_s > 0.0 && plausible(doubtful_.pose, measured.pose, dt_s);
+    outliers_ = agrees ? outliers_ + 1 : 1;
+    doubtful_ = measured;
+    return outliers_ >= options_.convinced_by ? take_up(measured) : Taken::Outlier;
+}
+
+Taken PoseEstimator::take(MonotonicTime time, const RigidTransform& measured) {
+    const std::optional<glm::dquat> rotation = normalised(measured.rotation);
+    if (!rotation || !finite(measured.translation)) {
+        return Taken::NoPose;
+    }
+    const Moment now{time, {*rotation, measured.translation}};
+    if (count_ == 0) {
+        return take_up(now);
+    }
+    const Nanoseconds step = time - moment(0).time;
+    if (step == Nanoseconds(0)) {
+        return Taken::Late;
+    }
+    if (step < Nanoseconds(0)) {
+        return ++late_ >= options_.clock_set_back_by ? take_up(now) : Taken::Late;
+    }
+    if (step > options_.forgotten_after) {
+        return take_up(now);
+    }
+    const double dt_s = to_seconds(step);
+    if (!plausible(predicted(dt_s), now.pose, dt_s)) {
+        return doubt(now);
+    }
+    filter_->take(now.pose, dt_s);
+    remember({time, filter_->ahead(0.0)});
+    return Taken::Used;
+}
+
+RigidTransform PoseEstimator::predicted(double age_s) const {
+    const double full_s = to_seconds(options_.predicted_for);
+    const double stand_s = to_seconds(options_.stand_within);
+    const double over_s = std::fmax(0.0, age_s - full_s);
+    return filter_->ahead(std::fmin(age_s, full_s) - stand_s * std::expm1(-over_s / stand_s));
+}
+
+PoseEstimate PoseEstimator::at(MonotonicTime time) const {
+    if (count_ == 0) {
+        return {};
+    }
+    PoseEstimate estimate;
+    estimate.uptakes = uptakes_;
+    estimate.age = time - moment(0).time;
+    if (!options_.predicts) {
+        estimate.pose = moment(0).pose;
+        estimate.status = estimate.age > options_.stale_after ? PoseStatus::Stale : PoseStatus::Exact;
+        return estimate;
+    }
+    if (estimate.age <= Nanoseconds(0)) {
+        return remembered_at(time);
+    }
+    estimate.pose = predicted(to_seconds(estimate.age));
+    estimate.status = estimate.age > options_.stale_after ? PoseStatus::Stale : PoseStatus::Predicted;
+    return estimate;
+}
+
+PoseEstimate PoseEstimator::remembered_at(MonotonicTime time) const {
+    PoseEstimate estimate;
+    estimate.uptakes = uptakes_;
+    estimate.age = time - moment(0).time;
+    std::size_t back = 0;
+    while (back + 1 < count_ && moment(back).time > time) {
+        ++back;
+    }
+    const Moment& before = moment(back);
+    estimate.pose = before.pose;
+    if (before.time == time) {
+        estimate.status = PoseStatus::Exact;
+    } else if (before.time < time) {
+        const Moment& after = moment(back - 1);
+        estimate.pose = between(before.pose, after.pose,
+                                to_seconds(time - before.time) / to_seconds(after.time - before.time));
+        estimate.status = PoseStatus::Interpolated;
+    } // else before anything remembered: stale
+    return estimate;
+}
+
+} // namespace frustumscreen

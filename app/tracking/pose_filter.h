@@ -1,0 +1,24 @@
+/// One way to smooth poses and to say where they go: what frustumscreen-bench latency compares.
+///
+/// Frames   those of the poses given; metres, radians, unit quaternions of either sign.
+/// Time     seconds since the pose before; the caller gives only steps above 0.
+/// Threads  one caller. Allocates nothing after construction.
+/// Errors   none: the caller gives only finite poses (PoseEstimator sees to it).
+#pragma once
+
+#include "app/geometry/transform.h"
+
+namespace frustumscreen {
+
+class PoseFilter {
+public:
+    virtual ~PoseFilter() = default;
+    /// Begins anew: nothing is known but this pose.
+    virtual void restart(const RigidTransform& measured) = 0;
+    /// The next pose, `dt_s` after the one before.
+    virtual void take(const RigidTransform& measured, double dt_s) = 0;
+    /// The pose `ahead_s` after the latest one taken; 0 = smoothed only.
+    [[nodiscard]] virtual RigidTransform ahead(double ahead_s) const = 0;
+};
+
+} // namespace frustumscreen

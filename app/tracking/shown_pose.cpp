@@ -1,0 +1,29 @@
+#include "app/tracking/shown_pose.h"
+
+#include "app/geometry/time_curves.h"
+
+namespace frustumscreen {
+
+const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
+    if (estimate.uptakes == 0 || estimate.status == PoseStatus::Stale) {
+        if (uptakes_ == 0) {
+            shown_ = estimate.pose;
+        }
+        return shown_;
+    }
+    if (estimate.uptakes != uptakes_) {
+        left_ = uptakes_ == 0 ? PoseStep{} : step_between(estimate.pose, shown_);
+        return_ = time;
+        uptakes_ = estimate.uptakes;
+    }
+    const double gone = ease(to_seconds(time - return_) / to_seconds(options_.return_time));
+    const RigidTransform goal =
+        moved(estimate.pose, {(1.0 - gone) * left_.shift_m, (1.0 - gone) * left_.turn_rad});
+    const double off_m = slip_m(step_between(shown_, goal), options_.lever_m);
+    if (off_m > options_.slack_m) {
+        shown_ = between(shown_, goal, 1.0 - options_.slack_m / off_m);
+    }
+    return shown_;
+}
+
+} // namespace frustumscreen

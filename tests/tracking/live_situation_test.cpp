@@ -1,0 +1,117 @@
+#include "app/tracking/live_situation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+namespace {
+
+const glm::dvec3 default_eye(0.0, -0.55, 0.5);
+constexpr double lever_m = 0.06;
+
+PoseSample prop_at(std::int64_t t_us, double x_m, double yaw_rad = 0.0) {
+    PoseSample sample;
+    sample.time = from_microseconds(t_us);
+    sample.position_m = {x_m, 0.0, 0.0};
+    sample.rotation = rotation_of({0.0, 0.0, yaw_rad});
+    return sample;
+}
+
+TEST(LiveSituation, KnowsNothingAtFirstButTheDefaultEye) {
+    LiveSituation live({}, default_eye, lever_m);
+    const Situation situation = live.at(from_microseconds(7));
+    EXPECT_FALSE(situation.prop_known);
+    EXPECT_FALSE(situation.head_known);
+    EXPECT_EQ(situation.eye_m, default_eye);
+}
+
+TEST(LiveSituation, RegistersADeviceAndCountsWhatIsNoPose) {
+    const RigidTransform table_from_device{rotation_of({0.0, 0.0, 1.0}), {1.0, 2.0, 3.0}};
+    LiveSituation live(table_from_device, default_eye, lever_m);
+    EXPECT_TRUE(live.take(prop_at(0, 0.1)));
+    PoseSample broken = prop_at(16'000, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_FALSE(live.take(broken));
+    broken.ok = false;
+    EXPECT_TRUE(live.take(broken));
+    const Situation situation = live.at(from_microseconds(0));
+    EXPECT_LT(glm::length(situation.table_from_prop.translation - table_from_device.point({0.1, 0.0, 0.0})),
+              1e-15);
+    EXPECT_TRUE(situation.prop_known);
+}
+
+/// A picture at rest is not drawn again: the pose must be the same, bit for bit.
+TEST(LiveSituation, RestsWhenThePropRests) {
+    LiveSituation live({}, default_eye, lever_m);
+    std::int64_t t_us = 0;
+    for (; t_us < 500'000; t_us += 16'000) {
+        live.take(prop_at(t_us, 3e-7 * static_cast<double>(t_us), 1e-6 * static_cast<double>(t_us)));
+        (void)live.at(from_microseconds(t_us + 17'000));
+    }
+    const double x = 3e-7 * static_cast<double>(t_us);
+    const double yaw = 1e-6 * static_cast<double>(t_us);
+    std::int64_t settled_us = 0;
+    RigidTransform before;
+    const std::int64_t stopped_us = t_us;
+    for (; t_us < 4'000'000; t_us += 16'000) {
+        live.take(prop_at(t_us, x, yaw));
+        const RigidTransform now = live.at(from_microseconds(t_us + 17'000)).table_from_prop;
+        if (now.translation != before.translation || now.rotation != before.rotation) {
+            settled_us = t_us;
+        }
+        before = now;
+    }
+    EXPECT_LT(settled_us - stopped_us, 1'000'000);
+    EXPECT_LT(slip_m(step_between({rotation_of({0.0, 0.0, yaw}), {x, 0.0, 0.0}}, before), lever_m), 0.000051);
+}
+
+TEST(LiveSituation, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) {
+    LiveSituation live({}, default_eye, lever_m);
+    constexpr std::int64_t period_us = 16'667;
+    constexpr int lost = 60;
+    constexpr int back = 200;
+    RigidTransform before;
+    double largest_m = 0.0;
+    int first_unknown = 0;
+    for (int k = 0; k < 400; ++k) {
+        if (k < lost || k >= back) {
+            live.take(prop_at(k * period_us, k < lost ? 0.0 : 0.1, k < lost ? 0.0 : 1.0));
+        }
+        const Situation now = live.at(from_microseconds(k * period_us + 17'000));
+        if (k > 0) {
+            largest_m = std::fmax(largest_m, slip_m(step_between(before, now.table_from_prop), lever_m));
+        }
+        if (k >= lost && k < back) {
+            EXPECT_LT(slip_m(step_between({}, now.table_from_prop), lever_m), 1e-4) << "not held";
+        }
+        if (!now.prop_known && first_unknown == 0) {
+            first_unknown = k;
+        }
+        EXPECT_TRUE(now.prop_known || (k > lost && k < back)) << k;
+        before = now.table_from_prop;
+    }
+    EXPECT_NEAR(first_unknown, lost + 60, 2); // a second
+    // 0.16 m at the prop within 0.25 s along a smooth step: 1.5 times the mean speed at most.
+    EXPECT_LT(largest_m, 1.5 * 0.16 / 0.25 * 0.0167 * 1.1);
+    EXPECT_LT(slip_m(step_between({rotation_of({0.0, 0.0, 1.0}), {0.1, 0.0, 0.0}}, before), lever_m), 0.0001);
+}
+
+TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
+    LightDelay delay(std::chrono::milliseconds(17));
+    EXPECT_EQ(delay.from_now(), std::chrono::milliseconds(17));
+    const MonotonicTime now = from_microseconds(1'000'000);
+    for (int k = 0; k < 200; ++k) {
+        delay.flipped(now, now + std::chrono::milliseconds(8));
+    }
+    EXPECT_NEAR(to_seconds(delay.from_now()), 0.025, 1e-6);
+    for (int k = 0; k < 200; ++k) {
+        delay.flipped(now, now - std::chrono::hours(1));
+    }
+    EXPECT_NEAR(to_seconds(delay.from_now()), 0.017, 1e-6);
+    delay.flipped(now, now + std::chrono::hours(1));
+    EXPECT_LE(to_seconds(delay.from_now()), 0.017 + 0.0101);
+}
+
+} // namespace
+} // namespace frustumscreen
