@@ -12,7 +12,10 @@ const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicT
         return shown_;
     }
     if (estimate.uptakes != uptakes_) {
-        left_ = uptakes_ == 0 ? PoseStep{} : step_between(estimate.pose, shown_);
+        if (uptakes_ == 0) {
+            shown_ = estimate.pose;
+        }
+        left_ = step_between(estimate.pose, shown_);
         return_ = time;
         uptakes_ = estimate.uptakes;
     }
@@ -21,7 +24,7 @@ const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicT
         moved(estimate.pose, {(1.0 - gone) * left_.shift_m, (1.0 - gone) * left_.turn_rad});
     const double off_m = slip_m(step_between(shown_, goal), options_.lever_m);
     if (off_m > options_.slack_m) {
-        shown_ = between(shown_, goal, 1.0 - options_.slack_m / off_m);
+        shown_ = goal;
     }
     return shown_;
 }

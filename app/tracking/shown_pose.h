@@ -1,7 +1,7 @@
 /// The pose that the picture is drawn for, after the estimate: at rest it rests, and where the estimate
 /// jumps, since the prop was lost and found elsewhere, it glides there.
 ///
-/// Rest     the shown pose follows on a leash: while the estimate is within `slack_m` of it, at the prop, it
+/// Rest     while the estimate is within `slack_m` of the shown pose, at the prop, that
 ///          stays bit for bit, and a picture at rest is not drawn again. Never farther off than the slack.
 /// Return   the difference to the old pose is taken away along a smooth step.
 /// Time     of the pictures; time that goes back moves nothing.
