@@ -43,7 +43,7 @@ struct PoseEstimatorOptions {
     /// Predicted in full so long after the latest sample; then the motion comes to a stand.
     Nanoseconds predicted_for = std::chrono::milliseconds(80);
     Nanoseconds stand_within = std::chrono::milliseconds(30);     ///< time constant
-    Nanoseconds stale_after = std::chrono::milliseconds(1000);     ///< held until then
+    Nanoseconds stale_after = std::chrono::milliseconds(1000);    ///< held until then
     Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< a longer gap: taken up anew
     /// Of the distance from where the sample was expected: what a knock may do.
     double surprise_m = 0.015;
