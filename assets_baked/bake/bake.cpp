@@ -173,7 +173,7 @@ double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
 /// As a visitor sees it on the usual prop.
 bool good_enough(const PackLevel& level, const Pack& pack, const SourceScene& source, double mm_per_box) {
     // The worst of fifty poses in two set-ups shows up to three times as much of each.
-    constexpr double good_mean_mm = 0.08;
+    constexpr double good_mean_mm = 0.09;
     constexpr double good_outline_shift_mm = 0.04;
     constexpr double good_silhouette_share = 0.012; // a thin object is outline throughout
     const SeenError error = seen_error(level, pack.textures[level.texture], pack.box_size, source);
