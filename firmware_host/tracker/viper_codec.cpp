@@ -102,11 +102,14 @@ std::uint16_t crc16_arc(std::span<const std::byte> bytes) {
 }
 
 ViperStep parse_viper(std::span<const std::byte> stream) {
+    if (stream.empty()) {
+        return {};
+    }
     if (stream.size() < header_bytes) {
         const std::size_t known = std::min<std::size_t>(stream.size(), 4);
         const bool may_be = std::memcmp(stream.data(), &pose_preamble, known) == 0 ||
                             std::memcmp(stream.data(), &command_preamble, known) == 0;
-        return stream.empty() || may_be ? ViperStep{} : refuse(stream, Refusal::Garbage);
+        return may_be ? ViperStep{} : refuse(stream, Refusal::Garbage);
     }
     const std::uint32_t preamble = u32_at(stream, 0);
     if (!is_preamble(preamble)) {
