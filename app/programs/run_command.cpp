@@ -163,10 +163,7 @@ Result<void> run(const Request& request) {
         return tl::unexpected<Error>(display.error());
     }
     // Simulated time starts at zero, real time when everything is loaded.
-    const auto now = [&request] {
-        return request.fast ? MonotonicTime{}
-                            : std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
-    };
+    const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
     const Result<std::unique_ptr<Show>> show = make_show(request, **settings, devices, **display, now());
     if (!show) {

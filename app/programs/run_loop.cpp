@@ -34,12 +34,8 @@ std::optional<Wish> wish_of(int button) {
     }
 }
 
-MonotonicTime clock_now() {
-    return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
-}
-
 double milliseconds_since(MonotonicTime start) {
-    return 1e3 * to_seconds(clock_now() - start);
+    return 1e3 * to_seconds(monotonic_now() - start);
 }
 
 class Loop {
@@ -88,7 +84,7 @@ public:
 
 private:
     [[nodiscard]] Result<void> frame(MonotonicTime now) {
-        const MonotonicTime begin = clock_now();
+        const MonotonicTime begin = monotonic_now();
         poll(now);
         const Situation situation = situation_.at(now + light_delay_.from_now());
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
@@ -174,7 +170,6 @@ private:
         RunStatus& status = result_.status;
         const ShowState state = show_.state(now);
         status.artifact = state.artifact;
-        status.tracker = inputs_.tracker ? inputs_.tracker->state() : std::string_view{};
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;
@@ -190,20 +185,25 @@ private:
         if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
             result_.first_resident_mib = resident_mib();
         }
-        note_problem();
+        note_states();
         status_file_.post(status);
     }
 
-    /// One line in the journal each time that the panel's state changes.
-    void note_problem() {
-        const std::string problem = inputs_.panel ? inputs_.panel->problem() : std::string();
-        std::array<char, 160>& noted = result_.status.panel_problem;
-        if (problem.compare(0, noted.size() - 1, noted.data()) == 0) {
-            return;
+    void note_states() {
+        if (inputs_.tracker) {
+            note_state("tracker", inputs_.tracker->state(), result_.status.tracker);
         }
-        std::fill(noted.begin(), noted.end(), '\0');
-        problem.copy(noted.data(), noted.size() - 1);
-        fmt::print(stderr, "frustumscreen: {}\n", problem.empty() ? "panel: its buttons are there" : problem);
+        if (inputs_.panel) {
+            note_state("panel", inputs_.panel->state(), result_.status.panel);
+        }
+    }
+
+    /// One line in the journal each time that a device's state changes.
+    static void note_state(std::string_view device, std::string_view state, Sentence& noted) {
+        if (const Sentence said(state); said != noted) {
+            noted = said;
+            fmt::print(stderr, "frustumscreen: {}: {}\n", device, noted.view());
+        }
     }
 
     [[nodiscard]] bool told_to_stop() const {
@@ -217,7 +217,7 @@ private:
         if (options_.fast) {
             return next;
         }
-        const MonotonicTime clock = clock_now();
+        const MonotonicTime clock = monotonic_now();
         if (clock > next) {
             const auto missed = (clock - next) / period_;
             result_.status.late += static_cast<std::uint64_t>(missed);

@@ -82,10 +82,10 @@ std::string status_json(const RunStatus& status) {
                                          {"probes", status.probes},
                                          {"skipped", status.late},
                                          {"device_errors", status.bad_samples},
-                                         {"tracker", status.tracker},
+                                         {"tracker", status.tracker.view()},
+                                         {"panel", status.panel.view()},
                                          {"prop_known", status.prop_known},
                                          {"head_known", status.head_known},
-                                         {"panel_problem", status.panel_problem.data()},
                                          {"uptime_s", rounded(status.uptime_s)},
                                          {"resident_mib", rounded(status.resident_mib)}};
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

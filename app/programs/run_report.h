@@ -6,9 +6,9 @@
 #pragma once
 
 #include "firmware_host/base/result.h"
+#include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
 
-#include <array>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -69,10 +69,10 @@ struct RunStatus {
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
     double resident_mib = 0.0;
-    std::string_view tracker; ///< its state in a sentence; empty where nothing can fail
+    Sentence tracker; ///< how the devices are; empty where nothing can fail
+    Sentence panel;
     bool prop_known = false;
     bool head_known = false;
-    std::array<char, 160> panel_problem{}; ///< a sentence, ended by 0; empty = the panel is well
 };
 [[nodiscard]] std::string status_json(const RunStatus& status);
 

@@ -71,7 +71,7 @@ public:
         for (std::size_t k = 0; k < down.size(); ++k) {
             const int level = ::gpiod_line_get_value(lines_.lines[k]);
             if (level < 0) {
-                return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+                return lost(fmt::format("{}: {}", name_, reason(errno)));
             }
             down[k] = level == 1;
         }
@@ -84,13 +84,13 @@ public:
         gpiod_line_bulk changed{};
         const int found = ::gpiod_line_event_wait_bulk(&lines_, &limit, &changed);
         if (found < 0 && errno != EINTR) {
-            return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+            return lost(fmt::format("{}: {}", name_, reason(errno)));
         }
         for (unsigned k = 0; found > 0 && k < changed.num_lines; ++k) {
             // An edge only says that levels are worth reading.
             std::array<gpiod_line_event, 16> events{};
             if (::gpiod_line_event_read_multiple(changed.lines[k], events.data(), events.size()) < 0) {
-                return lost(fmt::format("panel: {}: {}", name_, reason(errno)));
+                return lost(fmt::format("{}: {}", name_, reason(errno)));
             }
         }
         return {};
@@ -112,16 +112,15 @@ std::string_view name_of(LineBias bias) {
 Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
     Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));
     if (!chip) {
-        return lost(fmt::format("panel: GPIO chip {}: {}", request.chip, reason(errno)));
+        return lost(fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
     }
     gpiod_line_bulk lines{};
     ::gpiod_line_bulk_init(&lines);
     for (const std::string& name : request.lines) {
         gpiod_line* const line = find(chip.get(), name);
         if (line == nullptr) {
-            return lost(
-                fmt::format("panel: GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
-                            request.chip, name, ::gpiod_chip_num_lines(chip.get())));
+            return lost(fmt::format("GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
+                                    request.chip, name, ::gpiod_chip_num_lines(chip.get())));
         }
         ::gpiod_line_bulk_add(&lines, line);
     }
@@ -129,7 +128,7 @@ Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request)
                                            flags_of(request)};
     if (::gpiod_line_request_bulk(&lines, &config, nullptr) < 0) {
         return lost(
-            fmt::format("panel: GPIO chip {}: its lines cannot be watched: {}", request.chip, reason(errno)));
+            fmt::format("GPIO chip {}: its lines cannot be watched: {}", request.chip, reason(errno)));
     }
     return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, lines);
 }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -30,8 +31,9 @@ public:
     /// Appends the events with time <= now that were not handed out before.
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// What is wrong with it, for a technician; empty = nothing.
-    [[nodiscard]] virtual std::string problem() const { return {}; }
+    /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing
+    /// that could fail.
+    [[nodiscard]] virtual std::string_view state() const { return {}; }
 };
 
 } // namespace frustumscreen

@@ -34,7 +34,8 @@ public:
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual bool reports_table_frame() const { return true; }
-    /// How the device is, in one plain sentence; empty: there is nothing that could fail.
+    /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing that
+    /// could fail.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
 };
 

@@ -24,7 +24,7 @@ public:
     explicit FakeLines(FakeChip& chip) : chip_(chip) {}
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
         if (!chip_.plugged) {
-            return fail(ErrorKind::DeviceLost, "panel: unplugged");
+            return fail(ErrorKind::DeviceLost, "unplugged");
         }
         for (std::size_t k = 0; k < down.size(); ++k) {
             down[k] = chip_.down.at(k);
@@ -43,7 +43,7 @@ private:
 OpenLines opener(FakeChip& chip) {
     return [&chip]() -> Result<std::unique_ptr<ButtonLines>> {
         if (!chip.plugged) {
-            return fail(ErrorKind::DeviceLost, "panel: not there");
+            return fail(ErrorKind::DeviceLost, "not there");
         }
         ++chip.opened;
         return std::make_unique<FakeLines>(chip);
@@ -57,7 +57,7 @@ template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>&
         if (std::chrono::steady_clock::now() > give_up) {
             return false;
         }
-        EXPECT_TRUE(panel.poll(MonotonicTime(std::chrono::steady_clock::now().time_since_epoch()), events));
+        EXPECT_TRUE(panel.poll(monotonic_now(), events));
         std::this_thread::sleep_for(milliseconds(1));
     }
     return true;
@@ -69,16 +69,16 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     times.debounce = milliseconds(5);
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
-    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
     chip.down[1] = true;
     ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
     EXPECT_EQ(events[0].button, 1);
     chip.down[1] = false;
     chip.plugged = false;
-    ASSERT_TRUE(until(panel, events, [&] { return panel.problem() == "panel: not there"; }));
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "not there"; }));
     chip.plugged = true;
-    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     EXPECT_EQ(chip.opened, 2);
     std::this_thread::sleep_for(milliseconds(20));
     events.clear();
@@ -93,7 +93,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     times.debounce = milliseconds(1);
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
-    ASSERT_TRUE(until(panel, events, [&] { return panel.problem().empty(); }));
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     for (std::size_t k = 0; k < ButtonPanel::most_waiting + 10; ++k) {
         chip.down[0] = true;
         std::this_thread::sleep_for(milliseconds(10));
@@ -103,7 +103,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     chip.down[2] = true;
     std::this_thread::sleep_for(milliseconds(200));
     events.clear();
-    ASSERT_TRUE(panel.poll(MonotonicTime(std::chrono::steady_clock::now().time_since_epoch()), events));
+    ASSERT_TRUE(panel.poll(monotonic_now(), events));
     ASSERT_LE(events.size(), ButtonPanel::most_waiting);
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.back().button, 2);

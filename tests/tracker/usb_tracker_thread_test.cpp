@@ -73,24 +73,17 @@ private:
     std::atomic<int>& searches_;
 };
 
-MonotonicTime steady_now() {
-    return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
-}
-
 TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
     UsbTracker tracker(std::make_unique<RestlessBus>(), {});
     EXPECT_FALSE(tracker.reports_table_frame());
     std::vector<PoseSample> samples;
-    const MonotonicTime end = steady_now() + std::chrono::milliseconds(1500);
+    const MonotonicTime end = monotonic_now() + std::chrono::milliseconds(1500);
     std::size_t taken = 0;
-    int lost = 0;
     MonotonicTime last{};
-    while (steady_now() < end || taken == 0) {
+    while (monotonic_now() < end || taken == 0) {
         samples.clear();
-        const MonotonicTime now = steady_now();
-        const Result<void> polled = tracker.poll(now, samples);
-        lost += polled ? 0 : 1;
-        EXPECT_TRUE(polled || polled.error().kind == ErrorKind::DeviceLost);
+        const MonotonicTime now = monotonic_now();
+        EXPECT_TRUE(tracker.poll(now, samples));
         EXPECT_FALSE(tracker.state().empty());
         for (const PoseSample& sample : samples) {
             EXPECT_LE(sample.time, now);
@@ -101,7 +94,6 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     EXPECT_GT(last, end - std::chrono::seconds(2));
-    SUCCEED() << taken << " samples, lost " << lost << " times";
 }
 
 TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
@@ -110,59 +102,11 @@ TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
     std::vector<PoseSample> samples;
     int polls_within_a_search = 0;
     while (searches == 0) {
-        EXPECT_TRUE(tracker.poll(steady_now(), samples));
+        EXPECT_TRUE(tracker.poll(monotonic_now(), samples));
         ++polls_within_a_search;
     }
     EXPECT_GT(polls_within_a_search, 1);
     EXPECT_TRUE(samples.empty());
-}
-
-TEST(SampleMailbox, KeepsTheNewestAndHandsOutNothingFromTheFuture) {
-    SampleMailbox mailbox;
-    std::vector<PoseSample> put(1);
-    for (int k = 1; k <= 1000; ++k) {
-        put[0].time = from_microseconds(k);
-        mailbox.put(put);
-    }
-    std::vector<PoseSample> taken;
-    mailbox.take(from_microseconds(900), taken);
-    ASSERT_EQ(taken.size(), SampleMailbox::capacity - 100);
-    EXPECT_EQ(taken.front().time, from_microseconds(1001 - static_cast<int>(SampleMailbox::capacity)));
-    EXPECT_EQ(taken.back().time, from_microseconds(900));
-    taken.clear();
-    mailbox.take(from_microseconds(2000), taken);
-    EXPECT_EQ(taken.size(), 100U);
-    taken.clear();
-    mailbox.take(from_microseconds(2000), taken);
-    EXPECT_TRUE(taken.empty());
-}
-
-TEST(SampleMailbox, PutAndTakenFromTwoThreadsLosesNoOrder) {
-    SampleMailbox mailbox;
-    constexpr int count = 20'000;
-    std::thread device([&] {
-        std::vector<PoseSample> put(3);
-        for (int k = 1; k <= count; ++k) {
-            for (PoseSample& sample : put) {
-                sample.time = from_microseconds(k);
-                sample.position_m = glm::dvec3(k);
-            }
-            mailbox.put(put);
-        }
-    });
-    std::vector<PoseSample> taken;
-    MonotonicTime last{};
-    while (last < from_microseconds(count)) {
-        taken.clear();
-        mailbox.take(from_microseconds(count), taken);
-        for (const PoseSample& sample : taken) {
-            EXPECT_GE(sample.time, last);
-            EXPECT_EQ(sample.position_m.z, static_cast<double>(to_microseconds(sample.time)));
-            last = sample.time;
-        }
-        std::this_thread::yield(); // a poll that spins would keep the lock to itself
-    }
-    device.join();
 }
 
 } // namespace

@@ -1,42 +1,44 @@
-/// The latest samples on their way from a device's thread to the exhibit's; the oldest give way.
+/// The latest items on their way from a device's thread to the exhibit's; the oldest give way.
 ///
+/// Item     has a `time`; put in ascending time.
 /// Threads  one puts, one takes. Taking never waits: while the other side is putting, nothing is there yet.
 /// Memory   fixed.
 #pragma once
 
-#include "firmware_host/tracker/tracker.h"
+#include "firmware_host/base/time.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <span>
+#include <vector>
 
 namespace frustumscreen {
 
-class SampleMailbox {
+template <typename Item, std::size_t capacity> class Mailbox {
 public:
-    static constexpr std::size_t capacity = 256;
-
-    void put(std::span<const PoseSample> samples) {
+    void put(std::span<const Item> items) {
         const std::lock_guard lock(mutex_);
-        for (const PoseSample& sample : samples) {
-            samples_[put_ % capacity] = sample;
+        for (const Item& item : items) {
+            items_[put_ % capacity] = item;
             ++put_;
         }
         taken_ = put_ > capacity ? std::max(taken_, put_ - capacity) : taken_;
     }
     /// Appends those with time <= now that were not taken before.
-    void take(MonotonicTime now, std::vector<PoseSample>& samples) {
+    void take(MonotonicTime now, std::vector<Item>& items) {
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        while (lock.owns_lock() && taken_ < put_ && samples_[taken_ % capacity].time <= now) {
-            samples.push_back(samples_[taken_ % capacity]);
+        while (lock.owns_lock() && taken_ < put_ && items_[taken_ % capacity].time <= now) {
+            items.push_back(items_[taken_ % capacity]);
             ++taken_;
         }
     }
 
 private:
     std::mutex mutex_;
-    std::array<PoseSample, capacity> samples_;
+    std::array<Item, capacity> items_;
     std::uint64_t put_ = 0;   ///< ever
     std::uint64_t taken_ = 0; ///< ever, or overwritten
 };

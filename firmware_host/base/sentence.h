@@ -1,0 +1,49 @@
+/// How a device is, in one plain sentence for the person beside it, without memory of its own.
+///
+/// `Sentence` is a value of fixed size; what is too long is cut. `SharedSentence` carries the latest one from
+/// the device's thread to the exhibit's.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <mutex>
+#include <string_view>
+
+namespace frustumscreen {
+
+class Sentence {
+public:
+    Sentence() = default;
+    explicit Sentence(std::string_view text) : length_(std::min(text.size(), text_.size())) {
+        text.copy(text_.data(), length_);
+    }
+    [[nodiscard]] std::string_view view() const { return {text_.data(), length_}; }
+    [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
+
+private:
+    std::array<char, 240> text_{};
+    std::size_t length_ = 0;
+};
+
+/// Threads  one sets, one reads; reading never waits.
+class SharedSentence {
+public:
+    explicit SharedSentence(std::string_view text) : latest_(text) {}
+    void set(std::string_view text) {
+        const std::lock_guard lock(mutex_);
+        latest_ = Sentence(text);
+    }
+    /// Leaves `sentence` as it is while the other side is setting one.
+    void read(Sentence& sentence) const {
+        if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
+            sentence = latest_;
+        }
+    }
+
+private:
+    mutable std::mutex mutex_;
+    Sentence latest_;
+};
+
+} // namespace frustumscreen
