@@ -29,13 +29,9 @@ bool LiveSituation::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
         return true;
     }
-    const std::optional<glm::dquat> rotation = normalised(sample.rotation);
-    if (!rotation) {
-        return false;
-    }
     PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
-    const Taken taken =
-        estimator.take(sample.time, table_from_device_ * RigidTransform{*rotation, sample.position_m});
+    const RigidTransform device_from_station{sample.rotation, sample.position_m}; // of any length until taken
+    const Taken taken = estimator.take(sample.time, table_from_device_ * device_from_station);
     return taken == Taken::Used || taken == Taken::Late;
 }
 

@@ -10,10 +10,10 @@
 ///          no step is too long or too short to be stable.
 /// Threads  one caller. Allocates nothing.
 /// Source   Blom and Bar-Shalom, The interacting multiple model algorithm for systems with Markovian
-/// switching
-///          coefficients, 1988; models after Bar-Shalom, Li and Kirubarajan, Estimation with Applications to
-///          Tracking and Navigation, 2001, 6.2. Differs in that the chance of a change of model is the exact
-///          exponential of a rate, not a number per step. One model alone is the ordinary Kalman filter.
+///          switching coefficients, 1988; models after Bar-Shalom, Li and Kirubarajan, Estimation with
+///          Applications to Tracking and Navigation, 2001, 6.2. Differs in that the chance of a change of
+///          model is the exact exponential of a rate, not a number per step. One model alone is the ordinary
+///          Kalman filter.
 #pragma once
 
 #include <glm/glm.hpp>

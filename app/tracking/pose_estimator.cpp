@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
+#include <tuple>
 
 namespace frustumscreen {
 
@@ -94,41 +94,34 @@ PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     if (count_ == 0) {
         return {};
     }
-    PoseEstimate estimate;
-    estimate.uptakes = uptakes_;
-    estimate.age = time - moment(0).time;
-    if (!options_.predicts) {
-        estimate.pose = moment(0).pose;
-        estimate.status = estimate.age > options_.stale_after ? PoseStatus::Stale : PoseStatus::Exact;
-        return estimate;
+    PoseEstimate estimate{moment(0).pose, PoseStatus::Exact, time - moment(0).time, uptakes_};
+    if (options_.predicts && estimate.age > Nanoseconds(0)) {
+        estimate.pose = predicted(to_seconds(estimate.age));
+        estimate.status = PoseStatus::Predicted;
+    } else if (options_.predicts) {
+        std::tie(estimate.pose, estimate.status) = remembered_at(time);
     }
-    if (estimate.age <= Nanoseconds(0)) {
-        return remembered_at(time);
+    if (estimate.age > options_.stale_after) {
+        estimate.status = PoseStatus::Stale;
     }
-    estimate.pose = predicted(to_seconds(estimate.age));
-    estimate.status = estimate.age > options_.stale_after ? PoseStatus::Stale : PoseStatus::Predicted;
     return estimate;
 }
 
-PoseEstimate PoseEstimator::remembered_at(MonotonicTime time) const {
-    PoseEstimate estimate;
-    estimate.uptakes = uptakes_;
-    estimate.age = time - moment(0).time;
+std::pair<RigidTransform, PoseStatus> PoseEstimator::remembered_at(MonotonicTime time) const {
     std::size_t back = 0;
     while (back + 1 < count_ && moment(back).time > time) {
         ++back;
     }
     const Moment& before = moment(back);
-    estimate.pose = before.pose;
+    if (before.time > time) {
+        return {before.pose, PoseStatus::Stale};
+    }
     if (before.time == time) {
-        estimate.status = PoseStatus::Exact;
-    } else if (before.time < time) {
-        const Moment& after = moment(back - 1);
-        estimate.pose = between(before.pose, after.pose,
-                                to_seconds(time - before.time) / to_seconds(after.time - before.time));
-        estimate.status = PoseStatus::Interpolated;
-    } // else before anything remembered: stale
-    return estimate;
+        return {before.pose, PoseStatus::Exact};
+    }
+    const Moment& after = moment(back - 1);
+    const double share = to_seconds(time - before.time) / to_seconds(after.time - before.time);
+    return {between(before.pose, after.pose, share), PoseStatus::Interpolated};
 }
 
 } // namespace frustumscreen

@@ -2,8 +2,7 @@
 ///
 /// Frames   those of the samples; metres, unit quaternions.
 /// Time     CLOCK_MONOTONIC. Normally asked for the time at which the picture is lit. Samples count from
-/// their
-///          own time; late and repeated ones change nothing, whatever the steps between the others.
+///          their own time; late and repeated ones change nothing, whatever the steps between the others.
 /// Errors   none: what is no pose is refused; without any pose the answer is stale.
 /// Threads  one caller. Allocates nothing after construction.
 #pragma once
@@ -14,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -79,7 +79,8 @@ private:
                                  double dt_s) const;
     Taken doubt(const Moment& measured);
     [[nodiscard]] RigidTransform predicted(double age_s) const;
-    [[nodiscard]] PoseEstimate remembered_at(MonotonicTime time) const;
+    /// `time` is not after the latest.
+    [[nodiscard]] std::pair<RigidTransform, PoseStatus> remembered_at(MonotonicTime time) const;
 
     std::unique_ptr<PoseFilter> filter_;
     PoseEstimatorOptions options_;

@@ -5,16 +5,13 @@
 namespace frustumscreen {
 
 const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
-    if (estimate.uptakes == 0 || estimate.status == PoseStatus::Stale) {
-        if (uptakes_ == 0) {
-            shown_ = estimate.pose;
-        }
+    if (uptakes_ == 0) {
+        shown_ = estimate.pose; // nothing was shown that it could glide from
+    }
+    if (estimate.status == PoseStatus::Stale) {
         return shown_;
     }
     if (estimate.uptakes != uptakes_) {
-        if (uptakes_ == 0) {
-            shown_ = estimate.pose;
-        }
         left_ = step_between(estimate.pose, shown_);
         return_ = time;
         uptakes_ = estimate.uptakes;

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <tuple>
 
 namespace frustumscreen {
 
@@ -198,24 +200,15 @@ std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind ki
     return level;
 }
 
-/// Levels that stray further than a visitor would forgive are no levels, nor are those of so few triangles
-/// that a nearer one costs a frame no more; the nearest one always stays.
+/// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.
 void drop_useless(std::vector<Candidate>& candidates) {
     constexpr float worst_mean_box = 3e-3F; // 0.3 mm on an artifact of 0.1 m
-    constexpr std::size_t few_triangles = 1500;
-    const auto is_cheap = [](const Candidate& one) { return one.level.indices.size() <= 3 * few_triangles; };
     float nearest = std::numeric_limits<float>::infinity();
-    float nearest_cheap = std::numeric_limits<float>::infinity();
     for (const Candidate& candidate : candidates) {
         nearest = std::min(nearest, candidate.level.error.mean_box);
-        if (is_cheap(candidate)) {
-            nearest_cheap = std::min(nearest_cheap, candidate.level.error.mean_box);
-        }
     }
     std::erase_if(candidates, [&](const Candidate& candidate) {
-        const float mean_box = candidate.level.error.mean_box;
-        return mean_box > std::max(worst_mean_box, nearest) ||
-               (is_cheap(candidate) && mean_box > nearest_cheap);
+        return candidate.level.error.mean_box > std::max(worst_mean_box, nearest);
     });
 }
 
@@ -258,15 +251,14 @@ void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
 } // namespace
 
 std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
+    constexpr std::size_t few_triangles = 1500; // fewer cost a frame no less
     std::vector<std::size_t> order(levels.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        order[k] = k;
-    }
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return levels[a].indices.size() != levels[b].indices.size()
-                   ? levels[a].indices.size() < levels[b].indices.size()
-                   : levels[a].error.mean_box < levels[b].error.mean_box;
-    });
+    std::iota(order.begin(), order.end(), 0);
+    const auto rank = [&](std::size_t k) {
+        const std::size_t triangles = levels[k].indices.size() / 3;
+        return std::tuple(std::max(triangles, few_triangles), levels[k].error.mean_box, triangles);
+    };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
     std::vector<std::size_t> front;
     for (const std::size_t k : order) {
         if (front.empty() || betters(levels[k].error, levels[front.back()].error)) {

@@ -19,7 +19,35 @@ BakeOptions quick(bool unlit = true) {
     return options;
 }
 
+PackLevel level_of(std::size_t triangles, float mean_box, float p95_box) {
+    PackLevel level;
+    level.indices.resize(3 * triangles);
+    level.error.mean_box = mean_box;
+    level.error.p95_box = p95_box;
+    return level;
+}
+
 } // namespace
+
+TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
+    const std::vector<PackLevel> levels{
+        level_of(40'000, 1e-4F, 3e-4F), level_of(10'000, 4e-4F, 9e-4F),
+        level_of(20'000, 5e-4F, 9e-4F), // dearer, and no nearer
+        level_of(30'000, 2e-4F, 2e-3F), // nearer in the mean, but it strays
+        level_of(2'000, 1e-3F, 3e-3F),
+    };
+    EXPECT_EQ(measured_front(levels), (std::vector<std::size_t>{4, 1, 0}));
+}
+
+TEST(Levels, OfThoseWithFewTrianglesOnlyTheNearestIsOnTheFront) {
+    const std::vector<PackLevel> levels{
+        level_of(1'000, 5e-4F, 9e-4F),
+        level_of(10, 2e-3F, 5e-3F), // costs a frame as much as the first
+        level_of(1'200, 5e-4F, 9e-4F),
+        level_of(8'000, 1e-4F, 2e-4F),
+    };
+    EXPECT_EQ(measured_front(levels), (std::vector<std::size_t>{0, 3}));
+}
 
 TEST(Levels, MeasuredErrorOfACoarseSphereIsItsSagitta) {
     SourceMesh fine = test::empty_mesh();
