@@ -2,6 +2,9 @@
 
 #include <GLES3/gl31.h>
 
+#include <array>
+#include <span>
+
 namespace frustumscreen {
 
 namespace {
@@ -18,6 +21,18 @@ void fill(int x, int width, std::uint8_t grey) {
 
 bool bit(std::uint8_t code, int k) {
     return ((code >> static_cast<unsigned>(k)) & 1U) != 0;
+}
+
+std::optional<std::uint8_t> code_in(std::span<const glm::u8vec4, probe_pixels> corner) {
+    unsigned code = 0;
+    for (unsigned k = 0; k < probe_pixels; ++k) {
+        const glm::u8vec4& pixel = corner[k];
+        if (pixel.r != pixel.g || pixel.g != pixel.b || (pixel.r != greys[0] && pixel.r != greys[1])) {
+            return std::nullopt;
+        }
+        code |= (pixel.r == greys[1] ? 1U : 0U) << k;
+    }
+    return static_cast<std::uint8_t>(code);
 }
 
 } // namespace
@@ -43,15 +58,15 @@ std::optional<std::uint8_t> read_probe(const Image8& picture) {
     if (picture.width < probe_pixels || picture.height < 1) {
         return std::nullopt;
     }
-    unsigned code = 0;
-    for (int k = 0; k < probe_pixels; ++k) {
-        const glm::u8vec4& pixel = picture.at(k, 0);
-        if (pixel.r != pixel.g || pixel.g != pixel.b || (pixel.r != greys[0] && pixel.r != greys[1])) {
-            return std::nullopt;
-        }
-        code |= (pixel.r == greys[1] ? 1U : 0U) << static_cast<unsigned>(k);
-    }
-    return static_cast<std::uint8_t>(code);
+    return code_in(std::span(picture.texels).first<probe_pixels>());
+}
+
+std::optional<std::uint8_t> read_probe(unsigned framebuffer) {
+    std::array<glm::u8vec4, probe_pixels> corner{};
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, probe_pixels, 1, GL_RGBA, GL_UNSIGNED_BYTE, corner.data());
+    return code_in(corner);
 }
 
 void erase_probe(Image8& picture) {

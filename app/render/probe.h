@@ -8,7 +8,7 @@
 ///          looks at two in a row, one second of rest apart.
 /// Colour   linear light into an sRGB framebuffer; read as sRGB codes.
 /// Place    where the artifact or a caption may light the corner, the picture goes first and has no code.
-/// Threads  `write_probe`: the render thread; allocates nothing. The rest is pure.
+/// Threads  what takes a framebuffer: the render thread; allocates nothing. The rest is pure.
 #pragma once
 
 #include "app/image/image.h"
@@ -27,6 +27,8 @@ bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& 
 
 /// The code in a picture's corner; nothing if there is none.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(const Image8& picture);
+/// The same of a framebuffer, once everything in it is drawn: waits for the GPU, so not for every frame.
+[[nodiscard]] std::optional<std::uint8_t> read_probe(unsigned framebuffer);
 
 /// Makes the corner black again, as the picture had it. A picture without a code is left alone.
 void erase_probe(Image8& picture);

@@ -1,0 +1,40 @@
+/// The journal: one line for each change of state, with fields to search by (`journalctl DEVICE=tracker`).
+/// Where standard error is not the journal, the line goes to standard error without its fields.
+///
+/// Threads  any; a line is one datagram, or one write.
+/// Errors   none: a line that nobody takes is lost.
+/// Source   JOURNAL_STREAM in systemd.exec(5); sd_journal_sendv(3).
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+struct stat;
+
+namespace frustumscreen {
+
+/// Of syslog(3).
+enum class Weight { Error = 3, Warning = 4, Notice = 5, Info = 6 };
+
+struct JournalField {
+    std::string_view name; ///< capitals, digits, underscores
+    std::string_view value;
+};
+
+class Journal {
+public:
+    /// `program` begins each line on standard error, and is the line's SYSLOG_IDENTIFIER in the journal.
+    explicit Journal(std::string_view program);
+
+    void note(Weight weight, std::string_view message, std::initializer_list<JournalField> fields = {}) const;
+
+private:
+    std::string program_;
+    bool in_journal_;
+};
+
+/// `journal_stream`: that environment variable, device:inode; null = not set.
+[[nodiscard]] bool is_journal(const char* journal_stream, const struct stat& file);
+
+} // namespace frustumscreen

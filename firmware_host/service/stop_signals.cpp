@@ -1,0 +1,49 @@
+#include "firmware_host/service/stop_signals.h"
+
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+extern "C" void end_now(int) {
+    constexpr std::string_view line = "frustumscreen: a device did not let go; ended without it\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+    ::_exit(0);
+}
+
+} // namespace
+
+StopSignals::StopSignals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGTERM);
+    sigaddset(&set_, SIGINT);
+    ::pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+}
+
+bool StopSignals::received() const {
+    const timespec at_once{};
+    return ::sigtimedwait(&set_, nullptr, &at_once) > 0;
+}
+
+StopSignals::AtOnce::AtOnce(const StopSignals& signals) : signals_(signals) {
+    ::pthread_sigmask(SIG_UNBLOCK, &signals_.set_, nullptr);
+}
+
+StopSignals::AtOnce::~AtOnce() {
+    ::pthread_sigmask(SIG_BLOCK, &signals_.set_, nullptr);
+}
+
+void end_within(Nanoseconds time) {
+    struct sigaction action {};
+    action.sa_handler = end_now;
+    ::sigaction(SIGALRM, &action, nullptr);
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(time).count();
+    const itimerval once{{}, {us / 1'000'000, us % 1'000'000}};
+    ::setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,61 @@
+/// When the service manager's watchdog is fed: only while the projector's picture lives.
+///
+/// Fed      while pictures (at rest: the probe, once a second) are presented on time, and the reserved code
+///          that is read back from them is another each time, and every device thread keeps its promise.
+/// Not fed  by a device that is lost: its thread lives and says so, and the exhibit goes on without it.
+/// Time     a parameter, monotonic.
+/// Threads  values; one caller. Allocates nothing.
+#pragma once
+
+#include "firmware_host/base/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace frustumscreen {
+
+enum class Health : std::uint8_t {
+    Well,
+    NoPicture,   ///< nothing was presented for too long
+    FrozenCode,  ///< what was presented does not change, or has no code
+    ThreadHangs, ///< a device's thread broke its promise
+};
+/// What is wrong, in one sentence; of Well too.
+[[nodiscard]] std::string_view sentence_of(Health health);
+
+/// What was read back from a picture that was presented.
+struct ReadBack {
+    bool covered = false;             ///< the picture lights the corner: there is no code
+    std::optional<std::uint8_t> code; ///< nothing = the corner holds something else
+};
+
+class WatchdogPolicy {
+public:
+    /// Twice the rest between two probes.
+    static constexpr Nanoseconds picture_within = std::chrono::seconds(2);
+
+    /// `interval`: the service manager's; it is fed three times in it, once a second if that is more often.
+    WatchdogPolicy(Nanoseconds interval, MonotonicTime start);
+
+    /// A picture was presented.
+    void presented(MonotonicTime now) { presented_ = now; }
+    /// Whether the next picture's code is worth reading back: not in every frame.
+    [[nodiscard]] bool wants_code(MonotonicTime now) const { return now - changed_ >= feed_every_ / 2; }
+    void read_back(MonotonicTime now, const ReadBack& read);
+
+    /// `promises`: until when each device thread has promised to be heard of again.
+    [[nodiscard]] Health health(MonotonicTime now, std::span<const MonotonicTime> promises) const;
+    /// True: feed it now.
+    [[nodiscard]] bool feed(MonotonicTime now, Health health);
+
+private:
+    Nanoseconds feed_every_;
+    MonotonicTime presented_;
+    MonotonicTime changed_; ///< when a picture with another code was last seen
+    std::optional<std::uint8_t> code_;
+    std::optional<MonotonicTime> fed_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,95 @@
+#include "firmware_host/service/crash_line.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+/// How a child that does `work`, and exits with 7 after it, ends.
+int ending_of(const std::function<void()>& work) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::alarm(20); // whatever happens
+        work();
+        ::_exit(7);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(StopSignals, WaitInLineForWhoLooks) {
+    const int status = ending_of([] {
+        const StopSignals signals;
+        if (signals.received()) {
+            ::_exit(1);
+        }
+        ::kill(::getpid(), SIGTERM);
+        if (!signals.received() || signals.received()) {
+            ::_exit(2);
+        }
+        ::kill(::getpid(), SIGINT);
+        if (!signals.received()) {
+            ::_exit(3);
+        }
+    });
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 7);
+}
+
+TEST(StopSignals, EndTheProcessAtOnceWhileThereIsNothingToPutAway) {
+    const int status = ending_of([] {
+        const StopSignals signals;
+        const StopSignals::AtOnce at_once(signals);
+        ::kill(::getpid(), SIGTERM);
+    });
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    const int after = ending_of([] {
+        const StopSignals signals;
+        { const StopSignals::AtOnce at_once(signals); }
+        ::kill(::getpid(), SIGTERM); // waits again
+    });
+    ASSERT_TRUE(WIFEXITED(after));
+    EXPECT_EQ(WEXITSTATUS(after), 7);
+}
+
+TEST(StopSignals, AThreadThatHangsDoesNotHoldTheEnd) {
+    const int status = ending_of([] {
+        const StopSignals signals;
+        ::close(STDERR_FILENO);
+        std::jthread hangs([] { std::this_thread::sleep_for(std::chrono::seconds(15)); });
+        end_within(std::chrono::milliseconds(50));
+        hangs.join();
+    });
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(CrashLine, IsTheLastOneAndTheCrashTakesItsCourse) {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) {
+        ::testing::internal::CaptureStderr();
+        const int status = ending_of([signal] {
+            leave_a_line_at_a_crash();
+            ::raise(signal);
+        });
+        const std::string said = ::testing::internal::GetCapturedStderr();
+        ASSERT_TRUE(WIFSIGNALED(status));
+        EXPECT_EQ(WTERMSIG(status), signal);
+        EXPECT_EQ(said.rfind("frustumscreen: crashed: ", 0), 0U) << said;
+        EXPECT_EQ(said.back(), '\n');
+    }
+}
+#endif
+
+} // namespace
+} // namespace frustumscreen

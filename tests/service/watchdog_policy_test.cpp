@@ -1,0 +1,155 @@
+#include "firmware_host/service/watchdog_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const MonotonicTime start = from_microseconds(1'000'000);
+
+/// An exhibit whose time passes by the millisecond: presents every `period`, once a second at rest.
+struct Exhibit {
+    WatchdogPolicy policy{seconds(6), start};
+    MonotonicTime now = start;
+    Nanoseconds period = milliseconds(1000);
+    MonotonicTime next_present = start;
+    std::uint8_t code = 0;
+    bool presents = true;
+    bool covered = false; ///< the picture lights the corner
+    bool frozen = false;  ///< what is scanned out stays
+    bool blank = false;   ///< what is scanned out has no code
+    std::vector<MonotonicTime> promises;
+    std::vector<MonotonicTime> fed;
+    int read = 0;
+
+    void run(Nanoseconds length) {
+        for (const MonotonicTime end = now + length; now < end; now += milliseconds(1)) {
+            if (presents && now >= next_present) {
+                next_present = now + period;
+                policy.presented(now);
+                code = frozen ? code : static_cast<std::uint8_t>(code + 1);
+                if (policy.wants_code(now)) {
+                    ++read;
+                    policy.read_back(now, {covered, covered || blank ? std::nullopt : std::optional(code)});
+                }
+            }
+            if (policy.feed(now, health())) {
+                fed.push_back(now);
+            }
+        }
+    }
+    [[nodiscard]] Health health() const { return policy.health(now, promises); }
+    /// Of the longest stretch without food since `from`, up to now.
+    [[nodiscard]] Nanoseconds hunger(MonotonicTime from) const {
+        Nanoseconds longest{0};
+        MonotonicTime last = from;
+        for (const MonotonicTime each : fed) {
+            if (each > from) {
+                longest = std::max<Nanoseconds>(longest, each - last);
+                last = each;
+            }
+        }
+        return std::max<Nanoseconds>(longest, now - last);
+    }
+};
+
+TEST(WatchdogPolicy, FeedsAtRestAndInMotionWellWithinTheInterval) {
+    for (const milliseconds period :
+         {milliseconds(1), milliseconds(16), milliseconds(300), milliseconds(1000)}) {
+        Exhibit exhibit;
+        exhibit.period = period;
+        exhibit.run(seconds(60));
+        EXPECT_LE(exhibit.hunger(start), seconds(2)) << period.count(); // of 6
+        EXPECT_EQ(exhibit.health(), Health::Well);
+    }
+}
+
+TEST(WatchdogPolicy, IsFedThreeTimesInAShortInterval) {
+    Exhibit exhibit;
+    exhibit.policy = WatchdogPolicy(milliseconds(900), start);
+    exhibit.period = milliseconds(16);
+    exhibit.run(seconds(10));
+    EXPECT_LE(exhibit.hunger(start), milliseconds(300));
+    EXPECT_GE(exhibit.hunger(start), milliseconds(299)); // and not more often than that
+}
+
+TEST(WatchdogPolicy, ReadsBackAFewTimesASecondNotInEveryFrame) {
+    Exhibit exhibit;
+    exhibit.period = milliseconds(16);
+    exhibit.run(seconds(60));
+    EXPECT_LE(exhibit.read, 3 * 60);
+    EXPECT_GE(exhibit.read, 60);
+}
+
+TEST(WatchdogPolicy, StarvesAnExhibitThatPresentsNothing) {
+    Exhibit exhibit;
+    exhibit.run(seconds(10));
+    exhibit.presents = false;
+    const MonotonicTime stopped = exhibit.now;
+    exhibit.run(seconds(20));
+    EXPECT_EQ(exhibit.health(), Health::NoPicture);
+    EXPECT_GE(exhibit.hunger(stopped), seconds(17));
+    exhibit.presents = true; // and does not bear a grudge
+    exhibit.run(seconds(1));
+    EXPECT_EQ(exhibit.health(), Health::Well);
+}
+
+TEST(WatchdogPolicy, StarvesAPictureThatStaysThoughItIsPresented) {
+    for (const bool blank : {false, true}) {
+        Exhibit exhibit;
+        exhibit.period = milliseconds(16);
+        exhibit.run(seconds(10));
+        (blank ? exhibit.blank : exhibit.frozen) = true;
+        const MonotonicTime stuck = exhibit.now;
+        exhibit.run(seconds(20));
+        EXPECT_EQ(exhibit.health(), Health::FrozenCode);
+        EXPECT_GE(exhibit.hunger(stuck), seconds(17));
+    }
+}
+
+TEST(WatchdogPolicy, TakesAPictureThatCoversTheCornerForWhatItIs) {
+    Exhibit exhibit;
+    exhibit.covered = true;
+    exhibit.run(seconds(20));
+    EXPECT_EQ(exhibit.health(), Health::Well);
+    EXPECT_LE(exhibit.hunger(start), seconds(2));
+}
+
+TEST(WatchdogPolicy, TheSameCodeByChanceCostsNoMeal) {
+    Exhibit exhibit; // 256 pictures between two looks would show the same code each time
+    exhibit.period = Nanoseconds(seconds(1)) / 512;
+    exhibit.run(seconds(20));
+    EXPECT_LE(exhibit.hunger(start), seconds(2));
+}
+
+TEST(WatchdogPolicy, StarvesWhenAThreadBreaksItsPromiseToTheMillisecond) {
+    Exhibit exhibit;
+    exhibit.period = milliseconds(16);
+    exhibit.promises = {start + seconds(1000), start + seconds(30)};
+    exhibit.run(seconds(30) + milliseconds(1));
+    EXPECT_EQ(exhibit.policy.health(start + seconds(30), exhibit.promises), Health::Well);
+    EXPECT_EQ(exhibit.health(), Health::ThreadHangs);
+    const MonotonicTime broken = exhibit.now;
+    exhibit.run(seconds(20));
+    EXPECT_GE(exhibit.hunger(broken), seconds(20) - milliseconds(1));
+    exhibit.promises[1] = exhibit.now + seconds(10);
+    exhibit.run(milliseconds(20));
+    EXPECT_EQ(exhibit.health(), Health::Well);
+}
+
+TEST(WatchdogPolicy, SaysEachTroubleInAnotherSentence) {
+    for (const Health a : {Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs}) {
+        EXPECT_FALSE(sentence_of(a).empty());
+        for (const Health b : {Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs}) {
+            EXPECT_EQ(a == b, sentence_of(a) == sentence_of(b));
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
