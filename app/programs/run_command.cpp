@@ -7,13 +7,13 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/service/crash_line.h"
 #include "firmware_host/tracker/pose_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -75,18 +75,11 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     return 0;
 }
 
+/// From the end of the loop: a device's thread that does not come back is not waited for.
+constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
+
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
-}
-
-/// SIGTERM and SIGINT wait in line from here on, for every thread that starts later; the loop looks for them.
-sigset_t hold_stop_signals() {
-    sigset_t signals{};
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGINT);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    return signals;
 }
 
 Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
@@ -145,7 +138,10 @@ void report(const Request& request, const LoopResult& result) {
 }
 
 Result<void> run(const Request& request) {
-    const sigset_t stop_signals = hold_stop_signals();
+    leave_a_line_at_a_crash();
+    const StopSignals stop_signals;
+    const Journal journal("frustumscreen");
+    ServiceManager manager;
     const Result<CheckedSettings> settings = load_settings(request.config);
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
@@ -165,7 +161,10 @@ Result<void> run(const Request& request) {
     // Simulated time starts at zero, real time when everything is loaded.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
-    const Result<std::unique_ptr<Show>> show = make_show(request, **settings, devices, **display, now());
+    const Result<std::unique_ptr<Show>> show = [&] {
+        const StopSignals::AtOnce at_once(stop_signals); // loading takes long, and leaves nothing behind
+        return make_show(request, **settings, devices, **display, now());
+    }();
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }
@@ -186,12 +185,17 @@ Result<void> run(const Request& request) {
     options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
     options.stills = request.out.empty() ? 0 : request.stills;
     options.keep_rows = !request.out.empty();
-    options.stop_signals = stop_signals;
+    options.stop = &stop_signals;
     StatusFile status_file(request.status_file);
+    RunWatch watch(manager, journal);
     const Result<LoopResult> result =
-        run_loop(**settings, **display, *inputs, **show, options, status_file, start);
+        run_loop(**settings, **display, *inputs, **show, options, status_file, watch, start);
+    manager.stopping();
     if (!result) {
         return tl::unexpected<Error>(result.error());
+    }
+    if (request.seconds == 0.0) {
+        end_within(longest_stop);
     }
     if (!request.out.empty()) {
         if (Result<void> written = write_pictures(request.out, *result); !written) {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <thread>
 
 namespace frustumscreen {
@@ -41,9 +40,9 @@ double milliseconds_since(MonotonicTime start) {
 class Loop {
 public:
     Loop(const Settings& settings, Display& display, Inputs& inputs, Show& show, const LoopOptions& options,
-         StatusFile& status_file, MonotonicTime start)
+         StatusFile& status_file, RunWatch& watch, MonotonicTime start)
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
-          start_(start),
+          watch_(watch), start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
           head_is_followed_(settings.eye.tracked),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
@@ -66,6 +65,7 @@ public:
 
     [[nodiscard]] Result<LoopResult> run() {
         MonotonicTime now = start_;
+        watch_.begin(start_, options_.fast);
         MonotonicTime next_status = start_ + between_statuses;
         while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
             if (Result<void> drawn = frame(now); !drawn) {
@@ -90,8 +90,9 @@ private:
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe = options_.redraw == Redraw::Changes && now - presented_ >= between_probes;
         const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
+        bool coded = false;
         if (drawn.drawn) {
-            write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+            coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
             const Result<MonotonicTime> shown = display_.present(now);
             if (!shown) {
                 return tl::unexpected<Error>(shown.error());
@@ -100,6 +101,10 @@ private:
             presented_ = now;
         }
         const double ms = milliseconds_since(begin);
+        if (drawn.drawn) {
+            watch_.presented(now, target.framebuffer, coded);
+        }
+        watch_.look(now, inputs_);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
         result_.status.prop_known = situation.prop_known || !inputs_.tracker;
@@ -185,31 +190,13 @@ private:
         if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
             result_.first_resident_mib = resident_mib();
         }
-        note_states();
+        status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
+        status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
+        watch_.note(status);
         status_file_.post(status);
     }
 
-    void note_states() {
-        if (inputs_.tracker) {
-            note_state("tracker", inputs_.tracker->state(), result_.status.tracker);
-        }
-        if (inputs_.panel) {
-            note_state("panel", inputs_.panel->state(), result_.status.panel);
-        }
-    }
-
-    /// One line in the journal each time that a device's state changes.
-    static void note_state(std::string_view device, std::string_view state, Sentence& noted) {
-        if (const Sentence said(state); said != noted) {
-            noted = said;
-            fmt::print(stderr, "frustumscreen: {}: {}\n", device, noted.view());
-        }
-    }
-
-    [[nodiscard]] bool told_to_stop() const {
-        const timespec at_once{};
-        return ::sigtimedwait(&options_.stop_signals, nullptr, &at_once) > 0;
-    }
+    [[nodiscard]] bool told_to_stop() const { return options_.stop != nullptr && options_.stop->received(); }
 
     /// Waits for it, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
@@ -232,6 +219,7 @@ private:
     Show& show_;
     const LoopOptions& options_;
     StatusFile& status_file_;
+    RunWatch& watch_;
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;
@@ -250,8 +238,9 @@ private:
 } // namespace
 
 Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs, Show& show,
-                            const LoopOptions& options, StatusFile& status_file, MonotonicTime start) {
-    return Loop(settings, display, inputs, show, options, status_file, start).run();
+                            const LoopOptions& options, StatusFile& status_file, RunWatch& watch,
+                            MonotonicTime start) {
+    return Loop(settings, display, inputs, show, options, status_file, watch, start).run();
 }
 
 } // namespace frustumscreen

@@ -9,12 +9,13 @@
 
 #include "app/programs/run_report.h"
 #include "app/programs/run_show.h"
+#include "app/programs/run_watch.h"
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/service/stop_signals.h"
 
-#include <csignal>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -27,7 +28,7 @@ struct LoopOptions {
     Redraw redraw = Redraw::Changes;
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
-    sigset_t stop_signals{}; ///< blocked by the caller; a pending one ends the loop
+    const StopSignals* stop = nullptr; ///< one of them ends the loop
 };
 
 struct Still {
@@ -45,6 +46,6 @@ struct LoopResult {
 
 [[nodiscard]] Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs,
                                           Show& show, const LoopOptions& options, StatusFile& status_file,
-                                          MonotonicTime start);
+                                          RunWatch& watch, MonotonicTime start);
 
 } // namespace frustumscreen

@@ -1,5 +1,7 @@
 #include "firmware_host/panel/button_panel.h"
 
+#include "firmware_host/base/thread_name.h"
+
 #include <algorithm>
 
 namespace frustumscreen {
@@ -24,7 +26,9 @@ Result<void> ButtonPanel::poll(MonotonicTime now, std::vector<PanelEvent>& event
 }
 
 void ButtonPanel::watch(const std::stop_token& stop) {
+    name_this_thread("panel");
     while (!stop.stop_requested()) {
+        heartbeat_.promise(monotonic_now() + longest_round);
         Result<std::unique_ptr<ButtonLines>> lines = open_();
         said_.set(lines ? serve(**lines, stop).message : lines.error().message);
         lines = {}; // closed before it is looked for again
@@ -40,6 +44,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
     const std::span<bool> levels(down.get(), count_);
     std::vector<PanelEvent> events;
     while (!stop.stop_requested()) {
+        heartbeat_.promise(monotonic_now() + longest_round);
         if (Result<void> read = lines.read(levels); !read) {
             return read.error();
         }

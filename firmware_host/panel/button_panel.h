@@ -6,6 +6,7 @@
 /// Time     events bear the monotonic clock's time.
 #pragma once
 
+#include "firmware_host/base/heartbeat.h"
 #include "firmware_host/base/mailbox.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/panel/button_lines.h"
@@ -22,12 +23,18 @@ namespace frustumscreen {
 class ButtonPanel final : public Panel {
 public:
     static constexpr std::size_t most_waiting = 64;
+    /// Opening, or asking for each level: a USB bridge that does not answer costs 5 s a transfer, until the
+    /// kernel gives up, and takes some for each line.
+    static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
 
     ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes& times);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
     [[nodiscard]] std::string name() const override { return "buttons"; }
     [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
+        return heartbeat_.promised_until();
+    }
 
 private:
     void watch(const std::stop_token& stop);
@@ -40,6 +47,7 @@ private:
     Mailbox<PanelEvent, most_waiting> mailbox_;
     SharedSentence said_{"its buttons are not opened yet"};
     Sentence state_; ///< the latest said that `poll` saw
+    Heartbeat heartbeat_{monotonic_now() + longest_round};
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above

@@ -5,6 +5,7 @@
 #include "firmware_host/base/time.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ public:
     /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing
     /// that could fail.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// Until when its thread has promised to be heard of again; nothing: it has none.
+    [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 
 } // namespace frustumscreen

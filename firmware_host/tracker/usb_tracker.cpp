@@ -1,5 +1,7 @@
 #include "firmware_host/tracker/usb_tracker.h"
 
+#include "firmware_host/base/thread_name.h"
+
 namespace frustumscreen {
 
 UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up)
@@ -7,9 +9,11 @@ UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_u
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void UsbTracker::run(const std::stop_token& stop) {
+    name_this_thread("tracker");
     std::vector<PoseSample> samples;
     samples.reserve(most_waiting);
     while (!stop.stop_requested()) {
+        heartbeat_.promise(monotonic_now() + longest_round);
         samples.clear();
         const Nanoseconds rest = driver_.step(samples);
         if (!samples.empty()) {

@@ -7,6 +7,7 @@
 /// Errors   none; `state` says what is the matter.
 #pragma once
 
+#include "firmware_host/base/heartbeat.h"
 #include "firmware_host/base/mailbox.h"
 #include "firmware_host/tracker/usb_tracker_driver.h"
 
@@ -21,6 +22,8 @@ namespace frustumscreen {
 class UsbTracker final : public Tracker {
 public:
     static constexpr std::size_t most_waiting = 256;
+    /// Opening, writing, reading: what the kernel itself gives up after, 5 s for a control transfer, twice.
+    static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
     UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up);
 
@@ -28,6 +31,9 @@ public:
     [[nodiscard]] std::string name() const override { return "usb"; }
     [[nodiscard]] bool reports_table_frame() const override { return false; }
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
+        return heartbeat_.promised_until();
+    }
 
 private:
     void run(const std::stop_token& stop);
@@ -35,6 +41,7 @@ private:
     UsbTrackerDriver driver_; ///< the device's thread only
     Mailbox<PoseSample, most_waiting> mailbox_;
     std::atomic<UsbTrackerState> state_{UsbTrackerState::NotConnected};
+    Heartbeat heartbeat_{monotonic_now() + longest_round};
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above

@@ -1,8 +1,7 @@
 // `frustumscreen run` at rest, on a pack made in memory.
 
-#include "app/pack/pack_file.h"
 #include "app/render/probe.h"
-#include "tests/render/synthetic_pack.h"
+#include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,42 +9,12 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 namespace frustumscreen::synthetic {
 namespace {
 
-namespace fs = std::filesystem;
-
-class RunCommand : public ::testing::Test {
+class RunCommand : public KioskFolder {
 protected:
-    void SetUp() override {
-        folder = fs::temp_directory_path() / "frustumscreen_run_command_test";
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-        Pack pack = rings();
-        pack.title = "Rings";
-        pack.languages = {"en"};
-        pack.captions = {{"en", "Rings", ""}};
-        pack.provenance.source_name = "rings.glb";
-        pack.provenance.source_sha256 = std::string(64, 'a');
-        pack.relief_size = 512;
-        pack.levels[0].error = {1e-3F, 2e-3F, 3e-3F, 0.0F};
-        for (unsigned k = 0; k < 8; ++k) {
-            pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
-                                       ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
-                                       (k & 4U) != 0 ? pack.box_size.z : 0.0);
-        }
-        const Result<Bytes> bytes = write_pack(pack);
-        ASSERT_TRUE(bytes) << bytes.error().message;
-        ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
-        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
-                                                              "0,1,0.02,0,0,1,0,0,0,1\n")));
-        ASSERT_TRUE(write_file(folder / "kiosk.toml",
-                               as_bytes("[projector]\nwidth = 320\nheight = 200\nrefresh_hz = 20.0\n"
-                                        "[tracker]\nkind = \"replay\"\nposes = \"poses.csv\"\n"
-                                        "[exhibit]\npacks = [\"rings.fspack\"]\n")));
-    }
     nlohmann::json run(const std::string& more) const {
         const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml "
                                                 "--headless --fast --json {} >out.json 2>err.txt",
@@ -54,7 +23,6 @@ protected:
         EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << as_text(*read_file(folder / "err.txt"));
         return nlohmann::json::parse(as_text(*read_file(folder / "out.json")), nullptr, false);
     }
-    fs::path folder;
 };
 
 TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {

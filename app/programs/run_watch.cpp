@@ -1,0 +1,106 @@
+#include "app/programs/run_watch.h"
+
+#include "app/render/probe.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+
+namespace frustumscreen {
+
+namespace {
+
+template <typename... Values> Sentence sentence(fmt::format_string<Values...> format, Values&&... values) {
+    std::array<char, 240> text{};
+    const auto end = fmt::format_to_n(text.data(), text.size(), format, std::forward<Values>(values)...).out;
+    return Sentence({text.data(), static_cast<std::size_t>(end - text.data())});
+}
+
+} // namespace
+
+void RunWatch::begin(MonotonicTime now, bool simulated_time) {
+    if (const auto interval = manager_.watchdog_interval(); interval && !simulated_time) {
+        watchdog_.emplace(*interval, now);
+    }
+}
+
+void RunWatch::presented(MonotonicTime now, unsigned framebuffer, bool has_code) {
+    if (!ready_) {
+        ready_ = true;
+        manager_.ready();
+    }
+    if (!watchdog_) {
+        return;
+    }
+    watchdog_->presented(now);
+    if (watchdog_->wants_code(now)) {
+        watchdog_->read_back(now, {!has_code, has_code ? read_probe(framebuffer) : std::nullopt});
+    }
+}
+
+void RunWatch::look(MonotonicTime now, const Inputs& inputs) {
+    if (!watchdog_) {
+        return;
+    }
+    std::array<MonotonicTime, 2> promises{};
+    std::size_t count = 0;
+    const auto add = [&](const auto& device) {
+        if (const std::optional<MonotonicTime> until = device ? device->alive_until() : std::nullopt; until) {
+            promises.at(count++) = *until;
+        }
+    };
+    add(inputs.tracker);
+    add(inputs.panel);
+    const Health health = watchdog_->health(now, std::span(promises).first(count));
+    note_health(health);
+    if (watchdog_->feed(now, health)) {
+        manager_.feed_watchdog();
+    }
+}
+
+void RunWatch::note_health(Health health) {
+    if (health == health_) {
+        return;
+    }
+    health_ = health;
+    const bool well = health == Health::Well;
+    note_state(well ? Weight::Notice : Weight::Error, "watchdog", sentence_of(health),
+               sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
+}
+
+void RunWatch::note(const RunStatus& status) {
+    const Sentence shows = sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
+    const bool other = Sentence(status.artifact) != artifact_ || Sentence(status.language) != language_;
+    artifact_ = Sentence(status.artifact);
+    language_ = Sentence(status.language);
+    level_ = Sentence(status.level);
+    if (other) {
+        note_state(Weight::Info, "exhibit", shows.view(), shows);
+    }
+    note_device("tracker", status.tracker, tracker_);
+    note_device("panel", status.panel, panel_);
+    // What a technician looks for comes first: a long line is cut.
+    const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
+    manager_.status(
+        sentence("{}{}{}{}{}", tracker_.view(), comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+}
+
+void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {
+    if (state != noted) {
+        noted = state;
+        note_state(Weight::Notice, device, state.view(), sentence("{}: {}", device, state.view()));
+    }
+}
+
+void RunWatch::note_state(Weight weight, std::string_view device, std::string_view state,
+                          const Sentence& line) const {
+    journal_.note(weight, line.view(),
+                  {{"DEVICE", device},
+                   {"STATE", state},
+                   {"ARTIFACT", artifact_.view()},
+                   {"LANGUAGE", language_.view()},
+                   {"LEVEL", level_.view()}});
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,46 @@
+/// The run as its service manager and its journal see it: ready, alive, in which state.
+///
+/// Journal  one line for each change of a device's state, of what is shown, and of the watchdog's opinion;
+///          every line has what is shown in its fields ARTIFACT, LANGUAGE and LEVEL.
+/// Time     the loop's `now`. A run on a simulated clock has no watchdog.
+/// Threads  the render thread, with the display's context current; allocates nothing.
+#pragma once
+
+#include "app/programs/run_report.h"
+#include "app/programs/wiring.h"
+#include "firmware_host/service/journal.h"
+#include "firmware_host/service/service_manager.h"
+#include "firmware_host/service/watchdog_policy.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+class RunWatch {
+public:
+    RunWatch(ServiceManager& manager, const Journal& journal) : manager_(manager), journal_(journal) {}
+
+    /// The loop begins.
+    void begin(MonotonicTime now, bool simulated_time);
+    /// The framebuffer's picture was presented; `has_code`: a code was written into it.
+    void presented(MonotonicTime now, unsigned framebuffer, bool has_code);
+    /// In every frame.
+    void look(MonotonicTime now, const Inputs& inputs);
+    /// Once a second.
+    void note(const RunStatus& status);
+
+private:
+    void note_health(Health health);
+    void note_device(std::string_view device, const Sentence& state, Sentence& noted);
+    void note_state(Weight weight, std::string_view device, std::string_view state,
+                    const Sentence& line) const;
+
+    ServiceManager& manager_;
+    const Journal& journal_;
+    std::optional<WatchdogPolicy> watchdog_;
+    bool ready_ = false;
+    Health health_ = Health::Well;
+    Sentence tracker_, panel_, artifact_, language_, level_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,166 @@
+// `frustumscreen run` as a service manager sees it: ready, fed, starved, stopped.
+
+#include "tests/programs/kiosk_folder.h"
+#include "tests/service/notify_socket.h"
+
+#include <fmt/format.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using std::chrono::seconds;
+
+/// The exhibit under a service manager whose watchdog wants to be fed every three seconds.
+class RunService : public KioskFolder {
+protected:
+    void TearDown() override {
+        if (process > 0) {
+            ::kill(process, SIGKILL);
+            ::waitpid(process, nullptr, 0);
+        }
+    }
+    void start(const std::string& more = {}, const std::string& tracker = "replay") {
+        write_settings(tracker, more);
+        process = ::fork();
+        ASSERT_GE(process, 0);
+        if (process == 0) {
+            ::setenv("NOTIFY_SOCKET", socket.path().c_str(), 1);
+            ::setenv("WATCHDOG_USEC", "3000000", 1);
+            ::unsetenv("WATCHDOG_PID");
+            ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
+            const std::string errors = folder / "err.txt";
+            const std::string config = folder / "kiosk.toml";
+            std::freopen(errors.c_str(), "w", stderr);
+            std::freopen("/dev/null", "w", stdout);
+            ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", "frustumscreen", "run", "--headless", "--config",
+                    config.c_str(), nullptr);
+            ::_exit(127);
+        }
+    }
+    /// Waits for a message that begins so, for as long as a slow machine may take.
+    bool hears(const std::string& beginning) {
+        for (const auto give_up = Clock::now() + seconds(60); Clock::now() < give_up;) {
+            if (const std::optional<std::string> message = socket.receive(200);
+                message && message->rfind(beginning, 0) == 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+    /// Whether it is fed within so long, from now on.
+    bool fed_within(seconds length) {
+        while (socket.receive()) {
+        }
+        for (const auto end = Clock::now() + length; Clock::now() < end;) {
+            if (socket.receive(200) == "WATCHDOG=1") {
+                return true;
+            }
+        }
+        return false;
+    }
+    std::string errors() const {
+        std::ifstream file(folder / "err.txt");
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    /// Its exit status, waited for; -1 = a signal ended it.
+    int ending() {
+        int status = 0;
+        ::waitpid(std::exchange(process, 0), &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::optional<pid_t> thread_named(const std::string& wanted) const {
+        for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
+            std::string name;
+            std::getline(std::ifstream(entry.path() / "comm"), name);
+            if (name == wanted) {
+                return std::stoi(entry.path().filename());
+            }
+        }
+        return std::nullopt;
+    }
+
+    NotifySocket socket;
+    pid_t process = 0;
+};
+
+TEST_F(RunService, IsReadyWhenAPictureIsOnSaysWhatItShowsFeedsAndStops) {
+    start();
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    EXPECT_TRUE(hears("WATCHDOG=1"));
+    EXPECT_TRUE(hears("STATUS=shows Rings (en, level0)"));
+    EXPECT_TRUE(hears("WATCHDOG=1")); // at rest too
+    EXPECT_TRUE(hears("WATCHDOG=1"));
+    const auto told = Clock::now();
+    ::kill(process, SIGTERM);
+    EXPECT_TRUE(hears("STOPPING=1"));
+    EXPECT_EQ(ending(), 0);
+    RecordProperty("stop_ms", static_cast<int>((Clock::now() - told) / std::chrono::milliseconds(1)));
+    EXPECT_NE(errors().find("frustumscreen: shows Rings (en, level0)\n"), std::string::npos) << errors();
+}
+
+TEST_F(RunService, ALostTrackerAndALostPanelAreSaidAndFedThrough) {
+    start("[panel]\nkind = \"gpio\"\nchip = \"no-such-chip\"\nlines = [\"1\"]\n");
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    ASSERT_TRUE(hears("STATUS=GPIO chip no-such-chip")) << errors();
+    EXPECT_TRUE(fed_within(seconds(10)));
+    EXPECT_NE(errors().find("frustumscreen: panel: GPIO chip no-such-chip"), std::string::npos);
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), 0);
+}
+
+TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
+    start();
+    ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
+    ::kill(process, SIGSTOP);
+    int status = 0;
+    ::waitpid(process, &status, WUNTRACED);
+    EXPECT_FALSE(fed_within(seconds(4)));
+    ::kill(process, SIGKILL); // as the service manager would
+    EXPECT_EQ(ending(), -1);
+}
+
+TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
+    start("", "usb");
+    ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
+    const std::optional<pid_t> tracker = thread_named("tracker");
+    ASSERT_TRUE(tracker);
+    // A tracer may stop a single thread.
+    if (::ptrace(PTRACE_SEIZE, *tracker, nullptr, nullptr) != 0) {
+        GTEST_SKIP() << "this machine lets nobody trace";
+    }
+    ASSERT_EQ(::ptrace(PTRACE_INTERRUPT, *tracker, nullptr, nullptr), 0);
+    int status = 0;
+    ASSERT_EQ(::waitpid(*tracker, &status, __WALL), *tracker);
+    std::this_thread::sleep_for(seconds(11)); // its promise is broken by then
+    EXPECT_FALSE(fed_within(seconds(2)));
+    EXPECT_NE(errors().find("watchdog: not fed: a device's thread hangs"), std::string::npos) << errors();
+    ::kill(process, SIGTERM);
+    ::waitpid(*tracker, &status, __WALL); // the tracer sees each thread's end first
+    EXPECT_EQ(ending(), 0);               // though the thread could not be joined
+    EXPECT_NE(errors().find("a device did not let go"), std::string::npos) << errors();
+}
+
+TEST_F(RunService, StopsInTheMiddleOfLoading) {
+    start();
+    ::kill(process, SIGTERM);
+    int status = 0;
+    ::waitpid(std::exchange(process, 0), &status, 0);
+    // Both are clean for a service manager; nothing is half done.
+    EXPECT_TRUE((WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
+                (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM));
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
