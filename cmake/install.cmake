@@ -1,0 +1,22 @@
+# What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
+# The paths are those of the units: a kiosk is one image, not a prefix.
+install(TARGETS frustumscreen frustumscreen-pack DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.service
+    DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/70-frustumscreen.rules
+    DESTINATION /usr/lib/udev/rules.d COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.sysusers
+    DESTINATION /usr/lib/sysusers.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.tmpfiles
+    DESTINATION /usr/lib/tmpfiles.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
+
+# The settings as shipped, with the packs where a kiosk has them. A museum's own settings stay.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/kiosk.toml)
+file(READ ${CMAKE_SOURCE_DIR}/config/kiosk.toml kiosk_settings)
+string(REPLACE "../out/packs/" "/var/lib/frustumscreen/packs/" kiosk_settings "${kiosk_settings}")
+file(WRITE ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml "${kiosk_settings}")
+install(CODE "
+    # DESTDIR goes in front by itself.
+    if(NOT EXISTS \"\$ENV{DESTDIR}/etc/frustumscreen/kiosk.toml\")
+        file(INSTALL \"${CMAKE_BINARY_DIR}/kiosk/kiosk.toml\" DESTINATION /etc/frustumscreen)
+    endif()" COMPONENT kiosk EXCLUDE_FROM_ALL)
