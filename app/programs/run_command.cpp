@@ -4,6 +4,7 @@
 #include "app/programs/run_loop.h"
 #include "app/programs/run_pattern.h"
 #include "app/programs/run_report.h"
+#include "app/programs/stop_signals.h"
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -27,6 +27,7 @@ struct Request {
     std::filesystem::path config;
     std::filesystem::path out;
     std::filesystem::path status_file;
+    std::filesystem::path record;
     ArtifactShowOptions show;
     double seconds = 0.0; ///< 0 = until told to stop
     int stills = 8;
@@ -52,6 +53,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     app.add_option("--status-file", request.status_file, "JSON, renewed every second");
+    app.add_option("--record", request.record,
+                   "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
@@ -77,16 +80,6 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
 
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
-}
-
-/// SIGTERM and SIGINT wait in line from here on, for every thread that starts later; the loop looks for them.
-sigset_t hold_stop_signals() {
-    sigset_t signals{};
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGINT);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    return signals;
 }
 
 Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
@@ -174,7 +167,7 @@ Result<void> run(const Request& request) {
         press_every = nanoseconds(request.seconds / request.changes);
     }
     const MonotonicTime start = now();
-    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start);
+    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start, request.record);
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }

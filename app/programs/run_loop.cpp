@@ -1,5 +1,6 @@
 #include "app/programs/run_loop.h"
 
+#include "app/programs/stop_signals.h"
 #include "app/render/probe.h"
 #include "app/render/read_back.h"
 #include "app/tracking/live_situation.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <thread>
 
 namespace frustumscreen {
@@ -67,7 +67,8 @@ public:
     [[nodiscard]] Result<LoopResult> run() {
         MonotonicTime now = start_;
         MonotonicTime next_status = start_ + between_statuses;
-        while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
+        while (!(options_.length && now - start_ >= *options_.length) &&
+               !told_to_stop(options_.stop_signals)) {
             if (Result<void> drawn = frame(now); !drawn) {
                 return tl::unexpected<Error>(drawn.error());
             }
@@ -196,6 +197,9 @@ private:
         if (inputs_.panel) {
             note_state("panel", inputs_.panel->state(), result_.status.panel);
         }
+        if (inputs_.recorder) {
+            note_state("recording", inputs_.recorder->state(), recording_);
+        }
     }
 
     /// One line in the journal each time that a device's state changes.
@@ -204,11 +208,6 @@ private:
             noted = said;
             fmt::print(stderr, "frustumscreen: {}: {}\n", device, noted.view());
         }
-    }
-
-    [[nodiscard]] bool told_to_stop() const {
-        const timespec at_once{};
-        return ::sigtimedwait(&options_.stop_signals, nullptr, &at_once) > 0;
     }
 
     /// Waits for it, unless the run is fast.
@@ -240,6 +239,7 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
+    Sentence recording_;
     MonotonicTime presented_; ///< when the picture on show was
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
