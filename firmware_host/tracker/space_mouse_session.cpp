@@ -54,12 +54,12 @@ void SpaceMouseSession::receive(std::span<const std::byte> report, MonotonicTime
     }
     arrival = std::max(arrival, at_);
     sample(arrival, samples);
-    advance(arrival);
     if (report.empty()) {
         return;
     }
     const SpaceMouseMessage message = parse_space_mouse(report);
     if (const auto* motion = std::get_if<SpaceMouseMotion>(&message)) {
+        advance(arrival); // by what held until now
         if (motion->push) {
             push_ = {full_push_m_per_s * deflection(*motion->push), arrival + report_holds};
         }

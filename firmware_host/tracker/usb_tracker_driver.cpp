@@ -4,7 +4,9 @@ namespace frustumscreen {
 
 UsbTrackerDriver::UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock,
                                    PacketTap* tap)
-    : bus_(std::move(bus)), set_up_(set_up), clock_(std::move(clock)), tap_(tap) {}
+    : bus_(std::move(bus)), set_up_(set_up), clock_(std::move(clock)), tap_(tap) {
+    tell_state();
+}
 
 void UsbTrackerDriver::tell(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) {
     if (tap_ != nullptr) {
@@ -21,7 +23,11 @@ void UsbTrackerDriver::report(UsbTrackerState state) {
         return;
     }
     state_ = state;
-    const std::string_view sentence = sentence_of(state);
+    tell_state();
+}
+
+void UsbTrackerDriver::tell_state() {
+    const std::string_view sentence = sentence_of(state_);
     tell(PacketKind::State, clock_(), std::as_bytes(std::span(sentence.data(), sentence.size())));
 }
 

@@ -36,6 +36,7 @@ private:
     [[nodiscard]] Nanoseconds search();
     [[nodiscard]] Nanoseconds lose(UsbTrackerState state);
     void report(UsbTrackerState state);
+    void tell_state();
     void tell(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload = {});
 
     std::unique_ptr<UsbBus> bus_;
