@@ -10,6 +10,7 @@
 #include <string_view>
 #ifdef FRUSTUMSCREEN_HAS_RUN
 #include "app/programs/plan_command.h"
+#include "app/programs/record_command.h"
 #include "app/programs/run_command.h"
 #endif
 #include "app/settings/config_json.h"
@@ -39,8 +40,9 @@ int config_command(int argc, char** argv) {
 }
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen run|render|plan|config [--help] ...\n"
+    fmt::print(to, "usage: frustumscreen run|record|render|plan|config [--help] ...\n"
                    "  run     the exhibit\n"
+                   "  record  what the tracker sends, into a file\n"
                    "  render  a pose file into pictures, without devices\n"
                    "  plan    what a scene needs, what it leaves out, and what that saves\n"
                    "  config  the resolved, checked settings\n"
@@ -58,6 +60,9 @@ int dispatch(int argc, char** argv) {
 #ifdef FRUSTUMSCREEN_HAS_RUN
     if (command == "run") {
         return run_command(argc - 1, argv + 1);
+    }
+    if (command == "record") {
+        return record_command(argc - 1, argv + 1);
     }
     if (command == "plan") {
         return plan_command(argc - 1, argv + 1);

@@ -1,9 +1,11 @@
 /// frustumscreen-poses: pose files from recordings of other trackers, and from the simulated visitor.
 #include "app/programs/guarded_main.h"
+#include "app/programs/placed_pose.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/convert_recording.h"
+#include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/simulated_tracker.h"
 
@@ -16,11 +18,12 @@
 namespace frustumscreen {
 namespace {
 
-constexpr std::uintmax_t largest_recording_bytes = std::uintmax_t{1} << 30;
+constexpr std::size_t largest_text_bytes = std::size_t{1} << 30;
 
 struct ConvertRequest {
     std::string input;
     std::string output;
+    std::string settings; ///< packets: the registration
     RecordingOptions recording;
 };
 
@@ -40,10 +43,50 @@ Result<void> write_pose_file(const std::string& path, const std::string& comment
     return write_file(path, as_bytes(text));
 }
 
+/// Packets of `frustumscreen record --raw`: the poses that the exhibit had then.
+Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
+    RigidTransform table_from_device;
+    Result<PacketReplay> replay = PacketReplay::open(std::move(bytes), request.input);
+    if (!replay) {
+        return tl::unexpected(replay.error());
+    }
+    if (!request.settings.empty() && !replay->reports_table_frame()) {
+        const auto settings = load_settings(request.settings);
+        if (!settings) {
+            return tl::unexpected(settings.error());
+        }
+        table_from_device = (*settings)->tracker.table_from_tracker;
+    }
+    std::vector<PoseSample> samples;
+    replay->play(replay->end(), samples);
+    std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
+    for (PoseSample& sample : samples) {
+        sample = placed_on_table(sample, table_from_device);
+        sample.time = MonotonicTime(sample.time - replay->begin());
+    }
+    const std::string comment =
+        fmt::format("{} poses of {} packets over {:.3f} s; {} packets that the recorder dropped, {} bytes "
+                    "behind a cut left out",
+                    samples.size(), replay->packets(), to_seconds(replay->end() - replay->begin()),
+                    replay->dropped(), replay->left_bytes());
+    Result<void> written = write_pose_file(request.output, comment, samples);
+    if (written) {
+        fmt::print("{}: {}\n", request.output, comment);
+    }
+    return written;
+}
+
 Result<void> convert(const ConvertRequest& request) {
-    const Result<Bytes> bytes = read_file(request.input, largest_recording_bytes);
+    Result<Bytes> bytes = read_file(request.input);
     if (!bytes) {
         return tl::unexpected(bytes.error());
+    }
+    if (is_packet_recording(*bytes)) {
+        return convert_packets(request, std::move(*bytes));
+    }
+    if (bytes->size() > largest_text_bytes) {
+        return bad_input(fmt::format("{}: {} bytes; at most {} are allowed", request.input, bytes->size(),
+                                     largest_text_bytes));
     }
     const auto converted = convert_recording(as_text(*bytes), request.input, request.recording);
     if (!converted) {
@@ -97,10 +140,14 @@ Result<void> simulate(const SimulateRequest& request) {
 
 void add_convert(CLI::App& app, ConvertRequest& request, std::vector<double>& within) {
     CLI::App* command = app.add_subcommand(
-        "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres) into a pose file");
-    command->add_option("INPUT", request.input, "the recording: CSV, or the TUM benchmark's text")
+        "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres; or packets) into a pose file");
+    command
+        ->add_option("INPUT", request.input,
+                     "the recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
         ->required();
     command->add_option("-o,--output", request.output, "the pose file to write")->required();
+    command->add_option("--config", request.settings,
+                        "packets: the settings whose table_from_tracker places the poses on the table");
     command->add_option("--station", request.recording.station, "1 prop, 2 head, 3 torch")
         ->check(CLI::Range(1, 3))
         ->capture_default_str();

@@ -27,6 +27,7 @@ struct Request {
     std::filesystem::path config;
     std::filesystem::path out;
     std::filesystem::path status_file;
+    std::filesystem::path record;
     ArtifactShowOptions show;
     double seconds = 0.0; ///< 0 = until told to stop
     int stills = 8;
@@ -52,6 +53,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     app.add_option("--status-file", request.status_file, "JSON, renewed every second");
+    app.add_option("--record", request.record,
+                   "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
@@ -173,7 +176,7 @@ Result<void> run(const Request& request) {
         press_every = nanoseconds(request.seconds / request.changes);
     }
     const MonotonicTime start = now();
-    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start);
+    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start, request.record);
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }

@@ -192,6 +192,7 @@ private:
         }
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
+        status.recording = Sentence(inputs_.recorder ? inputs_.recorder->state() : std::string_view{});
         watch_.note(status);
         status_file_.post(status);
     }

@@ -84,6 +84,7 @@ std::string status_json(const RunStatus& status) {
                                          {"device_errors", status.bad_samples},
                                          {"tracker", status.tracker.view()},
                                          {"panel", status.panel.view()},
+                                         {"recording", status.recording.view()},
                                          {"prop_known", status.prop_known},
                                          {"head_known", status.head_known},
                                          {"uptime_s", rounded(status.uptime_s)},

@@ -71,6 +71,7 @@ struct RunStatus {
     double resident_mib = 0.0;
     Sentence tracker; ///< how the devices are; empty where nothing can fail
     Sentence panel;
+    Sentence recording;
     bool prop_known = false;
     bool head_known = false;
 };

@@ -80,6 +80,7 @@ void RunWatch::note(const RunStatus& status) {
     }
     note_device("tracker", status.tracker, tracker_);
     note_device("panel", status.panel, panel_);
+    note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(

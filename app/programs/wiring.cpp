@@ -5,13 +5,19 @@
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/scripted_panel.h"
+#include "firmware_host/tracker/hidapi_transport.h"
+#include "firmware_host/tracker/joined_bus.h"
 #include "firmware_host/tracker/libusb_transport.h"
+#include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/replay_tracker.h"
 #include "firmware_host/tracker/simulated_tracker.h"
 #include "firmware_host/tracker/usb_tracker.h"
 
+#include <fmt/chrono.h>
+
 #include <cmath>
+#include <ctime>
 
 namespace frustumscreen {
 
@@ -25,21 +31,49 @@ Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
 }
 
-Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start) {
-    if (settings.tracker.kind == TrackerKind::Replay) {
-        const Result<Bytes> bytes = read_file(settings.tracker.poses);
-        if (!bytes) {
-            return tl::unexpected<Error>(bytes.error());
-        }
-        Result<std::vector<PoseSample>> samples =
-            parse_poses(as_text(*bytes), settings.tracker.poses.string());
-        if (!samples) {
-            return tl::unexpected<Error>(samples.error());
-        }
-        return std::make_unique<ReplayTracker>(std::move(*samples), start, true);
+/// A pose file or a recording of packets.
+Result<std::unique_ptr<Tracker>> make_replay(const TrackerSettings& tracker, MonotonicTime start) {
+    const std::string name = tracker.poses.string();
+    Result<Bytes> bytes = read_file(tracker.poses);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
     }
-    if (settings.tracker.kind == TrackerKind::Usb) {
-        return std::make_unique<UsbTracker>(make_libusb_bus(), UsbTrackerSetUp{settings.tracker.hemisphere});
+    if (is_packet_recording(*bytes)) {
+        Result<PacketReplay> replay = PacketReplay::open(std::move(*bytes), name);
+        if (!replay) {
+            return tl::unexpected<Error>(replay.error());
+        }
+        return std::make_unique<PacketReplayTracker>(std::move(*replay), start, tracker.replay_speed);
+    }
+    Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), name);
+    if (!samples) {
+        return tl::unexpected<Error>(samples.error());
+    }
+    return std::make_unique<ReplayTracker>(std::move(*samples), start, true, tracker.replay_speed);
+}
+
+bool has_packets(TrackerKind kind) {
+    return kind == TrackerKind::Usb || kind == TrackerKind::SpaceMouse;
+}
+
+std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
+    if (kind == TrackerKind::SpaceMouse) {
+        return make_hid_bus(UsbTrackerModel::SpaceMouse);
+    }
+    std::vector<std::unique_ptr<UsbBus>> buses;
+    buses.push_back(make_libusb_bus());
+    buses.push_back(make_hid_bus(UsbTrackerModel::Hid));
+    return std::make_unique<JoinedBus>(std::move(buses));
+}
+
+Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
+    if (settings.tracker.kind == TrackerKind::Replay) {
+        return make_replay(settings.tracker, start);
+    }
+    if (has_packets(settings.tracker.kind)) {
+        const UsbTrackerSetUp set_up{settings.tracker.hemisphere,
+                                     0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m)};
+        return std::make_unique<UsbTracker>(make_bus(settings.tracker.kind), set_up, tap);
     }
     const Rectangle places = lit_zone(settings).any_eye_rectangle;
     SimulatedVisitor visitor;
@@ -88,6 +122,23 @@ std::unique_ptr<Panel> make_panel(const Settings& settings, std::optional<Nanose
     return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
 }
 
+Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
+    if (!has_packets(kind)) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
+                        "\"spacemouse\"",
+                        name_of(kind)));
+    }
+    Result<GrowingFile> file = GrowingFile::create(path);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
+                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
+    return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
+}
+
 } // namespace
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
@@ -99,10 +150,18 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
-                           std::optional<Nanoseconds> press_every, MonotonicTime start) {
+                           std::optional<Nanoseconds> press_every, MonotonicTime start,
+                           const std::filesystem::path& record) {
     Inputs inputs;
+    if (!record.empty()) {
+        Result<std::unique_ptr<PacketRecorder>> recorder = make_recorder(plan.tracker, record);
+        if (!recorder) {
+            return tl::unexpected<Error>(recorder.error());
+        }
+        inputs.recorder = std::move(*recorder);
+    }
     if (plan.tracker != TrackerKind::None) {
-        Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start);
+        Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start, inputs.recorder.get());
         if (!tracker) {
             return tl::unexpected<Error>(tracker.error());
         }

@@ -1,7 +1,8 @@
 /// The one place that names concrete devices.
 ///
 /// Threads  the render thread: the display's context becomes current on it.
-/// Errors   a pose file that cannot be read, no OpenGL ES, a display that this build does not have.
+/// Errors   a pose file or recording that cannot be read, a recording of what has no packets, no OpenGL ES, a
+/// display that this build does not have.
 #pragma once
 
 #include "app/scene/scene_plan.h"
@@ -9,8 +10,10 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/display/display.h"
 #include "firmware_host/panel/panel.h"
+#include "firmware_host/tracker/packet_recorder.h"
 #include "firmware_host/tracker/tracker.h"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -20,11 +23,14 @@ namespace frustumscreen {
 
 /// What the exhibit listens to.
 struct Inputs {
-    std::unique_ptr<Tracker> tracker; ///< none: the prop stands at the table's centre
-    std::unique_ptr<Panel> panel;     ///< none: nothing is pressed
+    std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
+    std::unique_ptr<Tracker> tracker;         ///< none: the prop stands at the table's centre
+    std::unique_ptr<Panel> panel;             ///< none: nothing is pressed
 };
 /// What the plan has, no more. `press_every`: press 'next artifact' evenly in place of the panel's script.
+/// `record`: a new file for the tracker's packets; empty: none.
 [[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
-                                         std::optional<Nanoseconds> press_every, MonotonicTime start);
+                                         std::optional<Nanoseconds> press_every, MonotonicTime start,
+                                         const std::filesystem::path& record = {});
 
 } // namespace frustumscreen

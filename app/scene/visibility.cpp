@@ -78,7 +78,7 @@ Visibility visibility_of(const Settings& settings) {
     const bool fixed_prop = settings.tracker.kind == TrackerKind::None;
     const EyeSettings& eye = settings.eye;
     const glm::dvec3& lens = settings.projector.table_from_projector.translation;
-    if (settings.tracker.kind == TrackerKind::Replay || settings.tracker.kind == TrackerKind::Usb) {
+    if (!fixed_prop && settings.tracker.kind != TrackerKind::Simulated) { // it may be lifted and tilted
         return {};
     }
     if (fixed_prop && !eye.tracked) {

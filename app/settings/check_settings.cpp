@@ -87,7 +87,8 @@ void check_eye(const Settings& settings, Fitness& fitness) {
 
 void check_devices(const Settings& settings, Fitness& fitness) {
     fitness.require(settings.tracker.kind != TrackerKind::Replay || !settings.tracker.poses.empty(),
-                    "tracker.kind", "is \"replay\"; it needs tracker.poses, the pose file to replay");
+                    "tracker.kind",
+                    "is \"replay\"; it needs tracker.poses, the pose file or recording to replay");
     fitness.require(
         settings.panel.kind != PanelKind::Gpio || !settings.panel.lines.empty(), "panel.kind",
         "is \"gpio\"; it needs panel.lines, the names or offsets of the buttons' lines: previous, "

@@ -63,6 +63,7 @@ Json tracker_json(const TrackerSettings& tracker) {
     return {{"kind", std::string(name_of(tracker.kind))},
             {"seed", tracker.seed},
             {"poses", tracker.poses.string()},
+            {"replay_speed", tracker.replay_speed},
             {"hemisphere", list_of(tracker.hemisphere)},
             {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())},
             {"display_latency_ms", tracker.display_latency_ms}};

@@ -27,7 +27,7 @@ constexpr std::size_t most_buttons = 3;
 constexpr double shortest_direction = 1e-3;
 
 /// By TrackerKind.
-constexpr std::array<std::string_view, 4> tracker_names{"simulated", "replay", "usb", "none"};
+constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse", "none"};
 
 constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
@@ -166,6 +166,7 @@ void read_tracker(TableReader table, const std::filesystem::path& folder, Tracke
     if (!poses.empty()) {
         tracker.poses = (folder / poses).lexically_normal();
     }
+    table.number("replay_speed", tracker.replay_speed, {0.01, 100.0, "times as fast as recorded"});
     table.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""});
     if (glm::length(tracker.hemisphere) < shortest_direction) {
         table.refuse("hemisphere", "gives no direction; allowed are three numbers of which one is not 0");

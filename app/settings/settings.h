@@ -43,14 +43,16 @@ struct EyeSettings {
     bool tracked = true; ///< false: a fixed viewer; the eye is at default_m whatever a tracker says
 };
 
-/// Usb: a VIPER, PATRIOT or LIBERTY, whichever is connected. None: the prop stands at the table's centre, its
-/// faces square to the table.
-enum class TrackerKind { Simulated, Replay, Usb, None };
+/// Usb: a VIPER, PATRIOT, LIBERTY or HID tracker, whichever is connected. SpaceMouse: a stand-in for one.
+/// None: the prop stands at the table's centre, its faces square to the table.
+enum class TrackerKind { Simulated, Replay, Usb, SpaceMouse, None };
 [[nodiscard]] std::string_view name_of(TrackerKind kind);
 struct TrackerSettings {
     TrackerKind kind = TrackerKind::Simulated;
-    std::uint64_t seed = 1;      ///< simulated
-    std::filesystem::path poses; ///< replay: a pose file; resolved against the settings file's folder
+    std::uint64_t seed = 1; ///< simulated
+    /// Replay: a pose file or a recording of packets; resolved against the settings file's folder.
+    std::filesystem::path poses;
+    double replay_speed = 1.0;
     /// Usb: towards the half space of the tracker's source in which the prop moves, in the tracker's axes.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
     RigidTransform table_from_tracker; ///< registration, for devices that report in their own frame

@@ -19,6 +19,7 @@ struct SensorPose {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     int distortion = 0;  ///< 0 = an undisturbed field, 255 = the most that the device can say
     bool usable = false; ///< finite, within reach, a rotation, and the device reports no fault of this sensor
+    bool present = true; ///< false: the device says that this sensor is not plugged in
 };
 
 struct DeviceFrame {

@@ -6,7 +6,9 @@
 #pragma once
 
 #include "firmware_host/tracker/frame_intake.h"
+#include "firmware_host/tracker/usb_transport.h"
 
+#include <memory>
 #include <span>
 
 namespace frustumscreen {
@@ -16,6 +18,8 @@ struct UsbTrackerSetUp {
     /// Towards the half space of the source in which the sensors are; the tracker cannot tell it from the
     /// other.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
+    /// Half the table along X and Y: a SpaceMouse stays within.
+    glm::dvec2 table_half_m{0.4, 0.25};
 };
 
 class DeviceSession {
@@ -31,7 +35,11 @@ public:
     [[nodiscard]] virtual const FrameIntake& intake() const = 0;
 };
 
-/// Times that both makes share.
+/// The session that a device of this model needs.
+[[nodiscard]] std::unique_ptr<DeviceSession> make_session(UsbTrackerModel model,
+                                                          const UsbTrackerSetUp& set_up);
+
+/// Times that the makes share.
 struct SessionTimes {
     static constexpr Nanoseconds reply = std::chrono::milliseconds(200); ///< then a command is sent again
     static constexpr Nanoseconds booting = std::chrono::milliseconds(300);

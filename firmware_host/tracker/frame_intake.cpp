@@ -50,7 +50,7 @@ void FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
         if (!time) {
             time = clock_.time_of(frame.tick, arrival);
         }
-        if (pose.sensor == prop_station) {
+        if (pose.sensor == prop_station && pose.present) {
             prop_seen_ = arrival;
         }
         if (pose.distortion >= metal_near_distortion) {

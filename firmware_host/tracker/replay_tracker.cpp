@@ -1,16 +1,31 @@
 #include "firmware_host/tracker/replay_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace frustumscreen {
 
-ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat)
+namespace {
+
+Nanoseconds slowed(Nanoseconds length, double speed) {
+    return Nanoseconds(std::llround(static_cast<double>(length.count()) / speed));
+}
+
+} // namespace
+
+ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat, double speed)
     : recording_(std::move(samples)) {
     if (recording_.empty()) {
         return;
     }
     std::stable_sort(recording_.begin(), recording_.end(),
                      [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; });
+    if (speed != 1.0) {
+        const MonotonicTime first = recording_.front().time;
+        for (PoseSample& sample : recording_) {
+            sample.time = first + slowed(sample.time - first, speed);
+        }
+    }
     shift_ = start - recording_.front().time;
     if (repeat) {
         // One mean step after the last sample; a single pose comes once a second.

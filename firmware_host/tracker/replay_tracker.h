@@ -1,4 +1,4 @@
-/// A tracker that replays poses, normally of a pose file, at the speed they were taken.
+/// A tracker that replays poses, normally of a pose file, at the speed they were taken or another.
 ///
 /// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
 ///          end. A poll so late that more than `most_rounds_samples` of repeated rounds are due leaves whole
@@ -17,7 +17,7 @@ public:
     static constexpr std::size_t most_rounds_samples = 16384;
 
     /// Samples in any order; they are sorted by time.
-    ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat);
+    ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat, double speed = 1.0);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return "replay"; }

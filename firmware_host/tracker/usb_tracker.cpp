@@ -4,8 +4,8 @@
 
 namespace frustumscreen {
 
-UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up)
-    : driver_(std::move(bus), set_up, monotonic_now),
+UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, PacketTap* tap)
+    : table_frame_(bus->reports_table_frame()), driver_(std::move(bus), set_up, monotonic_now, tap),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void UsbTracker::run(const std::stop_token& stop) {

@@ -1,7 +1,7 @@
 /// A USB tracker as the exhibit sees it: the device has a thread of its own, `poll` only looks into the
 /// mailbox.
 ///
-/// Frame    tracker K; VIPER, PATRIOT and LIBERTY by default have +Z pointing down.
+/// Frame    tracker K; VIPER, PATRIOT and LIBERTY by default have +Z pointing down. A SpaceMouse: table T.
 /// Threads  everything of USB happens on the thread that this class starts and joins; `poll` and `state` wait
 ///          for nothing, whatever the device does. The destructor waits for the one USB call under way.
 /// Errors   none; `state` says what is the matter.
@@ -25,11 +25,12 @@ public:
     /// Opening, writing, reading: what the kernel itself gives up after, 5 s for a control transfer, twice.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
-    UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up);
+    /// `tap`, if any, outlives the tracker and is called on the device's thread.
+    UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, PacketTap* tap = nullptr);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return "usb"; }
-    [[nodiscard]] bool reports_table_frame() const override { return false; }
+    [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
@@ -38,6 +39,7 @@ public:
 private:
     void run(const std::stop_token& stop);
 
+    bool table_frame_;
     UsbTrackerDriver driver_; ///< the device's thread only
     Mailbox<PoseSample, most_waiting> mailbox_;
     std::atomic<UsbTrackerState> state_{UsbTrackerState::NotConnected};

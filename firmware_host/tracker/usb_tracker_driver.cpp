@@ -1,21 +1,34 @@
 #include "firmware_host/tracker/usb_tracker_driver.h"
 
-#include "firmware_host/tracker/patriot_session.h"
-#include "firmware_host/tracker/viper_session.h"
-
 namespace frustumscreen {
 
-UsbTrackerDriver::UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock)
-    : bus_(std::move(bus)), set_up_(set_up), clock_(std::move(clock)) {}
+UsbTrackerDriver::UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock,
+                                   PacketTap* tap)
+    : bus_(std::move(bus)), set_up_(set_up), clock_(std::move(clock)), tap_(tap) {
+    tell_state();
+}
+
+void UsbTrackerDriver::tell(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) {
+    if (tap_ != nullptr) {
+        tap_->packet(kind, time, payload);
+    }
+}
 
 /// A device that fails its set-up is set up again and again; what it fails at is worth more than that.
 void UsbTrackerDriver::report(UsbTrackerState state) {
     const bool known_trouble = state_ == UsbTrackerState::WrongUnits ||
                                state_ == UsbTrackerState::SetUpRefused || state_ == UsbTrackerState::Silent ||
-                               state_ == UsbTrackerState::Booting;
-    if (state != UsbTrackerState::SettingUp || !known_trouble) {
-        state_ = state;
+                               state_ == UsbTrackerState::Booting || state_ == UsbTrackerState::DeviceFault;
+    if (state == state_ || (state == UsbTrackerState::SettingUp && known_trouble)) {
+        return;
     }
+    state_ = state;
+    tell_state();
+}
+
+void UsbTrackerDriver::tell_state() {
+    const std::string_view sentence = sentence_of(state_);
+    tell(PacketKind::State, clock_(), std::as_bytes(std::span(sentence.data(), sentence.size())));
 }
 
 Nanoseconds UsbTrackerDriver::search() {
@@ -25,17 +38,16 @@ Nanoseconds UsbTrackerDriver::search() {
         return between_searches;
     }
     transport_ = std::move(found->transport);
-    if (found->model == UsbTrackerModel::Viper) {
-        session_ = std::make_unique<ViperSession>(set_up_);
-    } else {
-        session_ = std::make_unique<PatriotSession>(set_up_);
-    }
+    session_ = make_session(found->model, set_up_);
+    const OpenedDevice opened{found->model, set_up_};
+    tell(PacketKind::Opened, clock_(), opened.bytes());
     report(UsbTrackerState::SettingUp);
     return Nanoseconds::zero();
 }
 
 Nanoseconds UsbTrackerDriver::lose(UsbTrackerState state) {
     report(state);
+    tell(PacketKind::Closed, clock_());
     transport_->close();
     transport_.reset();
     session_.reset();
@@ -46,7 +58,9 @@ Nanoseconds UsbTrackerDriver::step(std::vector<PoseSample>& samples) {
     if (!transport_) {
         return search();
     }
-    if (const std::span<const std::byte> command = session_->due(clock_()); !command.empty()) {
+    const MonotonicTime before = clock_();
+    if (const std::span<const std::byte> command = session_->due(before); !command.empty()) {
+        tell(PacketKind::Sent, before, command);
         if (!transport_->write(command, write_timeout)) {
             return lose(UsbTrackerState::NotConnected);
         }
@@ -59,7 +73,9 @@ Nanoseconds UsbTrackerDriver::step(std::vector<PoseSample>& samples) {
         return lose(UsbTrackerState::NotConnected);
     }
     const MonotonicTime now = clock_();
-    session_->receive(std::span(buffer_).first(*count), now, samples);
+    const std::span<const std::byte> bytes = std::span(buffer_).first(*count);
+    tell(PacketKind::Received, now, bytes);
+    session_->receive(bytes, now, samples);
     report(session_->state(now));
     return Nanoseconds::zero();
 }

@@ -1,4 +1,5 @@
-/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again.
+/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again. A tap, if
+/// there is one, sees everything that passes between transport and session.
 ///
 /// Time     read from the clock handed in, since a read takes its time. A device that is back is found within
 ///          `between_searches` and streams one set-up later, together well below 2 s.
@@ -7,6 +8,7 @@
 #pragma once
 
 #include "firmware_host/tracker/device_session.h"
+#include "firmware_host/tracker/packet_tap.h"
 #include "firmware_host/tracker/usb_transport.h"
 
 #include <functional>
@@ -20,7 +22,8 @@ public:
     static constexpr Nanoseconds read_timeout = std::chrono::milliseconds(20);
 
     using Clock = std::function<MonotonicTime()>;
-    UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock);
+    UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock,
+                     PacketTap* tap = nullptr);
 
     /// One round; appends what came in. Returns how long to rest before the next.
     [[nodiscard]] Nanoseconds step(std::vector<PoseSample>& samples);
@@ -33,10 +36,13 @@ private:
     [[nodiscard]] Nanoseconds search();
     [[nodiscard]] Nanoseconds lose(UsbTrackerState state);
     void report(UsbTrackerState state);
+    void tell_state();
+    void tell(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload = {});
 
     std::unique_ptr<UsbBus> bus_;
     UsbTrackerSetUp set_up_;
     Clock clock_;
+    PacketTap* tap_; ///< may be none
     std::unique_ptr<UsbTransport> transport_;
     std::unique_ptr<DeviceSession> session_;
     UsbTrackerState state_ = UsbTrackerState::NotConnected;

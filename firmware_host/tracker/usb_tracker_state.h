@@ -18,6 +18,7 @@ enum class UsbTrackerState {
     WrongUnits,
     SetUpRefused,
     Silent,
+    DeviceFault,
     Streaming,
     SensorMissing,
     MetalNear,
@@ -29,8 +30,8 @@ enum class UsbTrackerState {
     case UsbTrackerState::NotConnected:
         return "no tracker is connected; check its USB cable and its power";
     case UsbTrackerState::NoPermission:
-        return "a tracker is connected, but this user may not open it; install the udev rule for USB vendor "
-               "0f44";
+        return "a tracker is connected, but this user may not open it; install the udev rules that come "
+               "with FrustumScreen";
     case UsbTrackerState::FirmwareNotLoaded:
         return "the tracker is connected, but its firmware is not loaded; load it with Polhemus' own loader";
     case UsbTrackerState::InUse:
@@ -48,6 +49,8 @@ enum class UsbTrackerState {
         return "the tracker refuses its set-up or does not answer; switch it off and on";
     case UsbTrackerState::Silent:
         return "the tracker has stopped sending; if it stays so, switch it off and on";
+    case UsbTrackerState::DeviceFault:
+        return "the tracker reports a fault of its own; switch it off and on";
     case UsbTrackerState::Streaming:
         return "the tracker is running";
     case UsbTrackerState::SensorMissing:

@@ -1,5 +1,8 @@
 /// The way to a USB tracker: bytes in, bytes out, and how one is found.
 ///
+/// Bytes    of a bulk endpoint: a stream. Of a HID device: one whole report a read, its id in front; the
+/// feature
+///          report that the transport asks for when it opens a HID tracker is the first.
 /// Threads  the device's own thread; every call may block for as long as it is told, and no longer.
 /// Errors   DeviceLost: unplugged or unusable; close it and look for one again.
 #pragma once
@@ -9,6 +12,7 @@
 #include "firmware_host/tracker/usb_tracker_state.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -24,7 +28,8 @@ public:
     virtual void close() = 0;
 };
 
-enum class UsbTrackerModel { Viper, Patriot, Liberty };
+/// The numbers stand in recordings.
+enum class UsbTrackerModel : std::uint32_t { Viper = 1, Patriot = 2, Liberty = 3, Hid = 4, SpaceMouse = 5 };
 
 struct FoundTracker {
     std::unique_ptr<UsbTransport> transport; ///< open
@@ -36,6 +41,8 @@ public:
     virtual ~UsbBus() = default;
     /// Opens the first tracker that can be opened; else says what is in the way.
     [[nodiscard]] virtual tl::expected<FoundTracker, UsbTrackerState> find() = 0;
+    /// Whether its devices' poses are in the table's frame, not in the device's own.
+    [[nodiscard]] virtual bool reports_table_frame() const { return false; }
 };
 
 } // namespace frustumscreen

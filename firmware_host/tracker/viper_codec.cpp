@@ -19,18 +19,6 @@ constexpr std::size_t command_head_bytes = 20;
 /// The longest reply known is a single pose of 16 sensors.
 constexpr std::size_t most_reply_payload = 1024;
 
-constexpr std::array<std::uint16_t, 256> crc_table = [] {
-    std::array<std::uint16_t, 256> table{};
-    for (unsigned byte = 0; byte < table.size(); ++byte) {
-        unsigned crc = byte;
-        for (int bit = 0; bit < 8; ++bit) {
-            crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xA001U : crc >> 1U;
-        }
-        table[byte] = static_cast<std::uint16_t>(crc);
-    }
-    return table;
-}();
-
 std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
     return ByteReader(bytes.subspan(offset)).read<std::uint32_t>();
 }
@@ -92,14 +80,6 @@ DeviceFrame pose_frame(std::span<const std::byte> body) {
 }
 
 } // namespace
-
-std::uint16_t crc16_arc(std::span<const std::byte> bytes) {
-    unsigned crc = 0;
-    for (const std::byte byte : bytes) {
-        crc = crc >> 8U ^ crc_table[(crc ^ static_cast<unsigned>(byte)) & 0xFFU];
-    }
-    return static_cast<std::uint16_t>(crc);
-}
 
 ViperStep parse_viper(std::span<const std::byte> stream) {
     if (stream.empty()) {

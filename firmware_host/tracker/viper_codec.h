@@ -10,6 +10,7 @@
 ///          device yet: the payload of `Filter`, and that sensor 0 on the wire is connector 1.
 #pragma once
 
+#include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/device_frame.h"
 
 #include <span>
@@ -32,9 +33,6 @@ enum class ViperNak : std::uint32_t { General = 0, Booting = 1, Command = 2, Bui
 inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU;
 inline constexpr std::uint32_t viper_metres = 3;
 inline constexpr std::uint32_t viper_quaternion = 2;
-
-/// CRC-16/ARC: reflected polynomial 0xA001, begins with 0.
-[[nodiscard]] std::uint16_t crc16_arc(std::span<const std::byte> bytes);
 
 /// What the stream begins with, and how many bytes of it are then done with.
 struct ViperReply {

@@ -127,7 +127,7 @@ const std::vector<Guard> guards = {
     {"gbm.h", {"firmware_host/display/"}},
     {"xf86drm", {"firmware_host/display/"}},
     {"libusb", {"firmware_host/tracker/"}},
-    {"hidapi", {"firmware_host/panel/"}},
+    {"hidapi", {"firmware_host/tracker/"}},
     {"gpiod", {"firmware_host/panel/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},

@@ -90,7 +90,7 @@ TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
 }
 
 TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
-    for (const TrackerKind kind : {TrackerKind::Replay, TrackerKind::Usb}) {
+    for (const TrackerKind kind : {TrackerKind::Replay, TrackerKind::Usb, TrackerKind::SpaceMouse}) {
         Settings settings;
         settings.tracker.kind = kind;
         const Visibility visibility = visibility_of(settings);

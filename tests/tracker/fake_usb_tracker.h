@@ -39,7 +39,7 @@ struct FakeUsbTracker {
     MonotonicTime next_frame{};
 
     [[nodiscard]] Nanoseconds period() const {
-        return Nanoseconds(model == UsbTrackerModel::Viper ? 8'333'333 : 16'666'667);
+        return Nanoseconds(model == UsbTrackerModel::Patriot ? 16'666'667 : 8'333'333);
     }
     /// Different in every frame and sensor, exact in 32 bits; metres.
     [[nodiscard]] static glm::dvec3 position_of(std::uint32_t frame, int connector) {
@@ -52,9 +52,20 @@ struct FakeUsbTracker {
         const auto high = static_cast<std::uint32_t>(std::lround(sample.position_m.y * 64.0));
         const std::uint32_t frame = high * 1024 + low;
         return frame <= highest &&
-               glm::distance(position_of(frame, sample.station), sample.position_m) < 1e-6;
+               glm::distance(position_of(frame, sample.station), sample.position_m) < resolution_m();
     }
 
+    [[nodiscard]] double resolution_m() const { return model == UsbTrackerModel::Hid ? 1e-5 : 1e-6; }
+
+    /// A HID device says what it is, then streams unasked.
+    void opened() {
+        if (model == UsbTrackerModel::Hid) {
+            restart();
+            streaming = true;
+            next_frame = now + period();
+            to_host.push_back(wire::hid_info(keeps_inches ? 25400 : 10));
+        }
+    }
     void restart() {
         streaming = false;
         to_host.clear();
@@ -76,6 +87,9 @@ struct FakeUsbTracker {
         }
     }
     [[nodiscard]] std::vector<wire::Wire> frames() const {
+        if (model == UsbTrackerModel::Hid) {
+            return hid_frames();
+        }
         std::vector<wire::Pose> poses;
         const double units = model == UsbTrackerModel::Viper ? 1.0 : 100.0;
         for (const int connector : connectors) {
@@ -90,6 +104,24 @@ struct FakeUsbTracker {
         for (const wire::Pose& pose : poses) {
             all.push_back(
                 wire::patriot_frame(static_cast<std::uint32_t>(counter * 16.666667), counter, pose));
+        }
+        return all;
+    }
+
+    [[nodiscard]] std::vector<wire::Wire> hid_frames() const {
+        std::vector<wire::Wire> all;
+        for (const int connector : connectors) {
+            const glm::dvec3 at = position_of(counter, connector) * 1e5;
+            wire::HidPose pose;
+            pose.station = static_cast<unsigned>(connector);
+            pose.status = now < boots_until ? 2 : 0;
+            pose.distortion = distortion;
+            pose.counter = counter;
+            pose.time_us = static_cast<std::uint32_t>(counter * 8333.333);
+            pose.position = {static_cast<std::int32_t>(std::lround(at.x)),
+                             static_cast<std::int32_t>(std::lround(at.y)),
+                             static_cast<std::int32_t>(std::lround(at.z))};
+            all.push_back(wire::hid_pose(pose));
         }
         return all;
     }
@@ -205,6 +237,10 @@ public:
         if (!device_.plugged) {
             return tl::unexpected(device_.in_the_way);
         }
+        if (device_.deaf && device_.model == UsbTrackerModel::Hid) { // its feature report cannot be had
+            return tl::unexpected(UsbTrackerState::SetUpRefused);
+        }
+        device_.opened();
         return FoundTracker{std::make_unique<FakeTransport>(device_), device_.model};
     }
 

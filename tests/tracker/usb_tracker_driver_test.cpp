@@ -57,7 +57,8 @@ private:
     UsbTrackerDriver driver_;
 };
 
-const std::vector<UsbTrackerModel> models{UsbTrackerModel::Viper, UsbTrackerModel::Patriot};
+const std::vector<UsbTrackerModel> models{UsbTrackerModel::Viper, UsbTrackerModel::Patriot,
+                                          UsbTrackerModel::Hid};
 
 TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
     for (const UsbTrackerModel model : models) {
@@ -65,7 +66,7 @@ TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
         ASSERT_TRUE(bench.until_streaming(seconds(2)));
         bench.run(seconds(5));
         EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
-        const double rate = model == UsbTrackerModel::Viper ? 120.0 : 60.0;
+        const double rate = model == UsbTrackerModel::Patriot ? 60.0 : 120.0;
         EXPECT_NEAR(static_cast<double>(bench.samples.size()), 2 * 5 * rate, 6.0);
         EXPECT_LT(bench.device.now - bench.samples.back().time, milliseconds(18));
         EXPECT_EQ(bench.counts().lost + bench.counts().duplicated + bench.counts().reordered, 0U);
@@ -141,11 +142,13 @@ TEST(UsbTrackerDriver, UnitsThatChangeWhileItStreamsAreSetAgainAndNoPoseOfThemIs
 }
 
 TEST(UsbTrackerDriver, ABootingDeviceIsWaitedForAndSaysSo) {
-    Bench bench(UsbTrackerModel::Viper);
-    bench.device.boots_until = bench.device.now + seconds(8);
-    bench.run(milliseconds(7900));
-    EXPECT_EQ(bench.state(), UsbTrackerState::Booting);
-    EXPECT_TRUE(bench.until_streaming(seconds(2)));
+    for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Hid}) {
+        Bench bench(model);
+        bench.device.boots_until = bench.device.now + seconds(8);
+        bench.run(milliseconds(7900));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Booting);
+        EXPECT_TRUE(bench.until_streaming(seconds(2)));
+    }
 }
 
 TEST(UsbTrackerDriver, ADeafDeviceIsTriedAgainUntilItAnswers) {

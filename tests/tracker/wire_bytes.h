@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen::wire {
@@ -103,6 +104,55 @@ inline Wire patriot_frame(std::uint32_t milliseconds, std::uint32_t counter, con
     put(wire, static_cast<std::int32_t>(pose.distortion));
     put(wire, pose.position);
     put(wire, pose.quaternion);
+    return wire;
+}
+
+struct HidPose {
+    unsigned station = 1;
+    unsigned status = 0;
+    unsigned distortion = 0;
+    std::uint32_t counter = 1;
+    std::uint32_t time_us = 0;
+    std::array<std::int32_t, 3> position{25000, -50000, 10000}; ///< 10 um
+    std::array<std::int16_t, 4> quaternion{16384, 16384, -16384, 16384};
+};
+
+inline Wire with_crc16(Wire wire) {
+    put(wire, static_cast<std::uint16_t>(crc(wire)));
+    return wire;
+}
+
+inline Wire hid_pose(const HidPose& pose) {
+    Wire wire;
+    put(wire, std::uint8_t{1});
+    put(wire, static_cast<std::uint8_t>(pose.station));
+    put(wire, static_cast<std::uint8_t>(pose.status));
+    put(wire, static_cast<std::uint8_t>(pose.distortion));
+    put(wire, pose.counter);
+    put(wire, pose.time_us);
+    put(wire, pose.position);
+    put(wire, pose.quaternion);
+    return with_crc16(std::move(wire));
+}
+
+inline Wire hid_info(unsigned unit_um = 10, unsigned version = 1, unsigned rate_hz = 120,
+                     unsigned stations = 2) {
+    Wire wire;
+    put(wire, std::uint8_t{2});
+    put(wire, static_cast<std::uint8_t>(version));
+    put(wire, static_cast<std::uint16_t>(unit_um));
+    put(wire, static_cast<std::uint16_t>(rate_hz));
+    put(wire, static_cast<std::uint8_t>(stations));
+    put(wire, std::uint8_t{0});
+    return with_crc16(std::move(wire));
+}
+
+/// Report 1 or 2 of a SpaceMouse; report 1 with both where `more` is given.
+inline Wire space_mouse(unsigned id, std::array<std::int16_t, 3> axes, const Wire& more = {}) {
+    Wire wire;
+    put(wire, static_cast<std::uint8_t>(id));
+    put(wire, axes);
+    wire.insert(wire.end(), more.begin(), more.end());
     return wire;
 }
 

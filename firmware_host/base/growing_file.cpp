@@ -1,0 +1,66 @@
+#include "firmware_host/base/growing_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int most_of_one_name = 10'000;
+
+} // namespace
+
+Result<GrowingFile> GrowingFile::create(const std::filesystem::path& wanted) {
+    for (int number = 1; number <= most_of_one_name; ++number) {
+        const std::filesystem::path path =
+            number == 1 ? wanted : std::filesystem::path(wanted.string() + "." + std::to_string(number));
+        const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+        if (descriptor >= 0) {
+            return GrowingFile(descriptor, path);
+        }
+        if (errno != EEXIST) {
+            return bad_input(path.string() + ": cannot be made: " + std::strerror(errno));
+        }
+    }
+    return bad_input(wanted.string() + ": there are too many of this name; move them away");
+}
+
+GrowingFile::GrowingFile(int descriptor, std::filesystem::path name)
+    : descriptor_(descriptor), path_(std::move(name)) {}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
+
+GrowingFile::~GrowingFile() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written < 0 && (errno == ENOSPC || errno == EDQUOT)) {
+            return bad_input(path_.string() + ": the disk is full");
+        }
+        if (written < 0) {
+            return bad_input(path_.string() + ": cannot be written: " + std::strerror(errno));
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return {};
+}
+
+void GrowingFile::sync() const {
+    static_cast<void>(::fdatasync(descriptor_));
+}
+
+} // namespace frustumscreen

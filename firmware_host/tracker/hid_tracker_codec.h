@@ -1,0 +1,40 @@
+/// The reports of the HID tracker that anybody can build; docs/hid_tracker.md has every byte.
+///
+/// Layout   little-endian, 10 um, quaternion times 32767, CRC-16/ARC at the end of each report.
+/// Errors   values; any bytes are safe.
+/// Threads  pure functions; they allocate nothing.
+#pragma once
+
+#include "firmware_host/tracker/device_frame.h"
+
+#include <span>
+#include <variant>
+
+namespace frustumscreen {
+
+/// What its top-level collection calls itself; vendor and product id are the maker's.
+inline constexpr std::uint16_t hid_tracker_usage_page = 0xFF46;
+inline constexpr std::uint16_t hid_tracker_usage = 0x53;
+/// Of the feature report, asked for when the device is opened.
+inline constexpr std::uint8_t hid_tracker_info_report = 2;
+inline constexpr int hid_tracker_version = 1;
+
+/// The feature report.
+struct HidTrackerInfo {
+    int version = 0;
+    int position_unit_um = 0;
+    int rate_hz = 0;
+    int stations = 0;
+};
+/// The input report: a frame of one sensor; its tick is a microsecond.
+struct HidTrackerPose {
+    DeviceFrame frame;
+    bool starting = false;
+    bool fault = false;
+};
+using HidTrackerMessage = std::variant<Refusal, HidTrackerInfo, HidTrackerPose>;
+
+/// `report` is one report, its id in front. Another version is information too, whatever else it says.
+[[nodiscard]] HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report);
+
+} // namespace frustumscreen

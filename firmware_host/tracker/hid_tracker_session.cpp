@@ -1,0 +1,76 @@
+#include "firmware_host/tracker/hid_tracker_session.h"
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double tick_ns = 1e3; ///< the time stamp counts microseconds
+constexpr int position_unit_um = 10;
+constexpr int fewest_hz = 30;
+constexpr int most_hz = 1000;
+/// A device that sends nothing for so long is opened anew.
+constexpr Nanoseconds longest_silence = std::chrono::seconds(1);
+
+} // namespace
+
+HidTrackerSession::HidTrackerSession() : intake_(tick_ns) {}
+
+void HidTrackerSession::give_up(UsbTrackerState trouble) {
+    trouble_ = trouble;
+    failed_ = true;
+}
+
+void HidTrackerSession::check(const HidTrackerInfo& info) {
+    if (info.version != hid_tracker_version || info.rate_hz < fewest_hz || info.rate_hz > most_hz ||
+        info.stations < 1 || info.stations > static_cast<int>(DeviceFrame::most_sensors)) {
+        give_up(UsbTrackerState::SetUpRefused);
+    } else if (info.position_unit_um != position_unit_um) {
+        give_up(UsbTrackerState::WrongUnits);
+    } else {
+        informed_ = true;
+    }
+}
+
+/// Nothing is ever sent; here it is noticed that nothing comes.
+std::span<const std::byte> HidTrackerSession::due(MonotonicTime now) {
+    began_ = began_ ? began_ : now;
+    if (!informed_ && now - *began_ > SessionTimes::reply) {
+        give_up(UsbTrackerState::SetUpRefused);
+    } else if (now - std::max(intake_.latest().value_or(*began_), *began_) > longest_silence) {
+        give_up(UsbTrackerState::Silent);
+    }
+    return {};
+}
+
+void HidTrackerSession::receive(std::span<const std::byte> report, MonotonicTime arrival,
+                                std::vector<PoseSample>& samples) {
+    if (report.empty() || failed_) {
+        return;
+    }
+    const HidTrackerMessage message = parse_hid_tracker(report);
+    if (const auto* info = std::get_if<HidTrackerInfo>(&message)) {
+        check(*info);
+    } else if (const auto* pose = std::get_if<HidTrackerPose>(&message); pose && informed_) {
+        intake_.take(pose->frame, arrival, samples);
+        said_ = pose->fault      ? UsbTrackerState::DeviceFault
+                : pose->starting ? UsbTrackerState::Booting
+                                 : UsbTrackerState::Streaming;
+    } else {
+        intake_.count_refusal();
+    }
+}
+
+UsbTrackerState HidTrackerSession::state(MonotonicTime now) const {
+    if (failed_ || !began_) {
+        return trouble_;
+    }
+    if (now - std::max(intake_.latest().value_or(*began_), *began_) > SessionTimes::quiet) {
+        return UsbTrackerState::Silent;
+    }
+    if (!intake_.latest()) {
+        return UsbTrackerState::SettingUp;
+    }
+    return said_ == UsbTrackerState::Streaming ? intake_.state(now) : said_;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// The HID tracker's session: what the device says of itself is checked, then it streams unasked.
+///
+/// The feature report is the first that the transport hands over. Frame, time, threads: see device_session.h.
+#pragma once
+
+#include "firmware_host/tracker/device_session.h"
+#include "firmware_host/tracker/hid_tracker_codec.h"
+
+namespace frustumscreen {
+
+class HidTrackerSession final : public DeviceSession {
+public:
+    HidTrackerSession();
+
+    [[nodiscard]] std::span<const std::byte> due(MonotonicTime now) override;
+    void receive(std::span<const std::byte> report, MonotonicTime arrival,
+                 std::vector<PoseSample>& samples) override;
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
+    [[nodiscard]] bool failed() const override { return failed_; }
+    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+
+private:
+    void check(const HidTrackerInfo& info);
+    void give_up(UsbTrackerState trouble);
+
+    std::optional<MonotonicTime> began_;
+    bool informed_ = false; ///< the feature report was good
+    bool failed_ = false;
+    UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
+    UsbTrackerState said_ = UsbTrackerState::Streaming; ///< by the device itself, in its latest report
+    FrameIntake intake_;
+};
+
+} // namespace frustumscreen

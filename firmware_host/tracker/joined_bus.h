@@ -1,0 +1,33 @@
+/// Several ways to look for a tracker as one: the first that finds one has it.
+///
+/// Threads  one.
+#pragma once
+
+#include "firmware_host/tracker/usb_transport.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+class JoinedBus final : public UsbBus {
+public:
+    explicit JoinedBus(std::vector<std::unique_ptr<UsbBus>> buses) : buses_(std::move(buses)) {}
+
+    /// What is in the way of a device that is there counts more than that another is not.
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+        UsbTrackerState trouble = UsbTrackerState::NotConnected;
+        for (const std::unique_ptr<UsbBus>& bus : buses_) {
+            tl::expected<FoundTracker, UsbTrackerState> found = bus->find();
+            if (found) {
+                return found;
+            }
+            trouble = trouble == UsbTrackerState::NotConnected ? found.error() : trouble;
+        }
+        return tl::unexpected(trouble);
+    }
+
+private:
+    std::vector<std::unique_ptr<UsbBus>> buses_;
+};
+
+} // namespace frustumscreen

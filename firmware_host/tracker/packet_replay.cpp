@@ -1,0 +1,123 @@
+#include "firmware_host/tracker/packet_replay.h"
+
+#include "firmware_host/base/byte_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Between the end of a round and the beginning of the next; also what keeps the shortest round from being 0.
+constexpr Nanoseconds between_rounds = std::chrono::seconds(1);
+
+Nanoseconds scaled(Nanoseconds length, double factor) {
+    return Nanoseconds(std::llround(static_cast<double>(length.count()) * factor));
+}
+
+} // namespace
+
+Result<PacketReplay> PacketReplay::open(Bytes file, std::string_view name) {
+    const Result<PacketReader> packets = PacketReader::open(file, name);
+    if (!packets) {
+        return tl::unexpected<Error>(packets.error());
+    }
+    PacketReplay replay(std::move(file), *packets);
+    if (!replay.survey()) {
+        return bad_input(fmt::format("{}: no tracker was found while this was recorded", name));
+    }
+    replay.rewind();
+    return replay;
+}
+
+/// False: no device in it.
+bool PacketReplay::survey() {
+    PacketReader reader = first_;
+    std::optional<UsbTrackerModel> model;
+    while (const std::optional<Packet> packet = reader.next()) {
+        begin_ = packets_ == 0 ? packet->time : begin_;
+        end_ = packet->time;
+        ++packets_;
+        if (packet->kind == PacketKind::Opened && !model) {
+            const std::optional<OpenedDevice> opened = OpenedDevice::from(packet->payload);
+            model = opened ? std::optional(opened->model) : std::nullopt;
+        } else if (packet->kind == PacketKind::Dropped) {
+            dropped_ += ByteReader(packet->payload).read<std::uint64_t>();
+        }
+    }
+    left_bytes_ = reader.left();
+    model_ = model.value_or(UsbTrackerModel::Viper);
+    return model.has_value();
+}
+
+void PacketReplay::rewind() {
+    rest_ = first_;
+    next_ = rest_.next();
+    session_.reset();
+    state_ = Sentence(sentence_of(UsbTrackerState::NotConnected));
+}
+
+/// A session is asked for what is due before each call, as it was then: with the time of the call when it
+/// sent, and with the latest time at which it certainly had nothing to send when it did not.
+void PacketReplay::feed(const Packet& packet, std::vector<PoseSample>& samples) {
+    switch (packet.kind) {
+    case PacketKind::Opened: {
+        const std::optional<OpenedDevice> opened = OpenedDevice::from(packet.payload);
+        session_ = opened ? make_session(opened->model, opened->set_up) : nullptr;
+        break;
+    }
+    case PacketKind::Closed:
+        session_.reset();
+        break;
+    case PacketKind::Sent:
+        if (session_) {
+            static_cast<void>(session_->due(packet.time));
+        }
+        break;
+    case PacketKind::Received:
+        if (session_) {
+            static_cast<void>(session_->due(called_));
+            session_->receive(packet.payload, packet.time, samples);
+        }
+        break;
+    case PacketKind::State:
+        state_ = Sentence(as_text(packet.payload));
+        break;
+    case PacketKind::About:
+    case PacketKind::Dropped:
+        break;
+    }
+    called_ = packet.time;
+}
+
+void PacketReplay::play(MonotonicTime until, std::vector<PoseSample>& samples) {
+    for (; next_ && next_->time <= until; next_ = rest_.next()) {
+        feed(*next_, samples);
+    }
+}
+
+PacketReplayTracker::PacketReplayTracker(PacketReplay replay, MonotonicTime start, double speed)
+    : replay_(std::move(replay)), start_(start), speed_(speed),
+      round_(scaled(replay_.end() - replay_.begin(), 1.0 / speed) + between_rounds) {}
+
+MonotonicTime PacketReplayTracker::ours(MonotonicTime recorded) const {
+    return start_ + scaled(recorded - replay_.begin(), 1.0 / speed_);
+}
+
+Result<void> PacketReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
+    const std::size_t before = samples.size();
+    if (now - start_ >= round_) { // whole rounds that nobody saw are left out
+        start_ += ((now - start_) / round_) * round_;
+        replay_.rewind();
+    }
+    replay_.play(replay_.begin() + scaled(now - start_, speed_), samples);
+    for (std::size_t k = before; k < samples.size(); ++k) {
+        samples[k].time = std::min(ours(samples[k].time), now);
+    }
+    return {};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,200 @@
+#include "firmware_host/tracker/packet_recorder.h"
+#include "firmware_host/tracker/packet_replay.h"
+#include "firmware_host/tracker/usb_tracker.h"
+#include "tests/tracker/wire_bytes.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+class RecorderTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() / ("frustumscreen_recorder_test" + std::to_string(::getpid()));
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    struct Contents {
+        std::vector<std::uint64_t> numbers; ///< of the packets received
+        std::uint64_t dropped = 0;
+        std::string about;
+        std::size_t left = 0;
+    };
+    static Contents contents_of(const Bytes& file) {
+        Contents contents;
+        Result<PacketReader> reader = PacketReader::open(file, "test");
+        EXPECT_TRUE(reader);
+        while (const std::optional<Packet> packet = reader ? reader->next() : std::nullopt) {
+            std::uint64_t number = 0;
+            std::memcpy(&number, packet->payload.data(), std::min<std::size_t>(packet->payload.size(), 8));
+            if (packet->kind == PacketKind::Received) {
+                contents.numbers.push_back(number);
+            } else if (packet->kind == PacketKind::Dropped) {
+                contents.dropped += number;
+            } else {
+                contents.about = as_text(packet->payload);
+            }
+        }
+        contents.left = reader ? reader->left() : 0;
+        return contents;
+    }
+    static void put(PacketRecorder& recorder, std::uint64_t number, std::size_t size) {
+        std::vector<std::byte> payload(size);
+        std::memcpy(payload.data(), &number, sizeof(number));
+        recorder.packet(PacketKind::Received, from_microseconds(static_cast<std::int64_t>(number)), payload);
+    }
+    fs::path folder;
+};
+
+TEST_F(RecorderTest, KeepsEveryPacketInOrder) {
+    Result<GrowingFile> file = GrowingFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    PacketRecorder recorder(std::move(*file), "a test", from_microseconds(0));
+    for (std::uint64_t k = 0; k < 20'000; ++k) {
+        put(recorder, k, 8 + k % 100);
+    }
+    EXPECT_NE(recorder.state().find("is recorded to"), std::string_view::npos);
+    ASSERT_TRUE(recorder.finish());
+    EXPECT_EQ(recorder.counts().dropped, 0U);
+    const Contents contents = contents_of(*read_file(folder / "a"));
+    ASSERT_EQ(contents.numbers.size(), 20'000U);
+    EXPECT_TRUE(std::is_sorted(contents.numbers.begin(), contents.numbers.end()));
+    EXPECT_EQ(contents.about, "a test");
+    EXPECT_EQ(contents.left, 0U);
+}
+
+TEST_F(RecorderTest, WhatWasRecordedIsInTheFileWhileItGoesOn) {
+    Result<GrowingFile> file = GrowingFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
+    put(recorder, 7, 8);
+    Contents contents;
+    while (contents.numbers.empty()) { // its thread writes when it comes to it
+        std::this_thread::sleep_for(milliseconds(10));
+        const Bytes bytes = *read_file(folder / "a");
+        contents = bytes.empty() ? Contents() : contents_of(bytes);
+    }
+    EXPECT_EQ(contents.numbers.front(), 7U);
+}
+
+TEST_F(RecorderTest, AFileThatIsThereIsNeverWrittenOver) {
+    ASSERT_TRUE(write_file(folder / "a", as_bytes("precious")));
+    EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.2");
+    EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.3");
+    EXPECT_EQ(as_text(*read_file(folder / "a")), "precious");
+    const Result<GrowingFile> nowhere = GrowingFile::create(folder / "no" / "a");
+    ASSERT_FALSE(nowhere);
+    EXPECT_NE(nowhere.error().message.find("cannot be made"), std::string::npos);
+}
+
+TEST_F(RecorderTest, AFullDiskEndsTheRecordingWithOneSentenceAndHoldsUpNobody) {
+    PacketRecorder recorder(GrowingFile(::open("/dev/full", O_WRONLY | O_CLOEXEC), "stick/a"), "",
+                            from_microseconds(0));
+    std::uint64_t number = 0;
+    while (recorder.state().find("ended") == std::string_view::npos) {
+        put(recorder, ++number, 64);
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_EQ(recorder.state(), "the recording has ended; stick/a: the disk is full");
+    for (int k = 0; k < 1000; ++k) {
+        put(recorder, ++number, 4096);
+    }
+    const Result<void> finished = recorder.finish();
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().message, "stick/a: the disk is full");
+}
+
+/// A pipe that nobody reads stands for a disk that hangs.
+TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+    Bytes read_back;
+    std::uint64_t number = 0;
+    std::jthread reader;
+    {
+        PacketRecorder recorder(GrowingFile(ends[1], "slow"), "", from_microseconds(0));
+        while (recorder.counts().dropped < 100) {
+            put(recorder, number++, 4096);
+        }
+        reader = std::jthread([&] {
+            std::array<std::byte, 65536> block;
+            for (ssize_t count = 0; (count = ::read(ends[0], block.data(), block.size())) > 0;) {
+                read_back.insert(read_back.end(), block.begin(), block.begin() + count);
+            }
+        });
+        const std::uint64_t before = recorder.counts().packets;
+        while (recorder.counts().packets < before + 10) {
+            put(recorder, number++, 4096);
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        EXPECT_TRUE(recorder.finish());
+        EXPECT_NE(recorder.state().find("too slow"), std::string_view::npos);
+    } // closes the pipe
+    reader.join();
+    ::close(ends[0]);
+    const Contents contents = contents_of(read_back);
+    EXPECT_EQ(contents.numbers.size() + contents.dropped, number);
+    EXPECT_TRUE(std::is_sorted(contents.numbers.begin(), contents.numbers.end()));
+}
+
+/// A HID tracker that streams on the machine's own clock.
+class StreamingTransport final : public UsbTransport {
+public:
+    [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds) override {
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+        wire::HidPose pose;
+        pose.counter = counter_++;
+        pose.time_us = 500 * pose.counter;
+        const wire::Wire report = counter_ == 1 ? wire::hid_info() : wire::hid_pose(pose);
+        std::copy(report.begin(), report.end(), buffer.begin());
+        return report.size();
+    }
+    [[nodiscard]] Result<void> write(std::span<const std::byte>, Nanoseconds) override { return {}; }
+    void close() override {}
+
+private:
+    std::uint32_t counter_ = 0;
+};
+class StreamingBus final : public UsbBus {
+public:
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+        return FoundTracker{std::make_unique<StreamingTransport>(), UsbTrackerModel::Hid};
+    }
+};
+
+TEST_F(RecorderTest, BesideARunningTrackerItKeepsWhatWasPolled) {
+    std::vector<PoseSample> polled;
+    {
+        Result<GrowingFile> file = GrowingFile::create(folder / "a");
+        ASSERT_TRUE(file);
+        PacketRecorder recorder(std::move(*file), "", monotonic_now());
+        UsbTracker tracker(std::make_unique<StreamingBus>(), {}, &recorder);
+        while (polled.size() < 300) {
+            ASSERT_TRUE(tracker.poll(monotonic_now(), polled));
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+    } // both end as they do in the exhibit
+    Result<PacketReplay> replay = PacketReplay::open(*read_file(folder / "a"), "a");
+    ASSERT_TRUE(replay);
+    EXPECT_EQ(replay->left_bytes(), 0U);
+    std::vector<PoseSample> replayed;
+    replay->play(replay->end(), replayed);
+    ASSERT_GE(replayed.size(), polled.size());
+    for (std::size_t k = 0; k < polled.size(); ++k) {
+        ASSERT_EQ(polled[k].time, replayed[k].time) << k;
+        ASSERT_EQ(polled[k].position_m, replayed[k].position_m);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
