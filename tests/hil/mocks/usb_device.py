@@ -48,13 +48,14 @@ class UsbDevice:
     endpoints = ()
     strings = ("", "", "", "")  # by index: none, maker, product, serial number
     report_descriptor = b""  # HID only
-    most_waiting = 64  # transfers that a device keeps for a host that does not read; then the oldest are lost
+    most_waiting = 32  # transfers that a device keeps for a host that does not read; then the oldest are lost
 
     def __init__(self):
         self.link = None
         self.hung = False
         self.discarded = 0
         self.waiting = {e.address: collections.deque() for e in self.endpoints if e.address & IN}
+        self._streams = {e.address for e in self.endpoints if e.kind == BULK}
 
     # What a subclass has of its own.
 
@@ -85,10 +86,18 @@ class UsbDevice:
         if self.link and not self.hung:
             self.link.data_waiting(endpoint)
 
-    def take(self, endpoint):
-        """The next transfer for the host, or None."""
+    def take(self, endpoint, length):
+        """At most `length` bytes for the host, or None: of an interrupt endpoint one report, of a bulk endpoint all that
+        waits, so that a slow host catches up."""
         queue = self.waiting[endpoint]
-        return queue.popleft() if queue and not self.hung else None
+        if not queue or self.hung:
+            return None
+        data = queue.popleft()
+        while endpoint in self._streams and queue and len(data) < length:
+            data += queue.popleft()
+        if endpoint in self._streams and len(data) > length:
+            queue.appendleft(data[length:])
+        return data[:length]
 
     def hang(self, hung):
         self.hung = hung
@@ -163,7 +172,7 @@ class Transfers:
         self.clear()
 
     def clear(self):
-        self._reads = {}
+        self._reads = {}  # endpoint -> (identifier, length)
         self._writes = collections.deque()
 
     def read(self, endpoint, identifier, length):
@@ -188,12 +197,8 @@ class Transfers:
     def ready_reads(self, endpoint):
         """(identifier, data) of reads that the device can serve now."""
         queue = self._reads.get(endpoint, ())
-        while queue:
-            data = self._device.take(endpoint)
-            if data is None:
-                return
-            identifier, length = queue.popleft()
-            yield identifier, data[:length]
+        while queue and (data := self._device.take(endpoint, queue[0][1])) is not None:
+            yield queue.popleft()[0], data
 
     def ready_writes(self):
         """(endpoint, identifier, data) of writes that the device takes; a hung one takes none."""

@@ -24,6 +24,8 @@ DEVICE_VERSION, DISCONNECT_ACK, MAX_PACKET_SIZE, IDS_64_BIT, BULK_LENGTH_32_BIT 
 OUR_CAPABILITIES = sum(1 << bit for bit in
                        (DEVICE_VERSION, DISCONNECT_ACK, MAX_PACKET_SIZE, IDS_64_BIT, BULK_LENGTH_32_BIT))
 
+_LONGEST_REPORT = 1024
+
 
 def header(kind, length, identifier, wide):
     return struct.pack("<IIQ" if wide else "<III", kind, length, identifier)
@@ -103,7 +105,7 @@ class UsbredirLink:
     def data_waiting(self, endpoint):
         for identifier, data in self._transfers.ready_reads(endpoint):
             self._send_bulk(endpoint, SUCCESS, data, identifier)
-        while endpoint in self._streams and (data := self._device.take(endpoint)) is not None:
+        while endpoint in self._streams and (data := self._device.take(endpoint, _LONGEST_REPORT)) is not None:
             body = struct.pack("<BBH", endpoint, SUCCESS, len(data)) + data
             self._send(INTERRUPT_PACKET, body, self._stream_ids)
             self._stream_ids += 1
