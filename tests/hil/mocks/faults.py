@@ -102,6 +102,7 @@ class Frame(NamedTuple):
     data: bytes
     poses: dict  # station -> table_from_sensor or None
     intact: bool = True
+    sequence: int = 0  # frames that a host counts together; the late one comes after its successor in it
 
 
 class FramePath:
@@ -111,35 +112,33 @@ class FramePath:
         """`break_bytes(data, random)`: how this device's frames break so that a host can notice."""
         self._faults = faults
         self._break_bytes = break_bytes
-        self._held = None
+        self._held = {}  # by sequence
         self.counts = {"dropped": 0, "corrupted": 0, "duplicated": 0, "reordered": 0}
 
     def clear(self):
-        self._held = None
+        self._held.clear()
 
     def send(self, frame):
         """The frames to send now in place of this one."""
         faults, counts = self._faults, self.counts
         if faults.strikes("drop"):
             counts["dropped"] += 1
-            return self._release([])
+            return self._with_held(frame, [])
         if faults.strikes("corrupt"):
             counts["corrupted"] += 1
             frame = frame._replace(data=self._break_bytes(frame.data, faults.random), intact=False)
-        if self._held is None and faults.strikes("reorder"):
+        if frame.sequence not in self._held and faults.strikes("reorder"):
             counts["reordered"] += 1
-            self._held = frame
+            self._held[frame.sequence] = frame
             return []
         if faults.strikes("duplicate"):
             counts["duplicated"] += 1
-            return self._release([frame, frame])
-        return self._release([frame])
+            return self._with_held(frame, [frame, frame])
+        return self._with_held(frame, [frame])
 
-    def _release(self, frames):
-        if self._held is not None:
-            frames = [*frames, self._held]
-            self._held = None
-        return frames
+    def _with_held(self, frame, frames):
+        held = self._held.pop(frame.sequence, None)
+        return frames if held is None else [*frames, held]
 
 
 def flip_or_cut(data, random_):

@@ -95,18 +95,19 @@ class Tracker(UsbDevice):
 
     def _send(self, frame):
         t_ns = time.monotonic_ns()
-        self.answer(frame.data)
+        if frame.intact:
+            self._note(t_ns, frame.poses)  # before the host can have it
         self.sent += 1
-        if not frame.intact:
-            return
-        before = dict(self.last[2]) if self.last else {}
-        shown = {**before, **frame.poses}
-        self.last = (t_ns, self.counter, shown)
-        if shown != before:
+        self.answer(frame.data)
+
+    def _note(self, t_ns, poses):
+        before = self.last[2] if self.last else {}
+        self.last = (t_ns, self.counter, {**before, **poses})
+        if self.last[2] != before:
             self.changed = self.last
         if self._log:
             nan = self.faults.on("nan")
-            for station, pose in frame.poses.items():
+            for station, pose in poses.items():
                 self._log.write(pose_file.row(t_ns // 1000, station, None if nan else pose))
 
     def status(self):

@@ -74,6 +74,9 @@ class UsbDevice:
         for queue in self.waiting.values():
             queue.clear()
 
+    def greet(self):
+        """On a link without endpoint 0: what a host asks for there when it opens the device."""
+
     # What links use.
 
     def send(self, endpoint, data):

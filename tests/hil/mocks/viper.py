@@ -9,6 +9,7 @@ import math
 import struct
 import time
 
+from .crc import crc16_arc
 from .faults import Frame, flip_or_cut
 from .pose import euler_deg
 from .tracker import Tracker
@@ -23,27 +24,6 @@ SERIAL = 700001
 _UNITS_IN_METRE = {INCHES: 1 / 0.0254, FEET: 1 / 0.3048, CENTIMETRES: 100.0, METRES: 1.0}
 _FASTEST_RATE = 5  # 30 Hz << 5
 _HEAD_BYTES, _CRC_BYTES, _COMMAND_BYTES = 8, 4, 20
-
-
-def _crc_table():
-    table = []
-    for byte in range(256):
-        crc = byte
-        for _ in range(8):
-            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
-        table.append(crc)
-    return table
-
-
-_CRC_TABLE = _crc_table()
-
-
-def crc16_arc(data):
-    """Reflected polynomial 0xA001, begins with 0."""
-    crc = 0
-    for byte in data:
-        crc = crc >> 8 ^ _CRC_TABLE[(crc ^ byte) & 0xFF]
-    return crc
 
 
 def framed(preamble, body):
