@@ -24,7 +24,8 @@ class Poses(unittest.TestCase):
         for axis in range(3):
             diagonal = [1 if k == axis else -1 for k in range(3)]
             numbers = [diagonal[0], 0, 0, 0, 0, diagonal[1], 0, 0, 0, 0, diagonal[2], 0, 0, 0, 0, 1]
-            self.assert_close([abs(c) for c in from_matrix(numbers).quaternion], [0] + [int(k == axis) for k in range(3)])
+            found = [abs(c) for c in from_matrix(numbers).quaternion]
+            self.assert_close(found, [0] + [int(k == axis) for k in range(3)])
 
     def test_a_matrix_that_is_not_rigid_is_refused(self):
         with self.assertRaisesRegex(ValueError, "no rigid transform"):

@@ -1,4 +1,4 @@
-"""A Silicon Labs CP2112: a USB bridge whose eight pins the kernel's hid-cp2112 makes a GPIO chip. Buttons pull a pin low.
+"""A Silicon Labs CP2112: a USB bridge whose eight pins the kernel's hid-cp2112 makes a GPIO chip. Buttons pull pins low.
 
 Reports (Silicon Labs AN495), the number first: 0x02 pin directions and modes, 0x03 pins read, 0x04 pins written, 0x05
 part and version, 0x06 SMBus settings, 0x20 which strings may still be written. No SMBus device answers.
@@ -42,7 +42,8 @@ class Cp2112(UsbDevice):
     def start_anew(self):
         super().start_anew()
         self._features = {
-            _DIRECTIONS: bytes(4), _WRITE_PINS: bytes(2), _VERSION: b"\x0c\x02", _LOCK: b"\xff", _USB_SETTINGS: bytes(9),
+            _DIRECTIONS: bytes(4), _WRITE_PINS: bytes(2), _VERSION: b"\x0c\x02", _LOCK: b"\xff",
+            _USB_SETTINGS: bytes(9),
             _SMBUS: b"\x00\x01\x86\xa0\x02\x00\x00\x00\x00\x00\x00\x00\x00"}  # 100 kHz, address 2
 
     def hold(self, pin, down):

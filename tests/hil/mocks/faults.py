@@ -1,4 +1,4 @@
-"""What is wrong with a mocked device just now, and what that does to its frames. Seeded: the same seed, the same faults.
+"""What is wrong with a mocked device just now, and what that does to its frames; the same seed, the same faults.
 
 A fault is written `NAME [VALUE] [DURATION]`, for example `drop 0.1`, `stall 2s`, `corrupt 0.05 10s`; `NAME off` ends it
 and `good` ends all.
@@ -51,7 +51,7 @@ class Faults:
         self._active = {}  # name -> (value, end or None)
 
     def tell(self, name, words):
-        """Begins or ends a fault; returns its duration in seconds, None: until told otherwise. ValueError: a sentence."""
+        """Begins or ends a fault; returns its duration in seconds, None: until told otherwise. Errors: ValueError."""
         kind = KINDS[name]
         if words == ["off"]:
             self._active.pop(name, None)

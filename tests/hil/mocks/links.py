@@ -19,12 +19,13 @@ def _address(text):
 
 def add_arguments(parser):
     group = parser.add_argument_group("connection, one of").add_mutually_exclusive_group()
-    group.add_argument("--usbredir", metavar="SOCKET", help="to QEMU: listen there for its chardev of a usb-redir device")
+    group.add_argument("--usbredir", metavar="SOCKET", help="to QEMU: listen there for the chardev of its usb-redir device")
     group.add_argument("--usbip", metavar="[ADDRESS:]PORT", type=_address, nargs="?", const=("127.0.0.1", _USBIP_PORT),
                        help=f"to any Linux machine: listen there for 'usbip attach' (127.0.0.1:{_USBIP_PORT})")
     group.add_argument("--vhci", action="store_true",
                        help="to this Linux machine itself; needs root, and 'modprobe vhci-hcd' before")
-    group.add_argument("--socket", metavar="SOCKET", help="the bytes alone, at a Unix socket that is there while plugged in")
+    group.add_argument("--socket", metavar="SOCKET",
+                       help="the bytes alone, at a Unix socket that is there while plugged in")
     group.add_argument("--pty", action="store_true", help="the bytes alone, at a new pseudo-terminal")
     group.add_argument("--stdio", action="store_true", help="the bytes alone, by standard input and output")
 

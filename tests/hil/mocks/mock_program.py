@@ -1,4 +1,4 @@
-"""What the programs that play a device share: times on the command line, telling a running one, running until stopped."""
+"""What the programs that play a device share: options, telling a running one, running until stopped."""
 
 import argparse
 import asyncio
@@ -23,7 +23,8 @@ def add_arguments(parser):
     parser.add_argument("--control", metavar="SOCKET", help="listen there for commands")
     parser.add_argument("--at", metavar="'TIME COMMAND'", type=parse_at, action="append", default=[],
                         help="a command at a time after the start; may be given again")
-    parser.add_argument("--tell", metavar=("SOCKET", "COMMAND"), nargs="+", help="tell a running mock something, and end")
+    parser.add_argument("--tell", metavar=("SOCKET", "COMMAND"), nargs="+",
+                        help="tell a running mock something, and end")
 
 
 def parse_arguments(parser):
@@ -60,9 +61,10 @@ async def run(name, arguments, device, execute, life):
             carry_out(command)
         else:
             loop.call_later(seconds, carry_out, command)
+    where = await link.open()
     if arguments.control:
-        await control.serve(arguments.control, execute)
-    print(f"{name}: {await link.open()}", file=sys.stderr, flush=True)
+        await control.serve(arguments.control, execute)  # it is there: the device is, too
+    print(f"{name}: {where}", file=sys.stderr, flush=True)
     tasks = [asyncio.create_task(work) for work in (life, link.ended(), stopped.wait())]
     done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
     link.close()

@@ -1,7 +1,7 @@
-"""A Polhemus PATRIOT or LIBERTY: commands and answers are text, frames of one sensor each are text or, after F1, binary.
+"""A Polhemus PATRIOT or LIBERTY: commands and answers are text; frames, of one sensor each, too or, after F1, binary.
 
-Frame: 'PA' or 'LY', u8 station, u8 command, u8 error (space: good), u8 0, u16 size of what follows; then the chosen fields,
-little-endian. The family has no checksum. It answers questions and errors; a command that it accepts it does not answer.
+Frame: 'PA' or 'LY', u8 station, u8 command, u8 error (space: good), u8 0, u16 size of what follows; then the chosen
+fields, little-endian. The family has no checksum. It answers questions and errors, but no command that it accepts.
 """
 
 import struct
@@ -68,7 +68,7 @@ class Patriot(Tracker):
 
     @staticmethod
     def break_bytes(data, random_):
-        """Without a checksum a host can notice a broken header alone: one bit of it flipped, or the frame cut within it."""
+        """Without a checksum a host can notice a broken header alone: a bit of it flipped, or the frame cut within it."""
         if random_.random() < 0.5:
             return data[:random_.randrange(1, 8)]
         broken = bytearray(data)

@@ -34,7 +34,3 @@ class Player:
             found = self._file.at(self._file.begin_us + t_us)
         found.update(self._placed)
         return dict(sorted(found.items()))
-
-    def finished(self, now):
-        length_us = self._file.end_us - self._file.begin_us if self._file else 0
-        return not self.loop and (now - self._begun) * self.speed * 1e6 >= length_us

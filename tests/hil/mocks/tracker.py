@@ -1,7 +1,6 @@
 """What every mocked tracker has in common: it plays poses at its own rate, and misbehaves as it is told."""
 
 import asyncio
-import struct
 import time
 
 from . import pose_file
@@ -13,7 +12,7 @@ _LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older tha
 
 
 class Tracker(UsbDevice):
-    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`, and `streaming` as it was told."""
+    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as it is told."""
 
     name = "tracker"
 
@@ -134,8 +133,3 @@ class Tracker(UsbDevice):
             "last": told(self.last),
             "changed": told(self.changed),
         }
-
-
-def single(number):
-    """The nearest 32-bit number, as the wire has it."""
-    return struct.unpack("<f", struct.pack("<f", number))[0]

@@ -90,8 +90,10 @@ class UsbDevice:
             self.link.data_waiting(endpoint)
 
     def take(self, endpoint, length):
-        """At most `length` bytes for the host, or None: of an interrupt endpoint one report, of a bulk endpoint all that
-        waits, so that a slow host catches up."""
+        """At most `length` bytes for the host, or None.
+
+        Of an interrupt endpoint one report; of a bulk endpoint all that waits, so that a slow host catches up.
+        """
         queue = self.waiting[endpoint]
         if not queue or self.hung:
             return None

@@ -1,4 +1,4 @@
-"""Links to a Linux kernel's vhci_hcd: the server's side of USB/IP 1.1.1, over TCP or straight into this machine's kernel.
+"""Links to a Linux kernel's vhci_hcd: the server's side of USB/IP 1.1.1, over TCP or straight into this kernel.
 
 All numbers big-endian, but for the eight set-up bytes, which are as on the bus.
 """
@@ -125,17 +125,19 @@ class UsbipServerLink(_UsbipLink):
     def __init__(self, device, address, port):
         super().__init__(device)
         self._address = address
-        self._port = port
+        self.port = port  # 0: any that is free, known once it is open
 
     async def open(self):
-        await asyncio.start_server(self._serve, self._address, self._port)
-        return f"USB/IP at {self._address}, port {self._port}, bus id {BUS_ID.decode()}"
+        self._server = await asyncio.start_server(self._serve, self._address, self.port)
+        self.port = self._server.sockets[0].getsockname()[1]
+        return f"USB/IP at {self._address}, port {self.port}, bus id {BUS_ID.decode()}"
 
     def plug(self):
         self._plugged = True
 
     def close(self):
         self.unplug()
+        self._server.close()
 
     async def _serve(self, reader, writer):
         writer.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

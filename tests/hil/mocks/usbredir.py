@@ -73,7 +73,7 @@ class UsbredirLink:
     async def open(self):
         if os.path.exists(self._path):
             os.unlink(self._path)
-        await asyncio.start_unix_server(self._serve, self._path)
+        self._server = await asyncio.start_unix_server(self._serve, self._path)
         return f"usbredir at {self._path}"
 
     async def ended(self):
@@ -82,6 +82,7 @@ class UsbredirLink:
 
     def close(self):
         self.unplug()
+        self._server.close()
         if os.path.exists(self._path):
             os.unlink(self._path)
 

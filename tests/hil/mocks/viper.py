@@ -1,8 +1,8 @@
 """A Polhemus VIPER: frames of poses, commands and their answers. Little-endian throughout.
 
-Frame: preamble, u32 size of all that follows, body, u32 CRC over everything before. 'VPRP' are poses: u32 serial, u32
-counter, u32 info, u32 sensor count, then 32 bytes each sensor. 'VPRC' are commands and answers: u32 serial, u32 command,
-u32 action, u32 arg1, u32 arg2, payload.
+Frame: preamble, u32 size of all that follows, body, u32 CRC over everything before. 'VPRP' are poses: u32 serial,
+u32 counter, u32 info, u32 sensor count, then 32 bytes each sensor. 'VPRC' are commands and answers: u32 serial,
+u32 command, u32 action, u32 arg1, u32 arg2, payload.
 """
 
 import math
