@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     # tools
-    build-essential cmake ninja-build pkg-config shellcheck clang-format
+    build-essential cmake ninja-build pkg-config shellcheck clang-format python3 pyflakes3
     systemd # its tools check the units
     # small libraries
     libglm-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev

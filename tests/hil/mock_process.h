@@ -1,0 +1,51 @@
+/// The mocked tracker as a process beside the test, its bytes at a Unix socket, and a bus that finds it
+/// there.
+///
+/// Threads  one caller.
+/// Errors   the process's are the test's failures; a socket that is not there is a tracker that is not
+/// connected.
+#pragma once
+
+#include "firmware_host/tracker/usb_transport.h"
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A folder of its own under the system's temporary folder, removed at the end: sockets want short paths.
+class ScratchFolder {
+public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+private:
+    std::filesystem::path folder_;
+};
+
+class MockProcess {
+public:
+    /// Runs tests/hil/mock_tracker with these arguments; it listens for commands at `control`.
+    MockProcess(std::vector<std::string> arguments, std::string control);
+    ~MockProcess();
+    MockProcess(const MockProcess&) = delete;
+    MockProcess& operator=(const MockProcess&) = delete;
+
+    /// Its answer, one JSON object; empty: it did not answer.
+    [[nodiscard]] std::string tell(const std::string& command) const;
+
+private:
+    std::string control_;
+    pid_t process_ = -1;
+};
+
+/// Finds the tracker whose bytes are at the Unix socket `path`.
+[[nodiscard]] std::unique_ptr<UsbBus> make_socket_bus(std::string path, UsbTrackerModel model);
+
+} // namespace frustumscreen

@@ -1,0 +1,1 @@
+"""Tests of the mocks: bytes against bytes put together by hand."""

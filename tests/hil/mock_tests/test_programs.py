@@ -1,0 +1,101 @@
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from mocks import control, pose_file
+
+FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+TRACKER = os.path.join(FOLDER, "mock_tracker")
+BUTTONS = os.path.join(FOLDER, "mock_buttons")
+
+
+def run(*arguments):
+    return subprocess.run(arguments, capture_output=True, text=True, timeout=60)
+
+
+class CommandLine(unittest.TestCase):
+    def test_help_lists_the_commands(self):
+        for program, word in ((TRACKER, "sensor-missing"), (BUTTONS, "bounce PIN")):
+            found = run(program, "--help")
+            self.assertEqual(found.returncode, 0)
+            self.assertIn(word, found.stdout)
+
+    def test_wrong_use_is_said(self):
+        for arguments, words in (((TRACKER,), "how the device is connected"),
+                                 ((TRACKER, "--stdio", "--at", "soon"), "--at"),
+                                 ((TRACKER, "--stdio", "--pty"), "not allowed with"),
+                                 ((BUTTONS, "--tell", "x"), "--tell"),
+                                 ((TRACKER, "--stdio", "--table-from-tracker", "[1, 2]"), "16 numbers"),
+                                 ((TRACKER, "--usbip", "here"), "PORT")):
+            found = run(*arguments)
+            self.assertEqual(found.returncode, 2)
+            self.assertIn(words, found.stderr)
+
+    def test_work_that_fails_is_said_in_one_line(self):
+        for arguments in ((TRACKER, "--stdio", "--poses", "/nowhere.csv"), (TRACKER, "--tell", "/nowhere", "status")):
+            found = run(*arguments)
+            self.assertEqual(found.returncode, 1)
+            self.assertEqual(len(found.stderr.splitlines()), 1)
+
+
+class Running(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.control = os.path.join(self.folder.name, "control")
+        self.process = None
+
+    def tearDown(self):
+        if self.process:
+            self.process.send_signal(signal.SIGTERM)
+            _, errors = self.process.communicate(timeout=60)
+            self.assertEqual(self.process.returncode, 0, errors)
+        self.folder.cleanup()
+
+    def start(self, *arguments):
+        self.process = subprocess.Popen([*arguments, "--control", self.control], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertIn(b"mock_", self.process.stderr.readline())
+
+    def until(self, holds):
+        end = time.monotonic() + 30
+        while not holds():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+
+    def test_a_tracker_is_told_and_asked(self):
+        log = os.path.join(self.folder.name, "log.csv")
+        self.start(TRACKER, "--device", "patriot", "--stdio", "--log", log)
+        self.process.stdin.write(b"U1\rF1\rC\r")
+        self.process.stdin.flush()
+        placed = control.tell(self.control, "pose 0.5 0.25 0 1 0 0 0")
+        self.assertTrue(placed["ok"])
+        self.until(lambda: (control.tell(self.control, "status")["changed"] or {}).get("t_ns", 0) > placed["t_ns"])
+        status = control.tell(self.control, "status")
+        self.assertEqual(status["last"]["poses"]["1"]["position_m"], [0.5, 0.25, 0.0])
+        self.assertTrue(status["connected"])
+        self.assertFalse(control.tell(self.control, "drop 7")["ok"])
+        self.assertIn("unknown command", control.tell(self.control, "dance")["error"])
+        self.assertTrue(control.tell(self.control, "drop 0.5 60s")["ok"])
+        self.assertEqual(control.tell(self.control, "status")["faults"], {"drop": 0.5})
+        self.assertTrue(control.tell(self.control, "good")["ok"])
+        self.assertEqual(control.tell(self.control, "status")["faults"], {})
+        self.until(lambda: pose_file.load(log).at(1 << 60)[1].position == (0.5, 0.25, 0.0))
+
+    def test_the_program_tells_too(self):
+        self.start(BUTTONS, "--usbredir", os.path.join(self.folder.name, "buttons"), "--at", "0s hold 3")
+        told = run(BUTTONS, "--tell", self.control, "press", "1", "50ms")
+        self.assertEqual(told.returncode, 0)
+        self.assertEqual(run(BUTTONS, "--tell", self.control, "press", "8").returncode, 1)
+        self.until(lambda: control.tell(self.control, "status")["pins"] == 0xFF & ~(1 << 3))
+        control.tell(self.control, "release 3")
+        answer = json.loads(run(BUTTONS, "--tell", self.control, "status").stdout)
+        self.assertEqual(answer["pins"], 0xFF)
+        self.assertFalse(answer["connected"])
+
+
+if __name__ == "__main__":
+    unittest.main()

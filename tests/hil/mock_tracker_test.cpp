@@ -1,0 +1,231 @@
+/// The exhibit's tracker driver against the mocked trackers, as bytes over a socket: what it hands out was
+/// sent, each misbehaviour is named, and it recovers. Waits for what must come, not for times.
+
+#include "firmware_host/base/time.h"
+#include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/usb_tracker_driver.h"
+#include "tests/hil/mock_process.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+struct Device {
+    std::string name; ///< on the mock's command line
+    UsbTrackerModel model = UsbTrackerModel::Viper;
+    double position_tolerance_m = 1e-6;
+    double rotation_tolerance = 1e-6;
+};
+const std::vector<Device> devices{
+    {"viper", UsbTrackerModel::Viper},
+    {"patriot", UsbTrackerModel::Patriot},
+    {"liberty-hs", UsbTrackerModel::Liberty},
+};
+
+constexpr int rows = 3600;
+constexpr double rows_per_metre = 8192.0;
+
+/// The pose of a row: another in every row and station.
+PoseSample row_pose(int row, int station) {
+    PoseSample pose;
+    pose.time = from_microseconds(row * 1'000'000LL / 240);
+    pose.station = station;
+    pose.position_m = {row / rows_per_metre - 0.5, row % 64 / 64.0, 0.25 * station};
+    pose.rotation = glm::angleAxis(0.01 * row + station, glm::normalize(glm::dvec3(1.0, -2.0, 0.5)));
+    return pose;
+}
+
+std::string read_file(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+/// The mock, playing rows, and the driver at it; every sample is held against the row that it must be.
+class Bench {
+public:
+    explicit Bench(const Device& device, const std::vector<std::string>& more = {})
+        : device_(device), mock_(arguments(more), folder_.path("control")),
+          driver_(make_socket_bus(folder_.path("tracker"), device.model), {}, monotonic_now) {}
+
+    void tell(const std::string& command) {
+        SCOPED_TRACE(command);
+        EXPECT_NE(mock_.tell(command).find("\"ok\": true"), std::string::npos);
+    }
+    /// Steps until it holds; false: it did not within half a minute.
+    bool until(const std::function<bool()>& holds) {
+        const MonotonicTime end = monotonic_now() + std::chrono::seconds(30);
+        while (!holds()) {
+            if (monotonic_now() > end) {
+                return false;
+            }
+            step();
+        }
+        return true;
+    }
+    bool until_state(UsbTrackerState state) {
+        return until([&] { return driver_.state() == state; });
+    }
+    /// Streams, and that is no leftover: new poses of both stations came.
+    bool until_streaming() {
+        const std::map<int, int> before = good_;
+        return until([&] {
+            return driver_.state() == UsbTrackerState::Streaming &&
+                   good_[prop_station] > before_of(before, 1) + 5 &&
+                   good_[head_station] > before_of(before, 2) + 5;
+        });
+    }
+    [[nodiscard]] IntakeCounts counts() const { return driver_.counts(); }
+    [[nodiscard]] const std::vector<PoseSample>& samples() const { return samples_; }
+
+    /// Each good sample was sent whole, as the mock wrote down.
+    void check_against_log() const {
+        const auto sent = parse_poses(read_file(folder_.path("log")), "log");
+        ASSERT_TRUE(sent) << sent.error().message;
+        std::map<std::pair<int, int>, bool> rows_sent;
+        for (const PoseSample& pose : *sent) {
+            rows_sent[{pose.station, row_of(pose)}] = true;
+        }
+        for (const PoseSample& sample : samples_) {
+            EXPECT_TRUE(!sample.ok || rows_sent.contains({sample.station, row_of(sample)}));
+        }
+    }
+
+private:
+    static int before_of(const std::map<int, int>& counts, int station) {
+        const auto found = counts.find(station);
+        return found == counts.end() ? 0 : found->second;
+    }
+    static int row_of(const PoseSample& pose) {
+        return static_cast<int>(std::lround((pose.position_m.x + 0.5) * rows_per_metre));
+    }
+    std::vector<std::string> arguments(const std::vector<std::string>& more) const {
+        std::vector<PoseSample> poses;
+        for (int row = 0; row < rows; ++row) {
+            poses.push_back(row_pose(row, prop_station));
+            poses.push_back(row_pose(row, head_station));
+        }
+        std::ofstream(folder_.path("poses.csv")) << write_poses(poses);
+        std::vector<std::string> all{"--device",         device_.name,
+                                     "--socket",         folder_.path("tracker"),
+                                     "--poses",          folder_.path("poses.csv"),
+                                     "--loop",           "--log",
+                                     folder_.path("log")};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    void step() {
+        const std::size_t before = samples_.size();
+        const Nanoseconds rest = driver_.step(samples_);
+        for (std::size_t k = before; k < samples_.size(); ++k) {
+            check(samples_[k]);
+        }
+        if (rest > Nanoseconds::zero()) {
+            std::this_thread::sleep_for(rest);
+        }
+    }
+    void check(const PoseSample& sample) {
+        MonotonicTime& last = last_time_[sample.station];
+        EXPECT_LE(last, sample.time);
+        last = sample.time;
+        if (!sample.ok) {
+            return;
+        }
+        ++good_[sample.station];
+        const PoseSample expected = row_pose(row_of(sample), sample.station);
+        EXPECT_LT(glm::distance(sample.position_m, expected.position_m), device_.position_tolerance_m);
+        EXPECT_GT(std::abs(glm::dot(sample.rotation, expected.rotation)), 1.0 - device_.rotation_tolerance);
+    }
+
+    Device device_;
+    ScratchFolder folder_;
+    MockProcess mock_;
+    UsbTrackerDriver driver_;
+    std::vector<PoseSample> samples_;
+    std::map<int, int> good_; ///< samples by station
+    std::map<int, MonotonicTime> last_time_;
+};
+
+class MockTracker : public testing::TestWithParam<Device> {};
+INSTANTIATE_TEST_SUITE_P(Devices, MockTracker, testing::ValuesIn(devices), [](const auto& test) {
+    return test.param.name.substr(0, test.param.name.find('-'));
+});
+
+TEST_P(MockTracker, PosesArriveInOrderAndExact) {
+    Bench bench(GetParam());
+    ASSERT_TRUE(bench.until_streaming());
+    ASSERT_TRUE(bench.until([&] { return bench.samples().size() > 200; }));
+    EXPECT_EQ(bench.counts().refused + bench.counts().duplicated + bench.counts().reordered, 0U);
+    bench.check_against_log();
+}
+
+TEST_P(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
+    Bench bench(GetParam());
+    ASSERT_TRUE(bench.until_streaming());
+    using Count = std::uint64_t IntakeCounts::*;
+    const std::vector<std::pair<std::string, Count>> faults{{"drop", &IntakeCounts::lost},
+                                                            {"corrupt", &IntakeCounts::refused},
+                                                            {"duplicate", &IntakeCounts::duplicated},
+                                                            {"reorder", &IntakeCounts::reordered}};
+    for (const auto& [fault, count] : faults) {
+        SCOPED_TRACE(fault);
+        const std::uint64_t before = bench.counts().*count;
+        bench.tell(fault + " 0.3");
+        EXPECT_TRUE(bench.until([&, &c = count] { return bench.counts().*c > before + 5; }));
+        bench.tell(fault + " off");
+        EXPECT_TRUE(bench.until_streaming());
+    }
+    bench.check_against_log();
+}
+
+TEST_P(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
+    const bool viper = GetParam().model == UsbTrackerModel::Viper;
+    const std::vector<std::pair<std::string, UsbTrackerState>> faults{
+        {"stall", UsbTrackerState::Silent},
+        {"hang", UsbTrackerState::Silent},
+        {"unplug", UsbTrackerState::NotConnected},
+        {"sensor-missing", UsbTrackerState::SensorMissing},
+        {"distortion 200", UsbTrackerState::MetalNear},
+        {"wrong-units", UsbTrackerState::WrongUnits},
+        {"slow-boot", viper ? UsbTrackerState::Booting : UsbTrackerState::SetUpRefused},
+    };
+    Bench bench(GetParam());
+    ASSERT_TRUE(bench.until_streaming());
+    for (const auto& [fault, state] : faults) {
+        SCOPED_TRACE(fault);
+        bench.tell(fault);
+        EXPECT_TRUE(bench.until_state(state));
+        bench.tell(fault.substr(0, fault.find(' ')) + " off");
+        EXPECT_TRUE(bench.until_streaming());
+    }
+    bench.check_against_log();
+}
+
+TEST_P(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
+    Bench bench(GetParam(), {"--at", "0s nak"});
+    EXPECT_TRUE(bench.until_state(UsbTrackerState::SetUpRefused));
+    bench.tell("nak off");
+    EXPECT_TRUE(bench.until_streaming());
+}
+
+TEST_P(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
+    Bench bench(GetParam());
+    ASSERT_TRUE(bench.until_streaming());
+    const IntakeCounts before = bench.counts();
+    bench.tell("nan");
+    EXPECT_TRUE(bench.until([&] {
+        return bench.counts().unusable > before.unusable + 5 || bench.counts().refused > before.refused + 5;
+    }));
+    bench.tell("good");
+    EXPECT_TRUE(bench.until_streaming());
+    bench.check_against_log();
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,88 @@
+"""The commands that the mocked buttons understand, from their control socket or at a time."""
+
+import asyncio
+import time
+
+from .cp2112 import PINS
+from .faults import parse_duration
+
+HELP = f"""\
+press PIN [DURATION]   down, and up again after it (200 ms); pins are 0 to {PINS - 1}
+hold PIN               down until 'release PIN'
+release PIN
+bounce PIN [DURATION]  a press whose contacts bounce: a burst of edges when it goes down and when it comes up
+unplug [DURATION]      the USB cable is out; 'plug' puts it back
+plug
+status                 pins, lamps, how often the host read
+help                   this"""
+
+_USUAL_PRESS_S = 0.2
+_BOUNCE_S = 0.003  # between two edges of a bouncing contact
+_BOUNCES = 5
+
+
+class ButtonsConsole:
+    def __init__(self, buttons):
+        self._buttons = buttons
+        self._alarm = None
+
+    def execute(self, line):
+        name, *words = line.split() or [""]
+        if name in ("press", "bounce") and len(words) in (1, 2):
+            duration = _duration(words[1]) if len(words) == 2 else _USUAL_PRESS_S
+            self._press(_pin(words[0]), duration, name == "bounce")
+        elif name in ("hold", "release") and len(words) == 1:
+            self._buttons.hold(_pin(words[0]), name == "hold")
+        elif name == "unplug" and len(words) <= 1:
+            self._unplug(_duration(words[0]) if words else None)
+        elif name == "plug" and not words:
+            self._disarm()
+            self._buttons.link.plug()
+        elif name == "status" and not words:
+            return self._status()
+        elif name == "help":
+            return {"help": HELP}
+        else:
+            raise ValueError(f"unknown command '{line}'; 'help' lists them")
+        return {"t_ns": time.monotonic_ns()}
+
+    def _press(self, pin, duration, bounces):
+        edges = 2 * _BOUNCES if bounces else 0
+        for begin, down in ((0.0, True), (duration, False)):
+            for k in range(edges + 1):
+                at_end = down if k % 2 == 0 else not down
+                if begin == 0.0 and k == 0:
+                    self._buttons.hold(pin, at_end)
+                else:
+                    loop = asyncio.get_running_loop()
+                    loop.call_later(begin + k * _BOUNCE_S, self._buttons.hold, pin, at_end)
+
+    def _unplug(self, duration):
+        self._disarm()
+        self._buttons.link.unplug()
+        self._buttons.start_anew()
+        if duration is not None:
+            self._alarm = asyncio.get_running_loop().call_later(duration, self._buttons.link.plug)
+
+    def _disarm(self):
+        if self._alarm:
+            self._alarm.cancel()
+            self._alarm = None
+
+    def _status(self):
+        buttons = self._buttons
+        return {"device": "cp2112", "t_ns": time.monotonic_ns(), "connected": buttons.link.connected,
+                "pins": buttons.pins(), "lamps": buttons.lamps, "reads": buttons.reads}
+
+
+def _pin(text):
+    if text.isdecimal() and int(text) < PINS:
+        return int(text)
+    raise ValueError(f"found pin '{text}'; allowed are 0 to {PINS - 1}")
+
+
+def _duration(text):
+    seconds = parse_duration(text)
+    if seconds is None:
+        raise ValueError(f"found duration '{text}'; allowed are such as 2s or 300ms")
+    return seconds

@@ -1,0 +1,41 @@
+"""The control socket: one command a line in, one JSON object a line out. And the way to tell a mock something."""
+
+import asyncio
+import json
+import os
+import socket
+
+
+def carry_out(execute, line):
+    """`execute(line)` returns a dict or None, or raises ValueError with a sentence."""
+    try:
+        return {"ok": True, **(execute(line) or {})}
+    except ValueError as error:
+        return {"ok": False, "error": str(error)}
+
+
+async def serve(path, execute):
+    async def talk(reader, writer):
+        try:
+            while line := await reader.readline():
+                answer = carry_out(execute, line.decode(errors="replace").strip())
+                writer.write(json.dumps(answer).encode() + b"\n")
+                await writer.drain()
+        except (asyncio.CancelledError, ConnectionError):
+            pass
+        finally:
+            writer.close()
+
+    if os.path.exists(path):
+        os.unlink(path)
+    return await asyncio.start_unix_server(talk, path)
+
+
+def tell(path, line, timeout_s=10.0):
+    """From another program: sends one command, returns the answer as a dict."""
+    with socket.socket(socket.AF_UNIX) as connection:
+        connection.settimeout(timeout_s)
+        connection.connect(path)
+        connection.sendall(line.encode() + b"\n")
+        with connection.makefile() as answers:
+            return json.loads(answers.readline())

@@ -1,0 +1,151 @@
+"""What is wrong with a mocked device just now, and what that does to its frames; the same seed, the same faults.
+
+A fault is written `NAME [VALUE] [DURATION]`, for example `drop 0.1`, `stall 2s`, `corrupt 0.05 10s`; `NAME off` ends it
+and `good` ends all.
+"""
+
+import random
+import re
+import time
+from typing import NamedTuple
+
+_DURATION = re.compile(r"(\d+(?:\.\d+)?)(ms|s)$")
+_PROBABILITY = (0.0, 1.0)
+
+
+class Kind(NamedTuple):
+    """usual: the value if none is given; None: it has none. allowed: least and most."""
+
+    usual: float | None
+    allowed: tuple | None
+    says: str
+
+
+KINDS = {
+    "drop": Kind(0.1, _PROBABILITY, "each frame is lost with this probability"),
+    "corrupt": Kind(0.05, _PROBABILITY, "each frame is broken with this probability: bits flipped, or bytes missing"),
+    "duplicate": Kind(0.1, _PROBABILITY, "each frame is sent twice with this probability"),
+    "reorder": Kind(0.1, _PROBABILITY, "each frame comes after its successor with this probability"),
+    "stall": Kind(None, None, "no frames; commands are still answered"),
+    "hang": Kind(None, None, "nothing goes in or out, though the device stays connected"),
+    "nan": Kind(None, None, "positions that are no numbers"),
+    "wrong-units": Kind(None, None, "inches, whatever it is told"),
+    "nak": Kind(None, None, "commands are refused"),
+    "slow-boot": Kind(None, None, "starts anew: forgets its settings and says that it is still booting"),
+    "unplug": Kind(None, None, "the USB cable is out; plugged in again it starts anew"),
+    "sensor-missing": Kind(1, (1, 16), "the sensor of this station is not plugged in"),
+    "distortion": Kind(200, (0, 255), "the device says that its field is distorted by metal"),
+}
+
+
+def parse_duration(text):
+    """'2s', '300ms' -> seconds; None: not a duration."""
+    match = _DURATION.match(text)
+    return None if not match else float(match[1]) * (1.0 if match[2] == "s" else 0.001)
+
+
+class Faults:
+    def __init__(self, seed=1, clock=time.monotonic):
+        self.random = random.Random(seed)
+        self._clock = clock
+        self._active = {}  # name -> (value, end or None)
+
+    def tell(self, name, words):
+        """Begins or ends a fault; returns its duration in seconds, None: until told otherwise. Errors: ValueError."""
+        kind = KINDS[name]
+        if words == ["off"]:
+            self._active.pop(name, None)
+            return None
+        value, duration = kind.usual, None
+        for word in words:
+            seconds = parse_duration(word)
+            if seconds is not None:
+                duration = seconds
+                continue
+            if kind.allowed is None:
+                raise ValueError(f"{name}: '{word}' is not a duration such as 2s or 300ms, nor 'off'")
+            try:
+                value = float(word)
+            except ValueError:
+                value = float("nan")
+            if not kind.allowed[0] <= value <= kind.allowed[1]:
+                raise ValueError(f"{name}: found '{word}'; allowed are {kind.allowed[0]:g} to {kind.allowed[1]:g}")
+        self._active[name] = (value, None if duration is None else self._clock() + duration)
+        return duration
+
+    def clear(self):
+        self._active.clear()
+
+    def on(self, name):
+        if name not in self._active:
+            return False
+        end = self._active[name][1]
+        if end is not None and self._clock() >= end:
+            del self._active[name]
+            return False
+        return True
+
+    def value(self, name):
+        return self._active[name][0] if self.on(name) else None
+
+    def strikes(self, name):
+        """Whether this one frame is hit; draws from the seeded numbers only while the fault is on."""
+        return self.on(name) and self.random.random() < self._active[name][0]
+
+    def active(self):
+        """{name: value, or true}, for the status."""
+        return {name: value if value is not None else True
+                for name, (value, _) in list(self._active.items()) if self.on(name)}
+
+
+class Frame(NamedTuple):
+    data: bytes
+    poses: dict  # station -> table_from_sensor or None
+    intact: bool = True
+    sequence: int = 0  # frames that a host counts together; the late one comes after its successor in it
+
+
+class FramePath:
+    """The way of frames to the host: some are lost, broken, doubled, late."""
+
+    def __init__(self, faults, break_bytes):
+        """`break_bytes(data, random)`: how this device's frames break so that a host can notice."""
+        self._faults = faults
+        self._break_bytes = break_bytes
+        self._held = {}  # by sequence
+        self.counts = {"dropped": 0, "corrupted": 0, "duplicated": 0, "reordered": 0}
+
+    def clear(self):
+        self._held.clear()
+
+    def send(self, frame):
+        """The frames to send now in place of this one."""
+        faults, counts = self._faults, self.counts
+        if faults.strikes("drop"):
+            counts["dropped"] += 1
+            return self._with_held(frame, [])
+        if faults.strikes("corrupt"):
+            counts["corrupted"] += 1
+            frame = frame._replace(data=self._break_bytes(frame.data, faults.random), intact=False)
+        if frame.sequence not in self._held and faults.strikes("reorder"):
+            counts["reordered"] += 1
+            self._held[frame.sequence] = frame
+            return []
+        if faults.strikes("duplicate"):
+            counts["duplicated"] += 1
+            return self._with_held(frame, [frame, frame])
+        return self._with_held(frame, [frame])
+
+    def _with_held(self, frame, frames):
+        held = self._held.pop(frame.sequence, None)
+        return frames if held is None else [*frames, held]
+
+
+def flip_or_cut(data, random_):
+    """Some bits flipped, or the frame cut short."""
+    if random_.random() < 0.5:
+        return data[:random_.randrange(1, len(data))]
+    broken = bytearray(data)
+    for _ in range(random_.randint(1, 4)):
+        broken[random_.randrange(len(broken))] ^= 1 << random_.randrange(8)
+    return bytes(broken)

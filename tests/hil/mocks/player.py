@@ -1,0 +1,36 @@
+"""Which pose each station has now: from a pose file, or where it was put by hand."""
+
+from .pose import Pose
+
+
+class Player:
+    """Times are seconds of the monotonic clock, handed in."""
+
+    def __init__(self, loop=False, speed=1.0):
+        self.loop = loop
+        self.speed = speed
+        self._file = None
+        self._begun = 0.0
+        self._placed = {1: Pose()}
+
+    def play(self, file, now):
+        """From the file's beginning; the last poses stay, or with `loop` it begins again."""
+        self._file = file
+        self._begun = now
+        self._placed = {}
+
+    def place(self, station, pose):
+        """Stays there, whatever the file says."""
+        self._placed[station] = pose
+
+    def poses(self, now):
+        """{station: table_from_sensor, or None: the device has no pose of it}."""
+        found = {}
+        if self._file:
+            t_us = (now - self._begun) * self.speed * 1e6
+            length_us = self._file.end_us - self._file.begin_us
+            if self.loop and length_us > 0:
+                t_us %= length_us
+            found = self._file.at(self._file.begin_us + t_us)
+        found.update(self._placed)
+        return dict(sorted(found.items()))

@@ -1,0 +1,174 @@
+"""A Polhemus VIPER: frames of poses, commands and their answers. Little-endian throughout.
+
+Frame: preamble, u32 size of all that follows, body, u32 CRC over everything before. 'VPRP' are poses: u32 serial,
+u32 counter, u32 info, u32 sensor count, then 32 bytes each sensor. 'VPRC' are commands and answers: u32 serial,
+u32 command, u32 action, u32 arg1, u32 arg2, payload.
+"""
+
+import math
+import struct
+import time
+
+from .crc import crc16_arc
+from .faults import Frame, flip_or_cut
+from .pose import euler_deg
+from .tracker import Tracker
+from .usb_device import BULK, IN, Endpoint
+
+HEMISPHERE, FILTER, FRAME_RATE, UNITS, SINGLE, CONTINUOUS, WHO_AM_I = 0, 1, 6, 7, 18, 19, 20
+SET, GET, RESET, ACK, NAK = 0, 1, 2, 3, 4
+NAK_BOOTING, NAK_COMMAND = 1, 2
+INCHES, FEET, CENTIMETRES, METRES = range(4)
+DEGREES, RADIANS, QUATERNION = range(3)
+SERIAL = 700001
+_UNITS_IN_METRE = {INCHES: 1 / 0.0254, FEET: 1 / 0.3048, CENTIMETRES: 100.0, METRES: 1.0}
+_FASTEST_RATE = 5  # 30 Hz << 5
+_HEAD_BYTES, _CRC_BYTES, _COMMAND_BYTES = 8, 4, 20
+
+
+def framed(preamble, body):
+    whole = preamble + struct.pack("<I", len(body) + _CRC_BYTES) + body
+    return whole + struct.pack("<I", crc16_arc(whole))
+
+
+def sensor_record(station, position, orientation, units, distortion=0):
+    info = station - 1 | units[0] << 8 | units[1] << 10 | distortion << 14
+    return struct.pack("<I3f4f", info, *position, *orientation)
+
+
+def pose_body(counter, records):
+    return struct.pack("<IIII", SERIAL, counter, 0, len(records)) + b"".join(records)
+
+
+def answer_frame(command, action, payload=b""):
+    return framed(b"VPRC", struct.pack("<IIIII", SERIAL, command, action, 0, 0) + payload)
+
+
+def nak_payload(code, text):
+    return struct.pack("<I128s48x", code, text.encode())
+
+
+def split_commands(stream):
+    """Takes whole commands off a bytearray: a list of (command, action, arg1, arg2, payload); garbage is skipped."""
+    found = []
+    while True:
+        start = stream.find(b"VPRC")
+        if start < 0:
+            del stream[:max(0, len(stream) - 3)]
+            return found
+        del stream[:start]
+        if len(stream) < _HEAD_BYTES:
+            return found
+        size = struct.unpack_from("<I", stream, 4)[0]
+        if not _COMMAND_BYTES + _CRC_BYTES <= size <= 1024:
+            del stream[:4]
+            continue
+        whole = _HEAD_BYTES + size
+        if len(stream) < whole:
+            return found
+        data = bytes(stream[:whole])
+        if struct.unpack_from("<I", data, whole - _CRC_BYTES)[0] != crc16_arc(data[:-_CRC_BYTES]):
+            del stream[:4]
+            continue
+        del stream[:whole]
+        _, command, action, arg1, arg2 = struct.unpack_from("<IIIII", data, _HEAD_BYTES)
+        found.append((command, action, arg1, arg2, data[_HEAD_BYTES + _COMMAND_BYTES:-_CRC_BYTES]))
+
+
+class Viper(Tracker):
+    name = "viper"
+    vendor_id, product_id = 0x0F44, 0xBF01
+    endpoints = (Endpoint(IN | 1, BULK, 64), Endpoint(2, BULK, 64))
+    strings = ("", "Polhemus", "VIPER (mock)", "mock")
+    break_bytes = staticmethod(flip_or_cut)
+
+    # As it is after power came on.
+    _defaults = {
+        HEMISPHERE: struct.pack("<I3f", 0, 1.0, 0.0, 0.0),
+        FILTER: struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
+        FRAME_RATE: struct.pack("<I", 3),
+        UNITS: struct.pack("<II", INCHES, DEGREES),
+    }
+
+    def __init__(self, *args, **kwargs):
+        super().__init__(*args, **kwargs)
+        self.start_anew()
+
+    def start_anew(self):
+        super().start_anew()
+        self.settings = dict(self._defaults)
+        self._stream = bytearray()
+
+    @property
+    def rate_hz(self):
+        return 30.0 * (1 << struct.unpack("<I", self.settings[FRAME_RATE])[0])
+
+    @property
+    def units(self):
+        position, orientation = struct.unpack("<II", self.settings[UNITS])
+        return (INCHES if self.faults.on("wrong-units") else position, orientation)
+
+    def received(self, endpoint, data):
+        self._stream += data
+        for command in split_commands(self._stream):
+            self.commands += 1
+            self.answer(self._answer(*command))
+
+    def _answer(self, command, action, _arg1, _arg2, payload):
+        if self.faults.on("slow-boot"):
+            return answer_frame(command, NAK, nak_payload(NAK_BOOTING, "the system is booting"))
+        if self.faults.on("nak"):
+            return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "refused"))
+        known = False
+        answer = b""
+        if command == CONTINUOUS and action in (SET, RESET):
+            known = True
+            self.streaming = action == SET
+        elif command == WHO_AM_I and action == GET:
+            known = True
+            answer = struct.pack("<64s32s32s32s32s", b"VIPER mock", b"700001", b"mock", b"mock", b"mock")
+        elif command == SINGLE and action == GET:
+            known = True
+            answer = pose_body(self.counter, self._records(self.poses(time.monotonic())))
+        elif command in self.settings and action == SET:
+            known = self._allowed(command, payload)
+            if known:
+                self.settings[command] = payload
+        elif command in self.settings and action == GET:
+            known = True
+            answer = struct.pack("<II", *self.units) if command == UNITS else self.settings[command]
+        elif command in self.settings and action == RESET:
+            known = True
+            self.settings[command] = self._defaults[command]
+        if known:
+            return answer_frame(command, ACK, answer)
+        return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "unknown command or payload"))
+
+    def _allowed(self, command, payload):
+        if len(payload) != len(self._defaults[command]):
+            return False
+        if command == FRAME_RATE:
+            return struct.unpack("<I", payload)[0] <= _FASTEST_RATE
+        if command == UNITS:
+            position, orientation = struct.unpack("<II", payload)
+            return position <= METRES and orientation <= QUATERNION
+        return True
+
+    def frames(self, counter, time_s, poses):
+        return [Frame(framed(b"VPRP", pose_body(counter, self._records(poses))), poses)]
+
+    def _records(self, poses):
+        distortion = int(self.faults.value("distortion") or 0)
+        nan = self.faults.on("nan")
+        return [self._record(station, pose, distortion, nan) for station, pose in poses.items() if pose]
+
+    def _record(self, station, pose, distortion, nan):
+        units = self.units
+        place = self.in_tracker(pose)
+        scale = _UNITS_IN_METRE[units[0]]
+        position = [float("nan") if nan else c * scale for c in place.position]
+        orientation = place.quaternion
+        if units[1] != QUATERNION:
+            turn = math.pi / 180 if units[1] == RADIANS else 1.0
+            orientation = (*(angle * turn for angle in euler_deg(place.quaternion)), 0.0)
+        return sensor_record(station, position, orientation, units, distortion)
