@@ -190,6 +190,7 @@ private:
     }
 
     void note_states() {
+        note_state("display", display_.state(), result_.status.display);
         if (inputs_.tracker) {
             note_state("tracker", inputs_.tracker->state(), result_.status.tracker);
         }
@@ -213,10 +214,10 @@ private:
 
     /// Waits for it, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
-        MonotonicTime next = now + period_;
         if (options_.fast) {
-            return next;
+            return now + period_;
         }
+        MonotonicTime next = display_.next_frame(now, period_);
         const MonotonicTime clock = monotonic_now();
         if (clock > next) {
             const auto missed = (clock - next) / period_;
