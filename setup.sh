@@ -16,6 +16,8 @@ packages=(
     libpng-dev libturbojpeg0-dev libwebp-dev libfreetype-dev fonts-dejavu-core
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
+    # projectors
+    libdrm-dev libgbm-dev libudev-dev libxcvt-dev
     # OpenGL ES without a screen
     libegl-dev libgles-dev libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )

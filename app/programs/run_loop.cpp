@@ -190,6 +190,7 @@ private:
         if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
             result_.first_resident_mib = resident_mib();
         }
+        status.display = Sentence(display_.state());
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.recording = Sentence(inputs_.recorder ? inputs_.recorder->state() : std::string_view{});
@@ -201,10 +202,10 @@ private:
 
     /// Waits for it, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
-        MonotonicTime next = now + period_;
         if (options_.fast) {
-            return next;
+            return now + period_;
         }
+        MonotonicTime next = display_.next_frame(now, period_);
         const MonotonicTime clock = monotonic_now();
         if (clock > next) {
             const auto missed = (clock - next) / period_;

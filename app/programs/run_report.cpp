@@ -82,6 +82,7 @@ std::string status_json(const RunStatus& status) {
                                          {"probes", status.probes},
                                          {"skipped", status.late},
                                          {"device_errors", status.bad_samples},
+                                         {"display", status.display.view()},
                                          {"tracker", status.tracker.view()},
                                          {"panel", status.panel.view()},
                                          {"recording", status.recording.view()},

@@ -69,7 +69,8 @@ struct RunStatus {
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
     double resident_mib = 0.0;
-    Sentence tracker; ///< how the devices are; empty where nothing can fail
+    Sentence display; ///< how the devices are; empty where nothing can fail
+    Sentence tracker;
     Sentence panel;
     Sentence recording;
     bool prop_known = false;

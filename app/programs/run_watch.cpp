@@ -78,13 +78,14 @@ void RunWatch::note(const RunStatus& status) {
     if (other) {
         note_state(Weight::Info, "exhibit", shows.view(), shows);
     }
+    note_device("display", status.display, display_);
     note_device("tracker", status.tracker, tracker_);
     note_device("panel", status.panel, panel_);
     note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(
-        sentence("{}{}{}{}{}", tracker_.view(), comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+        sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(), comma(tracker_), panel_.view(), comma(panel_), shows.view()));
 }
 
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {

@@ -40,7 +40,7 @@ private:
     std::optional<WatchdogPolicy> watchdog_;
     bool ready_ = false;
     Health health_ = Health::Well;
-    Sentence tracker_, panel_, recording_, artifact_, language_, level_;
+    Sentence display_, tracker_, panel_, recording_, artifact_, language_, level_;
 };
 
 } // namespace frustumscreen

@@ -2,6 +2,7 @@
 
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/display/kms_display.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/scripted_panel.h"
@@ -142,9 +143,18 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
 } // namespace
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
-    if (!headless) {
-        return fail(ErrorKind::BadConfiguration,
-                    "display: this version has no screen output yet; use --headless --out DIR");
+    const DisplaySettings& display = settings.display;
+    if (!headless && display.kind == DisplayKind::Kms) {
+        OutputWish wish;
+        const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
+        wish.connector = named(display.connector);
+        wish.width = display.mode.width;
+        wish.height = display.mode.height;
+        wish.refresh_hz = display.mode.refresh_hz;
+        wish.force = display.force;
+        wish.picture_width = settings.projector.pinhole.width;
+        wish.picture_height = settings.projector.pinhole.height;
+        return KmsDisplay::create(named(display.card), wish);
     }
     return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
 }

@@ -86,6 +86,8 @@ void check_eye(const Settings& settings, Fitness& fitness) {
 }
 
 void check_devices(const Settings& settings, Fitness& fitness) {
+    fitness.require(!settings.display.force || settings.display.mode.width > 0, "display.force",
+                    "is true; it needs display.mode, the mode to force, such as \"1280x800@60\"");
     fitness.require(settings.tracker.kind != TrackerKind::Replay || !settings.tracker.poses.empty(),
                     "tracker.kind",
                     "is \"replay\"; it needs tracker.poses, the pose file or recording to replay");

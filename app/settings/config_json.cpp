@@ -47,6 +47,14 @@ Json projector_json(const ProjectorSettings& projector) {
             {"refresh_hz", projector.refresh_hz}};
 }
 
+Json display_json(const DisplaySettings& display) {
+    return {{"kind", std::string(name_of(display.kind))},
+            {"card", display.card},
+            {"connector", display.connector},
+            {"mode", text_of(display.mode)},
+            {"force", display.force}};
+}
+
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
@@ -102,6 +110,7 @@ std::string config_json(const CheckedSettings& checked) {
     const Settings& settings = *checked;
     Json json;
     json["projector"] = projector_json(settings.projector);
+    json["display"] = display_json(settings.display);
     json["render"] = {{"error_tolerance_px", settings.render.error_tolerance_px}};
     json["prop"] = {{"kind", std::string(name_of(settings.prop.kind))},
                     {"base_m", settings.prop.base_m},

@@ -26,6 +26,9 @@ constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-d
 constexpr std::size_t most_buttons = 3;
 constexpr double shortest_direction = 1e-3;
 
+/// By DisplayKind.
+constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
+
 /// By TrackerKind.
 constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse", "none"};
 
@@ -111,6 +114,25 @@ void read_projector(TableReader table, ProjectorSettings& projector) {
     table.number("cy", pinhole.cy, {-1.0 * pinhole.height, 2.0 * pinhole.height, "pixels"});
     table.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"});
     read_projector_pose(table, projector.table_from_projector);
+    table.finish();
+}
+
+void read_display(TableReader table, DisplaySettings& display) {
+    int kind = static_cast<int>(display.kind);
+    table.choice("kind", kind, display_names);
+    display.kind = static_cast<DisplayKind>(kind);
+    table.text("card", display.card);
+    table.text("connector", display.connector);
+    std::string mode = text_of(display.mode);
+    table.text("mode", mode);
+    if (const auto read = parse_display_mode(mode)) {
+        display.mode = *read;
+    } else {
+        table.refuse("mode", fmt::format("is the text \"{}\"; allowed are \"preferred\", \"1280x800\" and "
+                                         "\"1280x800@60\", of 64 to 8192 pixels and 10 to 480 hertz",
+                                         printable(mode, 40)));
+    }
+    table.flag("force", display.force);
     table.finish();
 }
 
@@ -241,6 +263,7 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
     Settings settings;
     TableReader file(state, &root, "");
     read_projector(file.table("projector"), settings.projector);
+    read_display(file.table("display"), settings.display);
     read_render(file.table("render"), settings.render);
     read_prop(file.table("prop"), settings.prop);
     read_table(file.table("table"), settings.table);
@@ -253,6 +276,10 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
 }
 
 } // namespace
+
+std::string_view name_of(DisplayKind kind) {
+    return display_names[static_cast<std::size_t>(kind)];
+}
 
 std::string_view name_of(PanelKind kind) {
     return panel_names[static_cast<std::size_t>(kind)];

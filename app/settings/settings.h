@@ -12,6 +12,7 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+#include "app/settings/display_mode.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
@@ -27,6 +28,18 @@ struct ProjectorSettings {
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
     RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.2)};
     double refresh_hz = 60.0;
+};
+
+/// Kms: a projector on this machine's graphics card. Surfaceless: no screen.
+enum class DisplayKind { Kms, Surfaceless };
+[[nodiscard]] std::string_view name_of(DisplayKind kind);
+struct DisplaySettings {
+    DisplayKind kind = DisplayKind::Kms;
+    std::string card = "any"; ///< kms: a path or "card0"; "any" = the first with something connected
+    std::string connector =
+        "any";          ///< kms: as the kernel names it, "HDMI-A-1"; "any" = whichever has a projector
+    DisplayMode mode;   ///< kms
+    bool force = false; ///< kms: `mode` even where the projector does not name it
 };
 
 struct TableSettings {
@@ -96,6 +109,7 @@ struct RenderSettings {
 
 struct Settings {
     ProjectorSettings projector;
+    DisplaySettings display;
     RenderSettings render;
     PropSize prop;
     TableSettings table;

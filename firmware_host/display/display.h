@@ -7,6 +7,7 @@
 #include "firmware_host/base/time.h"
 
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -22,7 +23,15 @@ public:
     [[nodiscard]] virtual int buffer_age() const = 0;
     /// Shows what was drawn; the time at which it was (or will be) lit.
     [[nodiscard]] virtual Result<MonotonicTime> present(MonotonicTime now) = 0;
+    /// When the frame after the one that began at `now` should begin, for one frame every `period`: on a
+    /// flip, where there are flips.
+    [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
+        return now + period;
+    }
     [[nodiscard]] virtual std::string name() const = 0;
+    /// How the device is, in one plain sentence; empty: there is nothing that could fail. Good until the next
+    /// call.
+    [[nodiscard]] virtual std::string_view state() const { return {}; }
 };
 
 } // namespace frustumscreen

@@ -1,0 +1,46 @@
+#include "firmware_host/display/connector_watch.h"
+
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
+constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(5);
+
+} // namespace
+
+ConnectorWatch::ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug)
+    : look_(std::move(look)), hotplug_(std::move(hotplug)), thread_([this] { run(); }) {}
+
+ConnectorWatch::~ConnectorWatch() {
+    stop_ = true;
+    hotplug_->wake();
+    thread_.join();
+}
+
+std::optional<CardSeen> ConnectorWatch::news() {
+    const std::unique_lock lock(news_mutex_, std::try_to_lock);
+    return lock.owns_lock() ? std::exchange(news_, std::nullopt) : std::nullopt;
+}
+
+void ConnectorWatch::run() {
+    std::optional<CardSeen> last;
+    bool plugged = true; // what was before the start is news
+    while (!stop_) {
+        CardSeen seen;
+        {
+            const std::lock_guard asking(asking_);
+            seen = look_(plugged || !lit_);
+        }
+        if (plugged || seen != last) {
+            const std::lock_guard lock(news_mutex_);
+            news_ = seen;
+            last = std::move(seen);
+        }
+        plugged = hotplug_->wait(lit_ ? between_looks_while_lit : between_looks_in_the_dark);
+    }
+}
+
+} // namespace frustumscreen

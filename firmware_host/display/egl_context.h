@@ -1,0 +1,47 @@
+/// An OpenGL ES 3 context that draws into framebuffer objects and no window.
+///
+/// Threads  one context is current on one thread at a time.
+/// Errors   EGL or OpenGL ES 3 missing.
+/// Source   EGL_MESA_platform_surfaceless, EGL_KHR_platform_gbm, EGL_KHR_no_config_context,
+///          EGL_KHR_surfaceless_context.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+class EglContext {
+public:
+    /// On no screen at all; current.
+    [[nodiscard]] static Result<EglContext> without_screen();
+    /// On the card of a GBM device, which must outlive it; current.
+    [[nodiscard]] static Result<EglContext> on_gbm(void* gbm_device);
+    /// One more with the same textures and buffers and with a state of its own. Not current.
+    [[nodiscard]] Result<EglContext> sharing() const;
+
+    ~EglContext();
+    EglContext(EglContext&& other) noexcept;
+    EglContext& operator=(EglContext&& other) noexcept;
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
+
+    [[nodiscard]] bool make_current() const;
+    [[nodiscard]] bool has_extension(std::string_view name) const; ///< of the EGL display
+    [[nodiscard]] void* egl_display() const { return display_.get(); }
+
+private:
+    EglContext() = default;
+    [[nodiscard]] static Result<EglContext> on(std::shared_ptr<void> display, void* share_with);
+
+    std::shared_ptr<void> display_;
+    void* context_ = nullptr;
+};
+
+/// The driver's own name and version; of the current context.
+[[nodiscard]] std::string gl_driver_name();
+
+} // namespace frustumscreen

@@ -1,0 +1,64 @@
+/// What the presenter needs of a graphics card; the kernel's answers are values.
+///
+/// Threads  the render thread; no call blocks, but `wait_flip` for as long as it is told to.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/base/time.h"
+#include "firmware_host/display/kms_mode.h"
+#include "firmware_host/display/letterbox.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace frustumscreen {
+
+enum class KmsAnswer : std::uint8_t {
+    Done,      ///< queued
+    Busy,      ///< what was queued before is not done
+    Refused,   ///< it cannot
+    NotMaster, ///< another program holds the screen
+    Gone,      ///< the card is not there any more
+};
+
+/// A framebuffer's number with the kernel.
+using FramebufferId = std::uint32_t;
+
+struct Flipped {
+    MonotonicTime time;
+    std::uint64_t ticket = 0; ///< of the call that asked for it
+};
+
+class KmsDevice {
+public:
+    virtual ~KmsDevice() = default;
+    /// Shows the framebuffer in this mode on this connector and turns off everything else on the card; a flip
+    /// follows.
+    [[nodiscard]] virtual KmsAnswer light(std::uint32_t connector, const ModeTiming& mode,
+                                          FramebufferId shown, std::uint64_t ticket) = 0;
+    /// Shows another framebuffer of the same size from the next refresh on; a flip follows.
+    [[nodiscard]] virtual KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) = 0;
+    /// Turns off what `light` turned on.
+    [[nodiscard]] virtual KmsAnswer darken() = 0;
+    /// Takes the screen, if no other program holds it.
+    [[nodiscard]] virtual bool become_master() = 0;
+    /// The next flip that is done, waited for at most so long; 0 = not at all.
+    [[nodiscard]] virtual std::optional<Flipped> wait_flip(Nanoseconds at_most) = 0;
+    /// Do the flips of what is lit come in time with its refreshes? An emulated card's come at once.
+    [[nodiscard]] virtual bool flips_keep_time() const = 0;
+    [[nodiscard]] virtual MonotonicTime now() const = 0;
+};
+
+/// Two framebuffers of one size that a card can show, and the way of the exhibit's picture into them.
+class ScanoutPair {
+public:
+    virtual ~ScanoutPair() = default;
+    [[nodiscard]] virtual PixelSize size() const = 0;
+    /// Copies the picture into framebuffer 0 or 1; done when it returns.
+    [[nodiscard]] virtual FramebufferId fill(int which) = 0;
+};
+using MakeScanout = std::function<Result<std::unique_ptr<ScanoutPair>>(PixelSize size)>;
+
+} // namespace frustumscreen

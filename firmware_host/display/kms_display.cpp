@@ -1,0 +1,38 @@
+#include "firmware_host/display/kms_display.h"
+
+#include <GLES3/gl31.h>
+
+namespace frustumscreen {
+
+Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name, const OutputWish& wish) {
+    Result<KmsCard> card = KmsCard::open(card_name);
+    if (!card) {
+        return tl::unexpected<Error>(card.error());
+    }
+    Result<std::unique_ptr<GbmScreen>> screen =
+        GbmScreen::create(card->file(), {wish.picture_width, wish.picture_height});
+    if (!screen) {
+        return tl::unexpected<Error>(screen.error());
+    }
+    return std::unique_ptr<KmsDisplay>(new KmsDisplay(std::move(*card), std::move(*screen), wish));
+}
+
+KmsDisplay::KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish)
+    : card_(std::move(card)), screen_(std::move(screen)), kms_(card_),
+      presenter_(
+          kms_, [this](PixelSize size) { return screen_->make_pair(size); }, wish),
+      watch_([this](bool thoroughly) { return card_.look(thoroughly); }, make_udev_hotplug()) {}
+
+Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
+    glFinish(); // in the dark too: the exhibit's pace and its watchdog do not depend on a projector
+    presented_ = true;
+    if (std::optional<CardSeen> seen = watch_.news()) {
+        presenter_.connected(std::move(*seen));
+    }
+    const std::unique_lock quiet = watch_.quiet();
+    Result<MonotonicTime> shown = presenter_.present(quiet.owns_lock());
+    watch_.set_lit(presenter_.lit());
+    return shown;
+}
+
+} // namespace frustumscreen

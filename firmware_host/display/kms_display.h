@@ -1,0 +1,55 @@
+/// The projector on a connector of this machine's graphics card.
+///
+/// The renderer draws into one framebuffer object of the picture's size; each picture is copied from there to
+/// what the card shows, scaled where the projector's mode is of another size, so that no projector that
+/// comes, goes or changes ever touches the renderer.
+///
+/// Time     CLOCK_MONOTONIC, from the card's page flips.
+/// Threads  the one that created it: the context is current there. A thread of its own asks what is
+/// connected. Errors   at the start: no card, no permission, no atomic modesetting, no OpenGL ES 3. Later
+/// none but a card that
+///          is back after it was gone; `state` says the rest.
+#pragma once
+
+#include "firmware_host/display/atomic_kms.h"
+#include "firmware_host/display/connector_watch.h"
+#include "firmware_host/display/display.h"
+#include "firmware_host/display/gbm_scanout.h"
+#include "firmware_host/display/kms_card.h"
+#include "firmware_host/display/presenter.h"
+
+#include <memory>
+#include <string_view>
+
+namespace frustumscreen {
+
+class KmsDisplay final : public Display {
+public:
+    /// `card`: as KmsCard::open; the picture's size is in `wish`.
+    [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>> create(std::string_view card,
+                                                                    const OutputWish& wish);
+
+    [[nodiscard]] int width() const override { return screen_->picture().width(); }
+    [[nodiscard]] int height() const override { return screen_->picture().height(); }
+    [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
+    [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
+    /// Waits until the picture is drawn, and for the flip before, at most `flip_patience`.
+    [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
+    [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
+        return presenter_.next_frame(now, period);
+    }
+    [[nodiscard]] std::string name() const override { return card_.path() + ", " + gl_driver_name(); }
+    [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
+
+private:
+    KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish);
+
+    KmsCard card_;
+    std::unique_ptr<GbmScreen> screen_;
+    AtomicKms kms_;
+    Presenter presenter_;
+    bool presented_ = false;
+    ConnectorWatch watch_; ///< last: it asks the card
+};
+
+} // namespace frustumscreen

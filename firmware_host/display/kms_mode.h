@@ -1,0 +1,92 @@
+/// Which connector and which mode: pure choice over what a graphics card says is connected.
+///
+/// Units    pixels, lines, kilohertz, hertz.
+/// Threads  values; any.
+/// Source   struct drm_mode_modeinfo of the kernel's KMS; VESA CVT 1.2 for timings made here, CTA-861 for the
+/// two
+///          that digital projectors expect exactly.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// One mode's timing; the fields' meaning is the kernel's.
+struct ModeTiming {
+    std::uint32_t clock_khz = 0;
+    std::uint16_t width = 0;
+    std::uint16_t hsync_start = 0;
+    std::uint16_t hsync_end = 0;
+    std::uint16_t htotal = 0;
+    std::uint16_t hskew = 0;
+    std::uint16_t height = 0;
+    std::uint16_t vsync_start = 0;
+    std::uint16_t vsync_end = 0;
+    std::uint16_t vtotal = 0;
+    std::uint16_t vscan = 0;
+    std::uint32_t flags = 0;
+    bool preferred = false;
+
+    [[nodiscard]] bool operator==(const ModeTiming&) const = default;
+};
+inline constexpr std::uint32_t mode_hsync_positive = 1U << 0U;
+inline constexpr std::uint32_t mode_hsync_negative = 1U << 1U;
+inline constexpr std::uint32_t mode_vsync_positive = 1U << 2U;
+inline constexpr std::uint32_t mode_vsync_negative = 1U << 3U;
+inline constexpr std::uint32_t mode_interlaced = 1U << 4U;
+inline constexpr std::uint32_t mode_doublescan = 1U << 5U;
+inline constexpr std::uint32_t mode_stereo = 0x1FU << 14U;
+
+/// Pictures a second; 0 for a timing that is none.
+[[nodiscard]] double refresh_hz(const ModeTiming& mode);
+
+enum class Plugged : std::uint8_t { No, Yes, Unknown };
+
+struct ConnectorSeen {
+    std::uint32_t id = 0;
+    std::string name; ///< as the kernel's: "HDMI-A-1"
+    Plugged plugged = Plugged::No;
+    bool built_in = false; ///< a panel of the machine itself
+    bool link_bad = false; ///< the kernel asks for the mode to be set again
+    std::vector<ModeTiming> modes;
+
+    [[nodiscard]] bool operator==(const ConnectorSeen&) const = default;
+};
+
+/// Back: gone, and now there anew, so that only a new start takes it up.
+enum class CardState : std::uint8_t { There, Gone, Back };
+
+struct CardSeen {
+    CardState state = CardState::There;
+    std::vector<ConnectorSeen> connectors;
+
+    [[nodiscard]] bool operator==(const CardSeen&) const = default;
+};
+
+/// What the settings ask for.
+struct OutputWish {
+    std::string connector; ///< empty = whichever has a projector
+    int width = 0;         ///< of the mode; 0 = the projector's preferred one
+    int height = 0;
+    double refresh_hz = 0.0; ///< 0 = any
+    bool force = false;      ///< use the mode even where the projector does not name it
+    int picture_width = 0;   ///< the exhibit's; nearest to it where nothing else decides
+    int picture_height = 0;
+};
+
+/// The connector to light; nothing: no projector is there. One that is certainly connected goes before one
+/// that cannot say, one of the outside before a built-in panel, else the first.
+[[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wish);
+
+/// The modes to try, best first: the one asked for, the preferred one, the rest by nearness.
+[[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputWish& wish);
+
+/// Does `mode` fulfil what the settings ask for?
+[[nodiscard]] bool fulfils(const ModeTiming& mode, const OutputWish& wish);
+
+/// A timing of our own, where the projector's EDID has none; no clock: none can be made.
+[[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+/// The properties of one KMS object (connector, CRTC, plane): their numbers by name, and their values when
+/// read.
+///
+/// Threads  values.
+/// Errors   a property that the driver does not have is nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct KmsProperty {
+    std::uint32_t id = 0;
+    std::uint64_t value = 0;
+    bool immutable = false;
+    std::string name;
+};
+
+class KmsProperties {
+public:
+    /// `kind`: DRM_MODE_OBJECT_CONNECTOR, ..._CRTC, ..._PLANE.
+    KmsProperties(int card, std::uint32_t object, std::uint32_t kind);
+
+    [[nodiscard]] std::uint32_t object() const { return object_; }
+    [[nodiscard]] const KmsProperty* find(std::string_view name) const;
+    /// 0 where there is none.
+    [[nodiscard]] std::uint64_t value(std::string_view name) const;
+
+private:
+    std::uint32_t object_;
+    std::vector<KmsProperty> all_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,43 @@
+/// Copies the exhibit's picture into what a screen shows.
+///
+/// Of the same size, every sRGB code arrives as it is; of another one, the picture is scaled in linear light
+/// to as large as it fits, with black around it.
+///
+/// Threads  a context of its own is current that shares the picture's texture: it leaves other state behind.
+/// Errors   the driver does not take the shaders.
+/// Source   EXT_texture_sRGB_decode; IEC 61966-2-1 for the codes.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/display/letterbox.h"
+#include "firmware_host/display/picture_framebuffer.h"
+
+namespace frustumscreen {
+
+/// Which row of the target is the picture's top: the first in a buffer that is scanned out, the last in a
+/// window.
+enum class TopRow { First, Last };
+
+class PictureCopy {
+public:
+    [[nodiscard]] static Result<PictureCopy> create();
+    ~PictureCopy();
+    PictureCopy(PictureCopy&& other) noexcept;
+    PictureCopy& operator=(PictureCopy&& other) noexcept;
+    PictureCopy(const PictureCopy&) = delete;
+    PictureCopy& operator=(const PictureCopy&) = delete;
+
+    /// Into the framebuffer bound, whose colour is 8 bits a channel and holds codes as they are written.
+    void draw(const PictureFramebuffer& picture, PixelSize target, TopRow top) const;
+
+private:
+    PictureCopy() = default;
+
+    unsigned exact_ = 0;  ///< program: codes to codes
+    unsigned scaled_ = 0; ///< program: light to codes
+    unsigned vertices_ = 0;
+    unsigned codes_ = 0; ///< sampler: nearest, codes not decoded
+    unsigned light_ = 0; ///< sampler: linear light, interpolated
+};
+
+} // namespace frustumscreen

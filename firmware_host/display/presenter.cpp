@@ -1,0 +1,266 @@
+#include "firmware_host/display/presenter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds soon = std::chrono::milliseconds(50);
+
+template <typename... Parts> Sentence sentence(fmt::format_string<Parts...> text, Parts&&... parts) {
+    std::array<char, 240> line{};
+    const auto end = fmt::format_to_n(line.data(), line.size(), text, std::forward<Parts>(parts)...).out;
+    return Sentence(std::string_view(line.data(), static_cast<std::size_t>(end - line.data())));
+}
+
+} // namespace
+
+Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wish)
+    : device_(device), make_scanout_(std::move(make_scanout)), wish_(std::move(wish)),
+      state_("the projector is being looked for") {}
+
+void Presenter::connected(CardSeen seen) {
+    seen_ = std::move(seen);
+    try_again_.reset();
+    if (seen_.state != CardState::There) {
+        lose("the graphics card is gone; the exhibit goes on in the dark");
+    } else if (lit_ && !still_right()) {
+        darken_ = true;
+    } else if (!lit_) {
+        say_why_dark();
+    }
+}
+
+Result<MonotonicTime> Presenter::present(bool may_set) {
+    if (seen_.state == CardState::Back) {
+        return fail(ErrorKind::DeviceLost,
+                    "display: the graphics card is there again; the exhibit must be started anew "
+                    "to take it up");
+    }
+    while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
+        take(*flipped);
+    }
+    wait_for_flip();
+    if (seen_.state == CardState::There && !queued_) {
+        if (darken_ && may_set) {
+            darken();
+        }
+        if (lit_ && !darken_) {
+            flip();
+        } else if (!lit_ && may_set && !(try_again_ && device_.now() < *try_again_)) {
+            light();
+        }
+    }
+    if (!queued_) {
+        return device_.now();
+    }
+    const MonotonicTime expected = clock_.first_after(device_.now());
+    if (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
+        take(*flipped);
+        return queued_ ? expected : flipped->time; // an emulated card's comes at once
+    }
+    return expected;
+}
+
+/// Once for each flip: a card that hangs must not hold up every frame.
+void Presenter::wait_for_flip() {
+    if (!queued_) {
+        return;
+    }
+    if (!late_) {
+        const MonotonicTime patience_ends = device_.now() + flip_patience;
+        while (queued_ && device_.now() < patience_ends) {
+            if (const std::optional<Flipped> flipped = device_.wait_flip(patience_ends - device_.now())) {
+                take(*flipped);
+            }
+        }
+        late_ = queued_.has_value();
+        if (late_) {
+            state_ = sentence("the graphics card does not show the last picture; the exhibit waits for it");
+        }
+    }
+    if (queued_ && device_.now() - queued_->at >= flip_given_up) {
+        lose("the graphics card does not answer; the projector will be lit anew");
+        try_again_ = device_.now();
+    }
+}
+
+void Presenter::take(const Flipped& flipped) {
+    if (!queued_ || flipped.ticket != queued_->ticket) {
+        return; // of something that was given up
+    }
+    if (device_.flips_keep_time()) {
+        clock_.flipped(flipped.time);
+    }
+    free_ = 1 - queued_->framebuffer;
+    queued_.reset();
+    shown_before_.reset();
+    if (std::exchange(late_, false)) {
+        say_lit();
+    }
+}
+
+bool Presenter::still_right() const {
+    const auto connector =
+        std::find_if(seen_.connectors.begin(), seen_.connectors.end(),
+                     [this](const ConnectorSeen& seen) { return seen.id == lit_->connector; });
+    if (connector == seen_.connectors.end() || connector->plugged == Plugged::No || connector->link_bad) {
+        return false;
+    }
+    if (connector->plugged == Plugged::Unknown && choose_connector(seen_, wish_) != &*connector) {
+        return false;
+    }
+    const std::vector<ModeTiming> modes = modes_to_try(*connector, wish_);
+    if (!modes.empty() && fulfils(modes.front(), wish_) && !lit_->wished) {
+        return false; // what is asked for can be had now
+    }
+    return std::find(modes.begin(), modes.end(), lit_->mode) != modes.end();
+}
+
+void Presenter::darken() {
+    const KmsAnswer answer = device_.darken();
+    if (answer == KmsAnswer::Busy) {
+        return; // next time
+    }
+    lit_.reset();
+    darken_ = false;
+    clock_ = {};
+    if (answer != KmsAnswer::Done && answer != KmsAnswer::Refused) {
+        went_wrong(answer);
+    } else {
+        say_why_dark();
+    }
+}
+
+void Presenter::light() {
+    const ConnectorSeen* connector = choose_connector(seen_, wish_);
+    if (connector == nullptr) {
+        return;
+    }
+    try_again_ = device_.now() + between_tries;
+    if (!master_ && !device_.become_master()) {
+        return;
+    }
+    master_ = true;
+    for (const ModeTiming& mode : modes_to_try(*connector, wish_)) {
+        if (light(*connector, mode)) {
+            return;
+        }
+    }
+    state_ =
+        sentence("the graphics card takes no mode of the projector at {}; the exhibit goes on in the dark",
+                 connector->name);
+}
+
+/// False: another mode may work.
+bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
+    if (!make_scanout({mode.width, mode.height})) {
+        return false;
+    }
+    const KmsAnswer answer = device_.light(connector.id, mode, scanout_->fill(free_), ++ticket_);
+    if (answer == KmsAnswer::Done) {
+        const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
+                            (wish_.force && mode == modes_to_try(connector, wish_).front());
+        lit_ = Lit{connector.id, connector.name, mode, wished};
+        queued_ = Queued{device_.now(), ticket_, free_};
+        clock_ = FlipClock(refresh_hz(mode));
+        say_lit();
+        return true;
+    }
+    if (answer == KmsAnswer::Refused) {
+        return false;
+    }
+    went_wrong(answer);
+    return true;
+}
+
+void Presenter::flip() {
+    const KmsAnswer answer = device_.flip(scanout_->fill(free_), ++ticket_);
+    if (answer == KmsAnswer::Done) {
+        queued_ = Queued{device_.now(), ticket_, free_};
+    } else {
+        went_wrong(answer);
+    }
+}
+
+bool Presenter::make_scanout(PixelSize size) {
+    if (scanout_ && scanout_->size() == size) {
+        return true;
+    }
+    Result<std::unique_ptr<ScanoutPair>> made = make_scanout_(size);
+    if (!made) {
+        return false;
+    }
+    if (!shown_before_) {
+        shown_before_ = std::move(scanout_);
+    }
+    scanout_ = std::move(*made);
+    return true;
+}
+
+void Presenter::went_wrong(KmsAnswer answer) {
+    switch (answer) {
+    case KmsAnswer::Done:
+        break;
+    case KmsAnswer::Busy: // the picture is left out; the next one comes
+        try_again_ = device_.now() + soon;
+        break;
+    case KmsAnswer::Refused:
+        lose("the graphics card refused a picture; the projector will be lit anew");
+        break;
+    case KmsAnswer::NotMaster:
+        lose("another program holds the screen; the exhibit goes on in the dark until it lets go");
+        master_ = false;
+        break;
+    case KmsAnswer::Gone:
+        lose("the graphics card is gone; the exhibit goes on in the dark");
+        break;
+    }
+}
+
+void Presenter::lose(std::string_view why) {
+    lit_.reset();
+    queued_.reset();
+    late_ = false;
+    darken_ = false;
+    clock_ = {};
+    try_again_ = device_.now() + between_tries;
+    state_ = Sentence(why);
+}
+
+void Presenter::say_lit() {
+    state_ = sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}", lit_->name, lit_->mode.width,
+                      lit_->mode.height, refresh_hz(lit_->mode),
+                      lit_->wished ? "" : ", because it cannot do the mode in the settings");
+}
+
+void Presenter::say_why_dark() {
+    const auto& all = seen_.connectors;
+    const auto named = [this](const ConnectorSeen& seen) { return seen.name == wish_.connector; };
+    const auto plugged = [this, &named](const ConnectorSeen& seen) {
+        return seen.plugged == Plugged::Yes && (wish_.connector.empty() || named(seen));
+    };
+    const auto mute = std::find_if(all.begin(), all.end(), plugged);
+    if (choose_connector(seen_, wish_) != nullptr) {
+        state_ = sentence("the projector is about to be lit");
+    } else if (mute != all.end()) {
+        state_ =
+            sentence("the projector at {} names no mode; set display.mode and display.force", mute->name);
+    } else if (!wish_.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
+        std::string names;
+        for (const ConnectorSeen& seen : all) {
+            names += (names.empty() ? "" : ", ") + seen.name;
+        }
+        state_ = sentence("the graphics card has no connector {}; it has {}", wish_.connector, names);
+    } else {
+        state_ = sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes",
+                          wish_.connector.empty() ? "" : " to ", wish_.connector);
+    }
+}
+
+} // namespace frustumscreen

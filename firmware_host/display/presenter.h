@@ -1,0 +1,87 @@
+/// From the exhibit's pictures to flips on a projector that comes and goes: the state machine of the output.
+///
+/// Without a projector pictures are taken and shown to nobody; when one comes, the next picture lights it.
+///
+/// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
+/// Threads  the render thread.
+/// Errors   none but a card that is back after it was gone: only a new start can take it up.
+#pragma once
+
+#include "firmware_host/base/sentence.h"
+#include "firmware_host/display/flip_clock.h"
+#include "firmware_host/display/kms_device.h"
+
+#include <string_view>
+
+namespace frustumscreen {
+
+/// How long a flip may take before the exhibit goes on without it: fifteen refreshes of 60 Hz.
+inline constexpr Nanoseconds flip_patience = std::chrono::milliseconds(250);
+/// A flip that does not come for so long is given up and the projector lit anew.
+inline constexpr Nanoseconds flip_given_up = std::chrono::seconds(2);
+/// Between tries to light a projector that could not be lit.
+inline constexpr Nanoseconds between_tries = std::chrono::seconds(1);
+
+class Presenter {
+public:
+    Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wish);
+
+    /// What is connected, whenever it was looked at anew.
+    void connected(CardSeen seen);
+    /// Shows the picture, where there is a projector: the time at which it flips, else now. `may_set`: this
+    /// is a good moment to set a mode, because nobody else is asking the card.
+    [[nodiscard]] Result<MonotonicTime> present(bool may_set);
+
+    [[nodiscard]] bool lit() const { return lit_.has_value(); }
+    [[nodiscard]] std::string_view state() const { return state_.view(); }
+    [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
+        return clock_.next_frame(now, period);
+    }
+
+private:
+    struct Lit {
+        std::uint32_t connector = 0;
+        std::string name;
+        ModeTiming mode;
+        bool wished = true; ///< it is the mode that the settings ask for
+    };
+    struct Queued {
+        MonotonicTime at;
+        std::uint64_t ticket = 0;
+        int framebuffer = 0;
+    };
+
+    void wait_for_flip();
+    void take(const Flipped& flipped);
+    /// Is what is lit still what should be?
+    [[nodiscard]] bool still_right() const;
+    void darken();
+    void light();
+    [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode);
+    void flip();
+    [[nodiscard]] bool make_scanout(PixelSize size);
+    /// What an answer other than Done means.
+    void went_wrong(KmsAnswer answer);
+    void lose(std::string_view why);
+    void say_lit();
+    void say_why_dark();
+
+    KmsDevice& device_;
+    MakeScanout make_scanout_;
+    OutputWish wish_;
+    CardSeen seen_;
+    std::unique_ptr<ScanoutPair> scanout_;
+    std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown
+    std::optional<Lit> lit_;
+    std::optional<Queued> queued_;
+    FlipClock clock_;
+    std::optional<MonotonicTime> try_again_; ///< not before
+    std::uint64_t ticket_ = 0;
+    int free_ = 0;      ///< the framebuffer that is not shown
+    bool late_ = false; ///< the flip queued was waited for in vain
+    bool master_ = true;
+    bool darken_ = false; ///< what was lit is to be turned off
+    Sentence state_;
+};
+
+} // namespace frustumscreen
