@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Makes the image that lies over the guest's Debian: our programs as they are installed on a kiosk, two small packs,
+# and what this folder's guest/ adds for the tests.
+#
+#   guest_payload.sh BUILD PACKS OUT.squashfs    BUILD: a build folder; PACKS: a folder of *.fspack
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+build=$1 packs=$2 out=$3
+
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+chmod 755 "$tree"
+install -D --strip "$build/bin/frustumscreen" "$tree/usr/bin/frustumscreen"
+install -D -m 644 -t "$tree/var/lib/frustumscreen/packs" "$packs"/*.fspack
+cp -R "$here/guest/." "$tree/"
+rm -f "$out"
+mksquashfs "$tree" "$out" -quiet -no-progress -noI -noD -noF -no-xattrs -all-root >/dev/null
