@@ -97,7 +97,8 @@ include=$(IFS=,; echo "${packages[*]}")
 mmdebstrap --quiet --variant=essential --include="$include" --aptopt='Apt::Install-Recommends "false"' "${exclude[@]}" \
     --customize-hook="sh $work/kernel_hook \"\$1\"" --customize-hook="bash $work/settings_hook \"\$1\"" \
     bookworm - |
-    sqfstar -quiet -no-progress -noI -noD -noF -no-xattrs "$work/root.squashfs" >/dev/null
+    sqfstar -quiet -no-progress -noI -noD -noF -no-xattrs "$work/root.squashfs" >"$work/sqfstar.log" 2>&1 ||
+    { cat "$work/sqfstar.log" >&2; exit 1; }
 
 cp /bin/busybox "$work/initrd/bin/"
 install -m 755 "$here/guest_init" "$work/initrd/init"
