@@ -11,6 +11,8 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 chmod 755 "$tree"
 install -D --strip "$build/bin/frustumscreen" "$tree/usr/bin/frustumscreen"
+mkdir -p "$tree/usr/lib/frustumscreen"
+c++ -O1 -Wall -Wextra -shared -fPIC "$here/guest_hang.cpp" -o "$tree/usr/lib/frustumscreen/hang.so"
 install -D -m 644 -t "$tree/var/lib/frustumscreen/packs" "$packs"/*.fspack
 cp -R "$here/guest/." "$tree/"
 rm -f "$out"
