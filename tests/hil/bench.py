@@ -70,7 +70,7 @@ class Bench:
         self._packs = packs
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
-        self.tracker = Mock("mock_tracker", "tracker", self._sockets, out, "--log", out / "poses_sent.csv")
+        self.tracker = Mock("mock_tracker", "tracker", self._sockets, out, "--loop", "--log", out / "poses_sent.csv")
         self.buttons = Mock("mock_buttons", "buttons", self._sockets, out)
         self.machine = Machine(root, payload, self._sockets, out, WIDTH, HEIGHT,
                                {"tracker": self.tracker.usb, "buttons": self.buttons.usb})

@@ -5,12 +5,14 @@ lies on a line, and whatever else is shown, lies beside it.
 """
 
 import screen
+from bench import EYE_M
 from hil_test import HilTest
 from watch import distance_to_path, watch
 
 ARTIFACT = "amphora"
 REACH_M = 0.12
 STROKE_S = 3.0
+PLAYED_HZ = 240
 STEPS = 12
 BESIDE_PX = 5.0  # a rendered centroid moves a little with the light's direction, and between two steps
 LEAST_FREEZE_S = 0.25
@@ -20,7 +22,7 @@ BUSY_HOST_TRIES = 3  # a freeze of ours is there every time; one of a busy host'
 FAULT_S = 5.0
 
 RUNNING = "is running"
-# what the tracker does, what the status says of it, and whether poses still come
+# what the tracker does, what the status says of it (nothing: it does not matter), and whether poses still come
 FAULTS = {
     "drop": ("drop 0.3", RUNNING, True),
     "corrupt": ("corrupt 0.2", RUNNING, True),
@@ -28,10 +30,10 @@ FAULTS = {
     "reorder": ("reorder 0.3", RUNNING, True),
     "distortion": ("distortion 200", "metal", True),
     "stall": ("stall", "stopped sending", False),
-    "hang": ("hang", "stopped sending", False),
+    "hang": ("hang", "", False),
     "nan": ("nan", "", False),
     "wrong_units": ("wrong-units", "metric units", False),
-    "nak": ("nak", "", False),
+    "nak": ("nak", RUNNING, True),
     "slow_boot": ("slow-boot", "booting", False),
     "sensor_missing": ("sensor-missing 1", "sensor is missing", False),
 }
@@ -43,13 +45,17 @@ def position(share):
 
 
 def write_strokes(path):
-    """To and fro at constant speed, as a pose file."""
+    """To and fro at constant speed, as a pose file; the mock plays its rows as they are."""
+    rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
+    samples = round(2 * STROKE_S * PLAYED_HZ)
+    for number in range(samples):
+        t_us = round(1e6 * number / PLAYED_HZ)
+        phase = 2.0 * number / samples
+        x, y, z = position(phase if phase < 1.0 else 2.0 - phase)
+        rows.append(f"{t_us},1,{x:.5f},{y},{z},1,0,0,0,1")
+        rows.append(f"{t_us},2,{EYE_M[0]},{EYE_M[1]},{EYE_M[2]},1,0,0,0,1")
     with open(path, "w", encoding="utf-8") as file:
-        file.write("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n")
-        for t_s, share in ((0.0, 0.0), (STROKE_S, 1.0), (2.0 * STROKE_S, 0.0)):
-            x, y, z = position(share)
-            file.write(f"{int(t_s * 1e6)},1,{x},{y},{z},1,0,0,0,1\n")
-            file.write(f"{int(t_s * 1e6)},2,0,-0.55,0.5,1,0,0,0,1\n")
+        file.write("\n".join(rows) + "\n")
 
 
 class Misbehaviour(HilTest):
