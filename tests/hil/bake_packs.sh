@@ -8,7 +8,7 @@ mkdir -p "$folder"
 for name in amphora nautilus-cup; do
     pack=$folder/$name.fspack
     if [[ ! $pack -nt $bin/frustumscreen-bake || ! $pack -nt $bin/frustumscreen-artifact ]]; then
-        "$bin/frustumscreen-artifact" "$name" --triangles 40000 -o "$folder/$name.glb"
+        "$bin/frustumscreen-artifact" "$name" --triangles 20000 -o "$folder/$name.glb"
         "$bin/frustumscreen-bake" "$folder/$name.glb" -o "$pack" --size 256 --title "$name" --language en
         rm "$folder/$name.glb"
     fi

@@ -7,6 +7,7 @@ import shutil
 import sys
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 
 import image
 from bench import Bench
@@ -80,8 +81,10 @@ def main():
     build, out = arguments.build.resolve(), arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    root = image.root(build / "bin" / "frustumscreen", say)
-    packs = image.packs(build, say)
+    with ThreadPoolExecutor() as both:  # one waits for the network, the other for the processor
+        making = both.submit(image.root, build / "bin" / "frustumscreen", say)
+        packs = image.packs(build, say)
+        root = making.result()
     payload = image.payload(build, packs)
     HilTest.bench = Bench(root, payload, build, packs, out)
     passed = False

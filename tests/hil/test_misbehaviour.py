@@ -24,18 +24,18 @@ FAULT_S = 5.0
 RUNNING = "is running"
 # what the tracker does, what the status says of it (nothing: it does not matter), and whether poses still come
 FAULTS = {
-    "drop": ("drop 0.3", RUNNING, True),
-    "corrupt": ("corrupt 0.2", RUNNING, True),
-    "duplicate": ("duplicate 0.5", RUNNING, True),
-    "reorder": ("reorder 0.3", RUNNING, True),
-    "distortion": ("distortion 200", "metal", True),
-    "stall": ("stall", "stopped sending", False),
-    "hang": ("hang", "", False),
-    "nan": ("nan", "", False),
-    "wrong_units": ("wrong-units", "metric units", False),
-    "nak": ("nak", RUNNING, True),
-    "slow_boot": ("slow-boot", "booting", False),
-    "sensor_missing": ("sensor-missing 1", "sensor is missing", False),
+    "drop": (("drop 0.3",), RUNNING, True),
+    "corrupt": (("corrupt 0.2",), RUNNING, True),
+    "duplicate": (("duplicate 0.5",), RUNNING, True),
+    "reorder": (("reorder 0.3",), RUNNING, True),
+    "distortion": (("distortion 200",), "metal", True),
+    "stall": (("stall",), "stopped sending", False),
+    "hang": (("hang",), "", False),
+    "nan": (("nan",), "", False),
+    "wrong_units": (("wrong-units",), "metric units", False),
+    "nak": (("nak", "unplug 1s"), "refuses its set-up", False),
+    "slow_boot": (("slow-boot",), "booting", False),
+    "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
 
 
@@ -73,8 +73,9 @@ class Misbehaviour(HilTest):
         self.bench.tracker.tell("play", strokes)
 
     def misbehave(self, name):
-        command, says, poses_come = FAULTS[name]
-        self.bench.tracker.tell(command)
+        commands, says, poses_come = FAULTS[name]
+        for command in commands:
+            self.bench.tracker.tell(command)
         self.bench.status_says("tracker", says)
         self.look(poses_come)
         self.bench.tracker.tell("good")
