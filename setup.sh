@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing of the Debian 12 packages that FrustumScreen is built from, and says which.
 # ./run and ./test call it; with everything there it takes a fraction of a second.
+#
+#   ./setup.sh [hil]    hil: also what an emulated machine is made of
 set -euo pipefail
 
 packages=(
@@ -21,6 +23,9 @@ packages=(
     # OpenGL ES without a screen
     libegl-dev libgles-dev libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )
+if [[ ${1-} == hil ]]; then
+    packages+=(python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static)
+fi
 
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)$'\n'

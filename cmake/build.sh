@@ -1,8 +1,14 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset: build.sh release|debug|asan|tsan. Quiet unless something fails.
+# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan [TARGET...]. Quiet
+# unless something fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
+shift
+targets=()
+if (($# > 0)); then
+    targets=(--target "$@")
+fi
 
 log=build/$preset.log
 mkdir -p build
@@ -16,7 +22,7 @@ if [[ ! -f build/$preset/build.ninja || CMakePresets.json -nt build/$preset/buil
     quietly cmake --preset "$preset"
 fi
 if [[ -t 1 ]]; then
-    cmake --build --preset "$preset"
+    cmake --build --preset "$preset" "${targets[@]}"
 else
-    quietly cmake --build --preset "$preset"
+    quietly cmake --build --preset "$preset" "${targets[@]}"
 fi

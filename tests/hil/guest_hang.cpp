@@ -1,0 +1,40 @@
+/// Laid before the exhibit in the emulated machine (LD_PRELOAD): makes a call into a library wait for as long
+/// as a file is there, as a broken driver would.
+///
+/// /run/hil/hang-gl    the next glClear, on the render thread
+/// /run/hil/hang-usb   the next bulk transfer, on the tracker's thread
+#include <dlfcn.h>
+#include <unistd.h>
+
+namespace {
+
+constexpr unsigned nap_us = 50000;
+
+void wait_while_there(const char* file) {
+    while (::access(file, F_OK) == 0) {
+        ::usleep(nap_us);
+    }
+}
+
+template <typename Function> Function* real(const char* name) {
+    return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name)); // what POSIX prescribes for dlsym
+}
+
+} // namespace
+
+extern "C" {
+
+void glClear(unsigned mask) {
+    static auto* const clear = real<void(unsigned)>("glClear");
+    wait_while_there("/run/hil/hang-gl");
+    clear(mask);
+}
+
+int libusb_bulk_transfer(void* handle, unsigned char endpoint, unsigned char* data, int length, int* done,
+                         unsigned timeout_ms) {
+    static auto* const transfer =
+        real<int(void*, unsigned char, unsigned char*, int, int*, unsigned)>("libusb_bulk_transfer");
+    wait_while_there("/run/hil/hang-usb");
+    return transfer(handle, endpoint, data, length, done, timeout_ms);
+}
+}

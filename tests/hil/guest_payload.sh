@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Makes the image that lies over the guest's Debian: what a kiosk has installed, two small packs, and what this
+# folder's guest/ adds for the tests.
+#
+#   guest_payload.sh BUILD PACKS OUT.squashfs    BUILD: a build folder; PACKS: a folder of *.fspack
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+build=$1 packs=$2 out=$3
+
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+chmod 755 "$tree"
+DESTDIR=$tree cmake --install "$build" --component kiosk --strip >/dev/null
+install -D -m 644 -t "$tree/var/lib/frustumscreen/packs" "$packs"/*.fspack
+mkdir -p "$tree/usr/lib/frustumscreen"
+c++ -O1 -Wall -Wextra -shared -fPIC "$here/guest_hang.cpp" -o "$tree/usr/lib/frustumscreen/hang.so"
+cp -R "$here/guest/." "$tree/"
+rm -f "$out"
+mksquashfs "$tree" "$out" -quiet -no-progress -noI -noD -noF -no-xattrs -all-root >/dev/null

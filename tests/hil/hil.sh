@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# ./test hil: installs what it needs, builds the programs that it needs, and runs the tests in an emulated machine.
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+cd "$here/../.."
+
+build=true
+for option; do
+    case "$option" in
+        --list | --build | --build=* | -h | --help) build=false ;;
+    esac
+done
+if $build; then
+    ./setup.sh hil
+    printf '== building (release)\n'
+    cmake/build.sh release frustumscreen frustumscreen-pack frustumscreen-bake frustumscreen-artifact
+fi
+exec tests/hil/run_tests.py "$@"

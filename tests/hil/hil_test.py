@@ -1,0 +1,33 @@
+"""What every test in the emulated machine begins and ends with."""
+
+import unittest
+
+from bench import UNIT, Bench
+
+CENTRE_M = (0.0, 0.0, 0.0)
+
+
+class HilTest(unittest.TestCase):
+    """All tests share one machine; each begins with every device well, the first artifact, the prop at the centre."""
+
+    bench: Bench
+
+    def setUp(self):
+        bench = self.bench
+        bench.tracker.tell("good")
+        bench.buttons.tell("plug")
+        for pin in range(3):
+            bench.buttons.tell("release", pin)
+        bench.place(CENTRE_M)
+        bench.place_head()
+        bench.machine.run("rm -rf /run/hil; echo detect > /sys/class/drm/card0-Virtual-1/status")
+        if bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
+            bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start {UNIT}")
+        bench.status_says("tracker", "is running", 30.0)
+        bench.status_says("panel", "buttons are there", 30.0)
+
+    def show(self, artifact):
+        """Presses `next` if another of the two artifacts is shown."""
+        if self.bench.status()["artifact"] != artifact:
+            self.bench.buttons.tell("press", 1, "300ms")
+            self.bench.status_says("artifact", artifact)

@@ -1,0 +1,207 @@
+"""An emulated PC: QEMU without KVM, its monitor (QMP) and the guest's agent.
+
+Frame    one machine for a whole test run; every start begins with the same file systems.
+Threads  one caller.
+Errors   MachineError, with the folder in which the serial log is.
+Source   QEMU Machine Protocol and Guest Agent protocol references, docs of QEMU 7.2.
+"""
+
+import base64
+import json
+import os
+import pathlib
+import shlex
+import socket
+import subprocess
+import time
+from dataclasses import dataclass, field
+
+START_S = 180.0  # until the agent answers; 13 to 30 s on an idle machine of two cores
+
+
+class MachineError(Exception):
+    pass
+
+
+class JsonLines:
+    """A socket on which one line is one JSON object."""
+
+    def __init__(self, path, timeout_s):
+        deadline = time.monotonic() + 20.0
+        while True:
+            self._socket = socket.socket(socket.AF_UNIX)
+            try:
+                self._socket.connect(str(path))
+                break
+            except OSError:
+                self._socket.close()
+                if time.monotonic() > deadline:
+                    raise
+                time.sleep(0.05)
+        self._socket.settimeout(timeout_s)
+        self._bytes = b""
+
+    def close(self):
+        self._socket.close()
+
+    def send(self, message, lead=b""):
+        self._socket.sendall(lead + json.dumps(message).encode() + b"\n")
+
+    def receive(self):
+        while b"\n" not in self._bytes:
+            more = self._socket.recv(1 << 16)
+            if not more:
+                raise EOFError("the other side hung up")
+            self._bytes += more
+        line, self._bytes = self._bytes.split(b"\n", 1)
+        return json.loads(line.lstrip(b"\xff"))
+
+    def answer(self, message):
+        """Sends a command and returns its answer; events in between are left out."""
+        self.send(message)
+        while True:
+            answer = self.receive()
+            if "return" in answer:
+                return answer["return"]
+            if "error" in answer:
+                raise MachineError(f"{message['execute']}: {answer['error'].get('desc', answer['error'])}")
+
+
+@dataclass
+class Ran:
+    """What a command in the guest left."""
+
+    status: int
+    output: str
+
+
+@dataclass
+class Machine:
+    """`files`: folder with vmlinuz, initrd.img, root.squashfs; `payload`: the image laid over it; `sockets`: a
+    folder with a short name (a socket's path has 107 bytes at most); `logs`: where serial.log and qemu.log go;
+    `usb`: name -> socket of a usbredir device that listens there."""
+
+    files: pathlib.Path
+    payload: pathlib.Path
+    sockets: pathlib.Path
+    logs: pathlib.Path
+    width: int
+    height: int
+    usb: dict = field(default_factory=dict)
+    processors: int = 2
+    memory_mib: int = 1536
+
+    def start(self):
+        self.logs.mkdir(parents=True, exist_ok=True)
+        with open(self.logs / "qemu.log", "w", encoding="utf-8") as log:
+            # a session of its own, so that it outlives the tests where a person wants to keep it
+            self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                             start_new_session=True)
+        self.pid = self._process.pid
+        try:
+            self._monitor = JsonLines(self.sockets / "monitor", 30.0)
+            self._monitor.receive()
+            self.monitor("qmp_capabilities")
+            self._connect_agent()
+        except (OSError, EOFError, MachineError) as error:
+            self.stop()
+            raise MachineError(f"the guest did not start ({error}); see {self.logs}") from error
+
+    def _command(self):
+        command = [
+            "qemu-system-x86_64", "-name", "frustumscreen-hil", "-machine", "q35",
+            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "max", "-smp", str(self.processors),
+            "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
+            "-kernel", self.files / "vmlinuz", "-initrd", self.files / "initrd.img",
+            "-append", "console=ttyS0 quiet systemd.show_status=0 mitigations=off net.ifnames=0 panic=5",
+            "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
+            "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
+            "-serial", "chardev:serial",
+            "-device", "virtio-serial-pci",
+            "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
+            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
+            "-device", "virtio-rng-pci",
+            "-vga", "none",
+            "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
+            "-device", "qemu-xhci,id=usb",
+        ]
+        for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
+            command += ["-drive", f"if=none,id={serial},format=raw,readonly=on,file={image}",
+                        "-device", f"virtio-blk-pci,drive={serial},serial={serial}"]
+        for name, path in self.usb.items():
+            command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
+                        "-device", f"usb-redir,id=usb-{name},chardev={name}"]
+        return [str(word) for word in command]
+
+    def _connect_agent(self):
+        """The agent answers once the guest's user space is there; what was sent before that may be lost."""
+        agent = JsonLines(self.sockets / "agent", 1.0)
+        deadline = time.monotonic() + START_S
+        token = int(time.monotonic() * 1000) & 0x7FFFFFFF
+        while True:
+            if self._process.poll() is not None:
+                raise MachineError("QEMU ended")
+            if time.monotonic() > deadline:
+                raise MachineError(f"no answer within {START_S:.0f} s")
+            token += 1
+            try:
+                agent.send({"execute": "guest-sync-delimited", "arguments": {"id": token}}, b"\xff")
+                while agent.receive().get("return") != token:
+                    pass
+                break
+            except (TimeoutError, ValueError):
+                continue
+        agent._socket.settimeout(60.0)
+        self._agent = agent
+
+    def monitor(self, command, **arguments):
+        return self._monitor.answer({"execute": command, "arguments": arguments})
+
+    def alive(self):
+        return self._process.poll() is None
+
+    def spawn(self, command):
+        """Starts a shell command in the guest and returns its process number."""
+        arguments = {"path": "/bin/sh", "arg": ["-c", command], "capture-output": True}
+        return self._agent.answer({"execute": "guest-exec", "arguments": arguments})["pid"]
+
+    def run(self, command, timeout_s=60.0):
+        """Runs a shell command in the guest as root."""
+        pid = self.spawn(command)
+        deadline = time.monotonic() + timeout_s
+        pause_s = 0.01
+        while True:
+            state = self._agent.answer({"execute": "guest-exec-status", "arguments": {"pid": pid}})
+            if state["exited"]:
+                break
+            if time.monotonic() > deadline:
+                raise MachineError(f"in the guest, after {timeout_s:.0f} s still running: {command}")
+            time.sleep(pause_s)
+            pause_s = min(2 * pause_s, 0.2)
+        output = b"".join(base64.b64decode(state.get(key, "")) for key in ("out-data", "err-data"))
+        return Ran(state.get("exitcode", -1), output.decode(errors="replace"))
+
+    def check(self, command, timeout_s=60.0):
+        """As `run`, but a status other than 0 is an error; returns the output."""
+        ran = self.run(command, timeout_s)
+        if ran.status != 0:
+            raise MachineError(f"in the guest: {command}: status {ran.status}: {ran.output.strip()}")
+        return ran.output
+
+    def write(self, path, text):
+        """A small file into the guest."""
+        encoded = base64.b64encode(text.encode()).decode()
+        self.check(f"echo {encoded} | base64 -d > {shlex.quote(path)}")
+
+    def screendump(self, path):
+        """What the screen shows now, as a PPM file on the host."""
+        self.monitor("screendump", device="screen", filename=os.fspath(path))
+
+    def stop(self):
+        if self._process.poll() is None:
+            self._process.terminate()
+            try:
+                self._process.wait(10.0)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()

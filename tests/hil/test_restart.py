@@ -1,0 +1,50 @@
+"""Whatever stops the exhibit, systemd brings it back: killed, stopped, a device's thread or the renderer hung."""
+
+import screen
+from bench import eventually
+from hil_test import HilTest
+
+BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
+
+
+class Restart(HilTest):
+    def setUp(self):
+        super().setUp()
+        self.process = self.bench.main_process()
+        self.assertNotEqual(self.process, 0)
+
+    def assert_restarted(self):
+        eventually(lambda: self.bench.main_process() not in (0, self.process), BACK_S, "systemd does not restart it")
+        self.bench.machine.run("rm -rf /run/hil")
+        first = [None]
+
+        def lit_anew():
+            picture = self.bench.screendump()
+            code = screen.probe(picture)
+            if code is None or screen.count(screen.lit(picture)) < 300:
+                return False
+            first[0] = code if first[0] is None else first[0]
+            return code != first[0]
+
+        self.bench.status_says("tracker", "is running", BACK_S)
+        eventually(lit_anew, BACK_S, "it runs again, but no new picture comes")
+
+    def test_killed(self):
+        self.bench.machine.check(f"kill -KILL {self.process}")
+        self.assert_restarted()
+
+    def test_stopped(self):
+        self.bench.machine.check(f"kill -STOP {self.process}")
+        self.assert_restarted()
+
+    def hang(self, what):
+        """guest_hang.cpp makes the call that is named so wait for ever."""
+        self.bench.machine.check(f"mkdir -p /run/hil && touch /run/hil/hang-{what}")
+
+    def test_hung_renderer(self):
+        self.hang("gl")
+        self.assert_restarted()
+
+    def test_hung_tracker_thread(self):
+        self.hang("usb")
+        self.assert_restarted()

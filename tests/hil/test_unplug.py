@@ -1,0 +1,67 @@
+"""Plugs pulled and put back: tracker, panel, projector. The picture goes on, says so, and all is well again after."""
+
+import time
+
+import screen
+from bench import eventually
+from hil_test import HilTest
+from watch import watch
+
+ARTIFACT = "amphora"
+CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"
+BACK_S = 15.0  # a device is to be back within 2 s; the kernel's own enumeration is slow here
+RESTING_S = 2.5  # a resting picture's code changes every second
+
+
+class Unplug(HilTest):
+    def setUp(self):
+        super().setUp()
+        self.process = self.bench.main_process()
+
+    def tearDown(self):
+        self.assertEqual(self.bench.main_process(), self.process, "the exhibit was restarted")
+
+    def assert_place(self, pose):
+        """The picture comes to rest where `render` draws this pose."""
+        truth = screen.lit(self.bench.rendered([pose], ARTIFACT)[0])
+        picture = self.bench.steady_picture()
+        seen = screen.lit(picture)
+        self.assertLess(screen.share_outside(seen, screen.grown(truth, 2, picture.width)), 0.01)
+        self.assertLess(screen.share_outside(truth, screen.grown(seen, 2, picture.width)), 0.01)
+
+    def test_tracker_unplugged_and_back(self):
+        self.show(ARTIFACT)
+        for number in range(2):
+            x = 0.1 if number == 0 else -0.1
+            self.bench.tracker.tell("unplug")
+            self.bench.status_says("tracker", "no tracker is connected")
+            self.assertLess(watch(self.bench, 3.0).longest_gap_s, RESTING_S, "the picture froze without a tracker")
+            self.bench.place((x, 0.0, 0.0))
+            self.bench.tracker.tell("unplug", "off")
+            self.bench.status_says("tracker", "is running", BACK_S)
+            self.assert_place((x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+
+    def test_panel_unplugged_and_back(self):
+        self.show(ARTIFACT)
+        self.bench.buttons.tell("unplug")
+        self.bench.status_says("panel", "it is not there")
+        self.assertLess(watch(self.bench, 3.0).longest_gap_s, RESTING_S, "the picture froze without a panel")
+        self.bench.buttons.tell("plug")
+        self.bench.status_says("panel", "buttons are there", BACK_S)
+        before = self.bench.status()["artifact"]
+        self.bench.buttons.tell("press", 1, "300ms")
+        eventually(lambda: self.bench.status()["artifact"] != before, 10.0, "its buttons do nothing")
+
+    def test_display_connector_unplugged_and_back(self):
+        for _ in range(2):
+            self.bench.machine.check(f"echo off > {CONNECTOR}")
+            self.bench.status_says("display", "no projector is connected", BACK_S)
+            time.sleep(1.0)
+            self.bench.machine.check(f"echo detect > {CONNECTOR}")
+            self.bench.status_says("display", "is lit", BACK_S)
+            eventually(self.is_lit, BACK_S, "the projector is back, but dark")
+            self.assertLess(watch(self.bench, 4.0).longest_gap_s, RESTING_S, "the picture does not go on")
+
+    def is_lit(self):
+        picture = self.bench.screendump()
+        return screen.probe(picture) is not None and screen.count(screen.lit(picture)) > 300
