@@ -6,6 +6,8 @@ set -euo pipefail
 packages=(
     # tools
     build-essential cmake ninja-build pkg-config shellcheck clang-format
+    # fuzzing
+    clang-14 libclang-rt-14-dev llvm-14
     # small libraries
     libglm-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev
     libminizip-dev zlib1g-dev libgtest-dev
