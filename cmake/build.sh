@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan [TARGET...]. Quiet
+# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz [TARGET...]. Quiet
 # unless something fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
