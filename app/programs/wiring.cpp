@@ -86,20 +86,7 @@ Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, Monotoni
 }
 
 std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
-    LineRequest request{panel.chip, panel.lines, LineBias::AsIs, panel.active_low};
-    switch (panel.bias) {
-    case ButtonBias::AsIs:
-        break;
-    case ButtonBias::PullUp:
-        request.bias = LineBias::PullUp;
-        break;
-    case ButtonBias::PullDown:
-        request.bias = LineBias::PullDown;
-        break;
-    case ButtonBias::Disabled:
-        request.bias = LineBias::Disabled;
-        break;
-    }
+    const LineRequest request{panel.chip, panel.lines, panel.bias, panel.active_low};
     ButtonTimes times;
     times.debounce = nanoseconds(1e-3 * panel.debounce_ms);
     times.stuck = nanoseconds(panel.stuck_s);

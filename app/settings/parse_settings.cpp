@@ -20,7 +20,7 @@ constexpr std::size_t most_packs = 256;
 constexpr std::size_t most_presses = 1000;
 constexpr double longest_script_s = 86400.0;
 
-/// By PanelKind and ButtonBias.
+/// By PanelKind and LineBias.
 constexpr std::array<std::string_view, 2> panel_names{"scripted", "gpio"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 constexpr std::size_t most_buttons = 3;
@@ -204,7 +204,7 @@ void read_panel(TableReader table, PanelSettings& panel) {
     panel.kind = static_cast<PanelKind>(kind);
     int bias = static_cast<int>(panel.bias);
     table.choice("bias", bias, bias_names);
-    panel.bias = static_cast<ButtonBias>(bias);
+    panel.bias = static_cast<LineBias>(bias);
     table.text("chip", panel.chip);
     table.texts("lines", panel.lines, most_buttons);
     table.flag("active_low", panel.active_low);
@@ -285,7 +285,7 @@ std::string_view name_of(PanelKind kind) {
     return panel_names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(ButtonBias bias) {
+std::string_view name_of(LineBias bias) {
     return bias_names[static_cast<std::size_t>(bias)];
 }
 

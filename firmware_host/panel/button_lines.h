@@ -4,10 +4,10 @@
 /// Errors   DeviceLost: the chip is gone, or not there yet; its message is a sentence for a technician.
 #pragma once
 
+#include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -24,9 +24,6 @@ public:
     /// Until a level changes, but no longer than `timeout`.
     [[nodiscard]] virtual Result<void> wait(Nanoseconds timeout) = 0;
 };
-
-enum class LineBias : std::uint8_t { AsIs, PullUp, PullDown, Disabled };
-[[nodiscard]] std::string_view name_of(LineBias bias);
 
 struct LineRequest {
     std::string chip;               ///< path, name, label or number

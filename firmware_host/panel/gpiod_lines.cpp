@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -103,11 +102,6 @@ private:
 };
 
 } // namespace
-
-std::string_view name_of(LineBias bias) {
-    constexpr std::array<std::string_view, 4> names{"as-is", "pull-up", "pull-down", "disabled"};
-    return names.at(static_cast<std::size_t>(bias));
-}
 
 Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
     Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));

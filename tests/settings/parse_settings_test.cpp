@@ -163,7 +163,7 @@ TEST(Settings, TakesButtonsOnAGpioChip) {
     EXPECT_EQ(settings.panel.kind, PanelKind::Gpio);
     EXPECT_EQ(settings.panel.chip, "cp2112_gpio");
     EXPECT_EQ(settings.panel.lines, (std::vector<std::string>{"PREVIOUS", "5"}));
-    EXPECT_EQ(settings.panel.bias, ButtonBias::AsIs);
+    EXPECT_EQ(settings.panel.bias, LineBias::AsIs);
     EXPECT_FALSE(settings.panel.active_low);
     EXPECT_EQ(settings.panel.debounce_ms, 12.5);
     EXPECT_EQ(settings.panel.stuck_s, 60.0);
