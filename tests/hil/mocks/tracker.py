@@ -12,7 +12,7 @@ _LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older tha
 
 
 class Tracker(UsbDevice):
-    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as it is told."""
+    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as told."""
 
     name = "tracker"
 
