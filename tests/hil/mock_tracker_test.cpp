@@ -26,6 +26,7 @@ const std::vector<Device> devices{
     {"viper", UsbTrackerModel::Viper},
     {"patriot", UsbTrackerModel::Patriot},
     {"liberty-hs", UsbTrackerModel::Liberty},
+    {"hid", UsbTrackerModel::Hid, 1e-5},
 };
 
 constexpr int rows = 3600;
@@ -213,7 +214,8 @@ TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
 
 TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
     with_each(devices, [](const Device& device) {
-        const bool viper = device.model == UsbTrackerModel::Viper;
+        const bool says_that_it_boots =
+            device.model == UsbTrackerModel::Viper || device.model == UsbTrackerModel::Hid;
         const std::vector<std::pair<std::string, UsbTrackerState>> faults{
             {"stall", UsbTrackerState::Silent},
             {"hang", UsbTrackerState::Silent},
@@ -221,7 +223,7 @@ TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
             {"sensor-missing", UsbTrackerState::SensorMissing},
             {"distortion 200", UsbTrackerState::MetalNear},
             {"wrong-units", UsbTrackerState::WrongUnits},
-            {"slow-boot", viper ? UsbTrackerState::Booting : UsbTrackerState::SetUpRefused},
+            {"slow-boot", says_that_it_boots ? UsbTrackerState::Booting : UsbTrackerState::SetUpRefused},
         };
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());

@@ -78,7 +78,7 @@ class Tracker(UsbDevice):
 
     def step(self, now):
         """The frame of this instant, if it is time for any."""
-        if not self.streaming or self.hung:
+        if not self.streaming or self.hung or not self._has_host():
             return
         self.counter = (self.counter + 1) & 0xFFFFFFFF
         if self.faults.on("stall"):
@@ -87,6 +87,9 @@ class Tracker(UsbDevice):
             self.made += 1
             for sent in self._path.send(frame):
                 self._send(sent)
+
+    def _has_host(self):
+        return self.link is None or self.link.connected
 
     def poses(self, now):
         missing = self.faults.value("sensor-missing")
