@@ -131,6 +131,7 @@ MockProcess::MockProcess(std::vector<std::string> arguments, std::string control
     arguments.insert(arguments.begin(), FRUSTUMSCREEN_SOURCE_DIR "/tests/hil/mock_tracker");
     arguments.insert(arguments.end(), {"--control", control_});
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) {
         pointers.push_back(argument.data());
     }

@@ -162,6 +162,7 @@ private:
 /// Each device has a thread and a bench of its own, since most of the time is waiting.
 void with_each(const std::vector<Device>& which, const std::function<void(const Device&)>& test) {
     std::vector<std::jthread> threads;
+    threads.reserve(which.size());
     for (const Device& device : which) {
         threads.emplace_back([&] {
             SCOPED_TRACE(device.name);

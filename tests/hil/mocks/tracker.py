@@ -103,14 +103,15 @@ class Tracker(UsbDevice):
         self.answer(frame.data)
 
     def _note(self, t_ns, poses):
+        if any(self.faults.on(fault) for fault in ("nan", "slow-boot", "wrong-units")):
+            poses = dict.fromkeys(poses)  # none that a host may use
         before = self.last[2] if self.last else {}
         self.last = (t_ns, self.counter, {**before, **poses})
         if self.last[2] != before:
             self.changed = self.last
         if self._log:
-            nan = self.faults.on("nan")
             for station, pose in poses.items():
-                self._log.write(pose_file.row(t_ns // 1000, station, None if nan else pose))
+                self._log.write(pose_file.row(t_ns // 1000, station, pose))
 
     def status(self):
         def told(moment):
