@@ -31,7 +31,8 @@ def add_arguments(parser):
 
 
 def chosen(arguments):
-    return any(getattr(arguments, option[2:]) for option in OPTIONS)
+    """The option that was given; None: none was."""
+    return next((option for option in OPTIONS if getattr(arguments, option[2:])), None)
 
 
 def make(arguments, device):
