@@ -1,6 +1,8 @@
+#include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/packet_file.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/usb_tracker_driver.h"
+#include "tests/tracker/bytes_in_document.h"
 #include "tests/tracker/fake_usb_tracker.h"
 
 #include <gtest/gtest.h>
@@ -191,6 +193,27 @@ TEST(PacketReplay, ARecordingThatIsCutOffPlaysUpToTheCut) {
         }
     }
     EXPECT_GT(before, 100U);
+}
+
+TEST(PacketFile, TheChecksumIsTheCataloguesCrc32) {
+    EXPECT_EQ(crc32_ieee(as_bytes("123456789")), 0xCBF43926U);
+    EXPECT_EQ(crc32_ieee({}), 0U);
+}
+
+TEST(PacketFile, ReadsTheDocumentsExample) {
+    const wire::Wire file = wire::bytes_in_document("packet_recording.md", "46 53 50 41");
+    Result<PacketReader> reader = PacketReader::open(file, "test");
+    ASSERT_TRUE(reader);
+    const std::optional<Packet> packet = reader->next();
+    ASSERT_TRUE(packet);
+    EXPECT_EQ(packet->kind, PacketKind::State);
+    EXPECT_EQ(packet->time, from_microseconds(1'000'000));
+    EXPECT_EQ(as_text(packet->payload), "hello");
+    EXPECT_EQ(reader->left(), 0U);
+    Bytes written;
+    append_packet_header(written);
+    append_packet(written, *packet);
+    EXPECT_EQ(written, file);
 }
 
 TEST(PacketFile, EveryChangedBitEndsTheRecordingThere) {
