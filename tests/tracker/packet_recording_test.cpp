@@ -338,6 +338,23 @@ TEST(PacketReplayTracker, PlaysAtAnySpeedAndAgain) {
     }
 }
 
+TEST(PacketReplayTracker, ARecordingOfACenturyDoesNoHarmAtAnySpeed) {
+    for (const double speed : {0.01, 1.0, 100.0}) {
+        MemoryTap tap;
+        tap.packet(PacketKind::Opened, from_microseconds(0),
+                   OpenedDevice{UsbTrackerModel::SpaceMouse, {}}.bytes());
+        tap.packet(PacketKind::Received, MonotonicTime::max(), wire::space_mouse(1, {350, 0, 0}));
+        Result<PacketReplay> replay = PacketReplay::open(tap.file, "test");
+        ASSERT_TRUE(replay);
+        PacketReplayTracker tracker(std::move(*replay), from_microseconds(0), speed);
+        std::vector<PoseSample> samples;
+        for (int hour = 0; hour < 100; ++hour) {
+            ASSERT_TRUE(tracker.poll(from_microseconds(0) + std::chrono::hours(hour), samples));
+        }
+        EXPECT_TRUE(samples.empty());
+    }
+}
+
 TEST(PacketReplayTracker, RoundsThatNobodySawAreLeftOut) {
     const Recorded recorded = eventful(UsbTrackerModel::Hid, seconds(3));
     Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
