@@ -262,6 +262,9 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.other_packs = pressed || std::any_of(artifact_buttons.begin(), artifact_buttons.end(), presses);
     plan.language = !pressed && presses(language_button);
     plan.threads = {"the exhibit"};
+    if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
+        plan.threads.emplace_back("the tracker's reader");
+    }
     if (gpio && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");
     }

@@ -51,6 +51,15 @@ TEST(Settings, AUsbTrackerAndItsHemisphereAreRead) {
     EXPECT_EQ(name_of(TrackerKind::Usb), "usb");
 }
 
+TEST(Settings, ASpaceMouseAndTheSpeedOfAReplayAreRead) {
+    EXPECT_EQ(parsed("[tracker]\nkind = \"spacemouse\"\n").tracker.kind, TrackerKind::SpaceMouse);
+    EXPECT_EQ(name_of(TrackerKind::SpaceMouse), "spacemouse");
+    const Settings replay =
+        parsed("[tracker]\nkind = \"replay\"\nposes = \"fault.rec\"\nreplay_speed = 0.5\n");
+    EXPECT_EQ(replay.tracker.replay_speed, 0.5);
+    EXPECT_EQ(Settings().tracker.replay_speed, 1.0);
+}
+
 TEST(Settings, AFixedSceneIsWrittenOut) {
     const Settings fixed =
         parsed("[eye]\ntracked = false\n[tracker]\nkind = \"none\"\n[exhibit]\ncaptions = false\n");
