@@ -2,6 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(GTest REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(glm REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(meshoptimizer REQUIRED)

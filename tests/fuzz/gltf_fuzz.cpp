@@ -1,0 +1,6 @@
+// glTF and GLB, with Draco and meshoptimizer inside.
+#include "tests/fuzz/mesh_check.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return frustumscreen::fuzz::check_mesh(data, size, "model.gltf");
+}

@@ -1,0 +1,6 @@
+// OBJ, PLY and STL, told apart by their content.
+#include "tests/fuzz/mesh_check.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return frustumscreen::fuzz::check_mesh(data, size, "model.obj");
+}

@@ -1,0 +1,41 @@
+// Pictures in packs and models: refused in one line, or as large as they say, and as PNG they stay the same.
+#include "assets_baked/bake/loaders/decode_image.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace frustumscreen;
+
+namespace {
+
+constexpr std::int64_t most_texels = 1 << 18; ///< keeps the fuzzer's memory small
+
+template <typename Texel> void check(const Result<Image<Texel>>& image) {
+    if (!image) {
+        fuzz::require_one_line(image.error().message);
+        return;
+    }
+    fuzz::require(image->width > 0 && image->height > 0, "a picture has a size");
+    fuzz::require(static_cast<std::int64_t>(image->texels.size()) ==
+                          static_cast<std::int64_t>(image->width) * image->height &&
+                      static_cast<std::int64_t>(image->texels.size()) <= most_texels,
+                  "a picture has its texels, no more than allowed");
+    const Bytes png = encode_png(*image);
+    Result<Image<Texel>> again;
+    if constexpr (std::is_same_v<Texel, std::uint16_t>) {
+        again = decode_png16(png);
+    } else {
+        again = decode_png8(png);
+    }
+    fuzz::require(again && again->width == image->width && again->height == image->height &&
+                      again->texels == image->texels,
+                  "a picture written again is the same", again ? std::string() : again.error().message);
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::span<const std::byte> bytes = fuzz::bytes_of(data, size);
+    check(decode_png8(bytes, most_texels));
+    check(decode_png16(bytes, most_texels));
+    check(decode_image(bytes, most_texels));
+    return 0;
+}

@@ -1,0 +1,48 @@
+// Pose files: what is taken is finite and in range, and written again it reads the same.
+#include "firmware_host/tracker/pose_file.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace frustumscreen;
+
+namespace {
+
+void require_sound(const PoseSample& sample) {
+    fuzz::require(sample.station >= prop_station && sample.station <= torch_station, "a station is known");
+    fuzz::require(fuzz::is_finite(sample.position_m) && glm::length(sample.position_m) < 2000.0,
+                  "a position is finite and near");
+    fuzz::require(fuzz::is_unit(sample.rotation), "a rotation has length 1");
+}
+
+void require_same(const PoseSample& a, const PoseSample& b) {
+    fuzz::require(a.time == b.time && a.station == b.station && a.ok == b.ok && a.position_m == b.position_m,
+                  "a row written again reads the same");
+    // Reading makes a quaternion's length 1 once more: the last digit may differ.
+    const glm::dquat d = a.rotation - b.rotation;
+    fuzz::require(std::abs(d.w) + std::abs(d.x) + std::abs(d.y) + std::abs(d.z) < 1e-15,
+                  "a rotation written again reads the same");
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text = fuzz::text_of(data, size);
+    const auto poses = parse_poses(text, "poses.csv");
+    const auto ascending = parse_poses(text, "poses.csv", PoseOrder::PropAscends);
+    if (!ascending) {
+        fuzz::require_one_line(ascending.error().message);
+    }
+    if (!poses) {
+        fuzz::require_one_line(poses.error().message);
+        fuzz::require(!ascending, "the stricter order takes no more");
+        return 0;
+    }
+    const auto again = parse_poses(write_poses(*poses), "again.csv",
+                                   ascending ? PoseOrder::PropAscends : PoseOrder::AsWritten);
+    fuzz::require(again && again->size() == poses->size(), "what was written is read",
+                  again ? std::string() : again.error().message);
+    for (std::size_t k = 0; k < poses->size(); ++k) {
+        require_sound((*poses)[k]);
+        require_same((*poses)[k], (*again)[k]);
+    }
+    return 0;
+}

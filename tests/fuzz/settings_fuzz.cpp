@@ -1,0 +1,38 @@
+// Settings: taken by every check, or refused in one line that begins with the file's name. What was taken can
+// be reported, and all its numbers are finite.
+#include "app/settings/config_json.h"
+#include "app/settings/settings.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <nlohmann/json.hpp>
+
+using namespace frustumscreen;
+
+namespace {
+
+/// A number that is not finite is null in JSON.
+void require_no_null(const nlohmann::json& value, const std::string& report) {
+    fuzz::require(!value.is_null(), "every number is finite", report);
+    if (value.is_structured()) {
+        for (const nlohmann::json& item : value) {
+            require_no_null(item, report);
+        }
+    }
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text = fuzz::text_of(data, size);
+    const auto settings = parse_settings(text, "set/kiosk.toml");
+    if (!settings) {
+        const std::string& message = settings.error().message;
+        fuzz::require(settings.error().kind == ErrorKind::BadConfiguration, "the operator acts", message);
+        fuzz::require(message.starts_with("set/kiosk.toml:"), "a message names the file", message);
+        fuzz::require_one_line(message);
+        return 0;
+    }
+    const std::string report = config_json(*settings);
+    require_no_null(nlohmann::json::parse(report), report);
+    return 0;
+}

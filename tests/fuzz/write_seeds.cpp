@@ -1,0 +1,118 @@
+// Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
+#include "app/pack/manifest.h"
+#include "tests/loaders/sample_models.h"
+#include "tests/loaders/sample_pictures.h"
+#include "tests/pack/samples.h"
+
+#include <cstdio>
+#include <fstream>
+
+using namespace frustumscreen;
+
+namespace {
+
+class Seeds {
+public:
+    explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    void add(const std::string& target, const std::string& name, std::string_view bytes) const {
+        std::filesystem::create_directories(folder_ / target);
+        std::ofstream(folder_ / target / name, std::ios::binary) << bytes;
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+std::string file_text(const std::string& path) {
+    std::ifstream file(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR) / path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void texts(const Seeds& seeds) {
+    seeds.add(
+        "pose_file", "plain",
+        "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n# two rows\n0,1,0.1,-0.05,0,1,0,0,0,1\n"
+        "16667,1,1e-3,0.25,0,0.5,0.5,-0.5,0.5,1\n16667,2,0,-0.55,0.5,1,0,0,0,1\n33334,3,nan,0,0,0,0,0,0,0\n");
+    seeds.add("recording", "blanks",
+              "# timestamp tx ty tz qx qy qz qw\n1.5 0.1 0.2 0.3 0 0 0 1\n1.6 0.4 0 1 0 0 1 0\n");
+    seeds.add("recording", "commas",
+              "t,x,y,z,qx,qy,qz,qw\n-1e3,1,2,3,0.5,0.5,0.5,0.5\n4,5,6,7,-0.5,-0.5,-0.5,-0.5\n");
+    seeds.add("settings", "shipped", file_text("config/kiosk.toml"));
+    seeds.add("settings", "gpio",
+              "[panel]\nkind = \"gpio\"\nlines = [\"4\", \"5\", \"6\"]\nbias = \"pull-down\"\n");
+    seeds.add("settings", "matrices",
+              "[projector]\nfx = 1900\nfy = 1910\ncx = 640\ncy = -20\n"
+              "table_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]\n[prop]\nkind = "
+              "\"cube\"\nbase_m = 0.1\n");
+    seeds.add("settings", "replay",
+              "tracker = { kind = \"replay\", poses = \"p.csv\", table_from_tracker = "
+              "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1] }\n");
+}
+
+/// Scripts of viper_fuzz.cpp and patriot_fuzz.cpp: the set-up is agreed to, then frames come.
+void talks(const Seeds& seeds) {
+    const std::string agree(12, '\3');
+    const std::string wait("\0\x19\0", 3);
+    const std::string pose("\4\1\0\0\0\1\0\2\0\3\x7f\0\0\0", 14);
+    seeds.add("viper", "streaming", agree + pose + wait + pose + wait + pose);
+    seeds.add("viper", "cut", agree + "\6\1" + pose + wait + pose);
+    std::string patriot;
+    for (int k = 0; k < 24; ++k) {
+        patriot += wait + "\3";
+    }
+    seeds.add("patriot", "streaming", patriot + pose + wait + pose + wait + pose);
+    seeds.add("patriot", "cut", patriot + "\6\1" + pose + wait + pose);
+}
+
+void packs(const Seeds& seeds) {
+    const Bytes pack = samples::bytes_of(samples::pack());
+    seeds.add("pack", "everything", as_text(pack));
+    Pack mesh_only = samples::pack();
+    mesh_only.levels.pop_back();
+    mesh_only.textures.pop_back();
+    mesh_only.relief = {};
+    mesh_only.default_level = 0;
+    seeds.add("pack", "mesh", as_text(samples::bytes_of(mesh_only)));
+    seeds.add("manifest", "everything", samples::take_apart(pack).manifest.dump());
+}
+
+void pictures(const Seeds& seeds) {
+    const Image8 smooth = frustumscreen::testing::smooth_picture(8, 8);
+    seeds.add("picture", "smooth.png", frustumscreen::testing::png_of(smooth));
+    seeds.add("picture", "smooth.jpg", frustumscreen::testing::jpeg_of(smooth));
+    seeds.add("picture", "smooth.webp", frustumscreen::testing::webp_of(smooth));
+    seeds.add("picture", "cut.png", frustumscreen::testing::png_of(samples::texture(5, 3, 1, false)));
+    seeds.add("picture", "relief.png", as_text(encode_png(samples::relief_atlas().relief)));
+    for (const int depth : {1, 2, 4, 8, 16}) {
+        seeds.add("picture", "grey" + std::to_string(depth),
+                  frustumscreen::testing::grey_ramp_png(depth, depth == 8));
+    }
+}
+
+void meshes(const Seeds& seeds) {
+    for (const frustumscreen::testing::SampleModel& model : frustumscreen::testing::sample_models()) {
+        const bool gltf = model.name.ends_with(".glb") || model.name.ends_with(".gltf");
+        seeds.add(gltf ? "gltf" : "mesh", model.name, model.bytes);
+    }
+    for (const std::string name :
+         {"a.png", "b/../a.png", "../a.png", "/etc/a", "C:\\a", "b%20c", "%2e%2e/a", "http://a"}) {
+        seeds.add("sidecar", std::to_string(std::hash<std::string>{}(name)), name);
+    }
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    if (count != 2) {
+        std::fputs("usage: frustumscreen_fuzz_seeds FOLDER\n", stderr);
+        return 2;
+    }
+    const Seeds seeds(arguments[1]);
+    texts(seeds);
+    talks(seeds);
+    packs(seeds);
+    pictures(seeds);
+    meshes(seeds);
+    return 0;
+}
