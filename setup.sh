@@ -7,6 +7,8 @@ packages=(
     # tools
     build-essential cmake ninja-build pkg-config shellcheck clang-format python3 pyflakes3
     systemd # its tools check the units
+    # fuzzing
+    clang-14 libclang-rt-14-dev llvm-14
     # small libraries
     libglm-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev
     libminizip-dev zlib1g-dev libgtest-dev

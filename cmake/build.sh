@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset: build.sh release|debug|asan|tsan. Quiet unless something fails.
+# Configures (once) and builds a preset: build.sh release|debug|asan|tsan|fuzz. Quiet unless something fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1

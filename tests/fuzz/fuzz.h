@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 namespace frustumscreen::fuzz {
 
 /// Ends the program: the input at hand breaks a promise.
-inline void require(bool holds, std::string_view promise, std::string_view detail = {}) {
+inline void require(bool holds, std::string_view promise, std::string_view detail = "") {
     if (!holds) {
         std::fprintf(stderr, "broken promise: %.*s: %.*s\n", static_cast<int>(promise.size()), promise.data(),
                      static_cast<int>(detail.size()), detail.data());

@@ -11,6 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=$1
 shift
 programs=build/fuzz/fuzz
+export ASAN_SYMBOLIZER_PATH=/usr/lib/llvm-14/bin/llvm-symbolizer
 targets=("$@")
 if ((${#targets[@]} == 0)); then
     for program in "$programs"/frustumscreen_fuzz_*; do

@@ -47,7 +47,7 @@ void require_usable(const Pack& pack) {
 /// Choosing one level reads that level as reading everything does.
 void require_same_chosen(std::span<const std::byte> bytes, const Pack& pack) {
     const auto only_default = [](const PackOutline& outline) {
-        return Result<std::vector<std::uint32_t>>({outline.description.default_level});
+        return Result<std::vector<std::uint32_t>>(std::vector{outline.description.default_level});
     };
     const auto chosen = verify_pack(bytes, only_default);
     fuzz::require(chosen.has_value(), "a part of a good pack is good");
