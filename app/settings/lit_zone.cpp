@@ -252,7 +252,8 @@ Polygon default_eye_zone(const Settings& settings, const Scene& scene, const Pol
         *std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
             return glm::distance(a, mean) < glm::distance(b, mean);
         });
-    const double step = std::fmin(x, y) / 250.0;
+    // On a table hardly wider than the prop, steps of its width would never get to its ends.
+    const double step = std::fmax(std::fmin(x, y) / 250.0, std::fmax(x, y) / 5000.0);
     Polygon zone;
     for (const double azimuth : azimuths_from(middle, any_eye)) {
         const glm::dvec2 direction(std::cos(azimuth), std::sin(azimuth));

@@ -101,6 +101,10 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
         }
         const auto& [t, x, y, z, qx, qy, qz, qw] = *row;
         start_s = start_s.value_or(t);
+        if (t - *start_s > longest_s) {
+            return bad_input(rows.located(fmt::format(
+                "t is {}, more than {} seconds after the first row's {}", t, longest_s, *start_s)));
+        }
         PoseSample sample;
         sample.time = from_microseconds(std::llround((t - *start_s) * 1e6));
         sample.station = options.station;

@@ -32,6 +32,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require_one_line(message);
         return 0;
     }
+    // The report works out the lit zone, which takes a thousand times as long as all checks.
+    if (size % 16 != 0) {
+        return 0;
+    }
     const std::string report = config_json(*settings);
     require_no_null(nlohmann::json::parse(report), report);
     return 0;

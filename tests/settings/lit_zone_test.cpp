@@ -238,6 +238,21 @@ TEST(LitZone, ACubesSidesAreNeverLitFromStraightAbove) {
     EXPECT_TRUE(zone.default_eye.empty());
 }
 
+TEST(LitZone, ATableHardlyDeeperThanThePropIsNoReasonToHang) {
+    Settings settings;
+    settings.projector.pinhole.fx = settings.projector.pinhole.fy = 200.0;
+    settings.prop = {PropKind::Frustum, 0.16, 0.02, 0.05};
+    settings.table.width_m = 10.0;
+    settings.table.depth_m = 0.16 * std::sqrt(2.0) + 1e-8;
+    const LitZone zone = lit_zone(settings);
+    double farthest = 0.0;
+    for (const glm::dvec2& place : zone.default_eye) {
+        EXPECT_LE(std::abs(place.y), 0.5e-8 + 1e-15);
+        farthest = std::max(farthest, std::abs(place.x));
+    }
+    EXPECT_GT(farthest, 0.5) << "and the places along it are found";
+}
+
 TEST(LitZone, ThePictureOnTheTableHasTheFootprintsArea) {
     Settings s; // exactly the table
     EXPECT_NEAR(area_of(picture_on_table(s, 0.0)), 0.4, 1e-9);

@@ -96,6 +96,12 @@ struct Recording {
 };
 
 /// Counts of INDEX.tsv.
+TEST(ConvertRecording, IsNoLongerThanAPoseFileMayBe) {
+    const auto result = convert_recording("-3e9 0 0 0 0 0 0 1\n3e9 0 0 0 0 0 0 1\n", "walk.txt", {});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message.rfind("walk.txt:2: t is ", 0), 0U) << result.error().message;
+}
+
 TEST(ConvertRecording, TheRecordingsInTheSharedFolderBecomePoses) {
     const std::filesystem::path folder = FRUSTUMSCREEN_SHARED_DIR "/data/tracker";
     if (!std::filesystem::exists(folder)) {
