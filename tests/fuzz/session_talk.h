@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_wire = 32768;
+    static constexpr std::size_t most_wire = 8192;
 
     void ask() {
         const std::span<const std::byte> due = session_.due(now_);
