@@ -21,7 +21,7 @@ constexpr std::size_t most_presses = 1000;
 constexpr double longest_script_s = 86400.0;
 
 /// By PanelKind and LineBias.
-constexpr std::array<std::string_view, 2> panel_names{"scripted", "gpio"};
+constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 constexpr std::size_t most_buttons = 3;
 constexpr double shortest_direction = 1e-3;
@@ -208,6 +208,9 @@ void read_panel(TableReader table, PanelSettings& panel) {
     table.text("chip", panel.chip);
     table.texts("lines", panel.lines, most_buttons);
     table.flag("active_low", panel.active_low);
+    table.texts("lamps", panel.lamps, most_buttons);
+    table.text("device", panel.device);
+    table.texts("keys", panel.keys, most_buttons);
     table.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"});
     table.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"});
     for (TableReader& press : table.tables("script", most_presses)) {

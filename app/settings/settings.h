@@ -79,8 +79,8 @@ struct ScriptedPress {
     double at_s = 0.0;
     int button = 1;
 };
-/// Gpio: real buttons on a GPIO chip.
-enum class PanelKind { Scripted, Gpio };
+/// Gpio: real buttons on a GPIO chip. Keys: keys of a keyboard, for a bench.
+enum class PanelKind { Scripted, Gpio, Keys };
 [[nodiscard]] std::string_view name_of(PanelKind kind);
 [[nodiscard]] std::string_view name_of(LineBias bias);
 struct PanelSettings {
@@ -91,7 +91,15 @@ struct PanelSettings {
     std::vector<std::string> lines;            ///< gpio: names or offsets of buttons 0, 1, 2
     LineBias bias = LineBias::PullUp;          ///< gpio
     bool active_low = true;                    ///< gpio: a pressed button pulls its line to ground
-    double debounce_ms = 30.0, stuck_s = 30.0; ///< gpio
+    std::vector<std::string> lamps;            ///< gpio: as `lines`, in the buttons' order; may be fewer
+    std::string device;                        ///< keys: path or name of the keyboard's event device
+    std::vector<std::string> keys;             ///< keys: KEY_... of buttons 0, 1, 2
+    double debounce_ms = 30.0, stuck_s = 30.0; ///< gpio, keys
+
+    /// How many real buttons there are.
+    [[nodiscard]] std::size_t buttons() const {
+        return kind == PanelKind::Gpio ? lines.size() : kind == PanelKind::Keys ? keys.size() : 0;
+    }
 };
 
 struct ExhibitSettings {

@@ -176,6 +176,15 @@ TEST(Settings, TakesButtonsOnAGpioChip) {
     EXPECT_FALSE(settings.panel.active_low);
     EXPECT_EQ(settings.panel.debounce_ms, 12.5);
     EXPECT_EQ(settings.panel.stuck_s, 60.0);
+    EXPECT_EQ(settings.panel.buttons(), 2U);
+    EXPECT_EQ(parsed("[panel]\nkind = \"gpio\"\nlines = [\"4\"]\nlamps = [\"0\"]\n").panel.lamps,
+              std::vector<std::string>{"0"});
+    const Settings keys =
+        parsed("[panel]\nkind = \"keys\"\ndevice = \"Bench keyboard\"\nkeys = [\"KEY_A\", \"KEY_B\"]\n");
+    EXPECT_EQ(keys.panel.kind, PanelKind::Keys);
+    EXPECT_EQ(keys.panel.device, "Bench keyboard");
+    EXPECT_EQ(keys.panel.keys, (std::vector<std::string>{"KEY_A", "KEY_B"}));
+    EXPECT_EQ(keys.panel.buttons(), 2U);
 }
 
 } // namespace
