@@ -12,6 +12,7 @@
 #include "firmware_host/display/kms_device.h"
 
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -44,6 +45,7 @@ private:
         std::string name;
         ModeTiming mode;
         bool wished = true; ///< it is the mode that the settings ask for
+        bool flips = false; ///< it has shown more than its first picture
     };
     struct Queued {
         MonotonicTime at;
@@ -76,6 +78,7 @@ private:
     std::optional<Queued> queued_;
     FlipClock clock_;
     std::optional<MonotonicTime> try_again_; ///< not before
+    std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown
     bool late_ = false; ///< the flip queued was waited for in vain

@@ -55,6 +55,9 @@ public:
         if (gone || !master || !screen) {
             return gone ? KmsAnswer::Gone : !master ? KmsAnswer::NotMaster : KmsAnswer::Refused;
         }
+        if (std::find(no_flips.begin(), no_flips.end(), screen->mode) != no_flips.end()) {
+            return KmsAnswer::Refused;
+        }
         if (!queued_.empty() || busy > 0) {
             busy -= busy > 0 ? 1 : 0;
             return KmsAnswer::Busy;
@@ -98,6 +101,7 @@ public:
     MonotonicTime time = from_microseconds(1'000'000);
     std::optional<Shown> screen; ///< what the projector shows
     std::vector<ModeTiming> refused;
+    std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
     bool gone = false;
     bool master = true;
     bool held_by_another = false;

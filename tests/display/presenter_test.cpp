@@ -190,6 +190,19 @@ TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
     EXPECT_LE(none.kms.lights, 3 * 5) << "tried again every second, not every frame";
 }
 
+TEST(Presenter, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
+    Exhibit exhibit;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(1920, 1080, 60.0, true), a_mode(1280, 800, 60.0)};
+    exhibit.kms.no_flips = {projector.modes[0]};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(30);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1280);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.lights, 2);
+}
+
 TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
     Exhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
