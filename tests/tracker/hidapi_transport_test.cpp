@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <umockdev.h>
 #include <unistd.h>
 
@@ -73,6 +74,14 @@ public:
         ASSERT_EQ(::write(device, report.data(), report.size()), static_cast<ssize_t>(report.size()));
     }
 
+    /// Nobody may open it any more, but everybody may see it.
+    void forbid() const {
+        gchar* root = umockdev_testbed_get_root_dir(testbed_);
+        std::filesystem::permissions(root, std::filesystem::perms(0755));
+        g_free(root);
+        ASSERT_EQ(::chmod(node.c_str(), 0), 0);
+    }
+
 private:
     UMockdevTestbed* testbed_;
 };
@@ -128,6 +137,21 @@ TEST(HidapiTransport, ADeviceWithoutItsFeatureReportIsNotTaken) {
     std::vector<PoseSample> samples;
     EXPECT_GT(driver.step(samples), Nanoseconds::zero());
     EXPECT_EQ(driver.state(), UsbTrackerState::SetUpRefused);
+}
+
+/// In a process of its own, as nobody: root may open everything.
+TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
+    const PluggedDevice device("1209", "0001", tracker_descriptor(), wire::hid_info());
+    device.forbid();
+    const auto search = [] {
+        constexpr unsigned nobody = 65534;
+        if (::geteuid() == 0 && ::setuid(nobody) != 0) {
+            ::_exit(255);
+        }
+        const auto found = make_hid_bus(UsbTrackerModel::Hid)->find();
+        ::_exit(found ? 254 : static_cast<int>(found.error()));
+    };
+    EXPECT_EXIT(search(), ::testing::ExitedWithCode(static_cast<int>(UsbTrackerState::NoPermission)), "");
 }
 
 TEST(HidapiTransport, ASpaceMouseIsFoundAndNothingElseIs) {
