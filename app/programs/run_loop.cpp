@@ -103,7 +103,7 @@ private:
         }
         const double ms = milliseconds_since(begin);
         if (drawn.drawn) {
-            watch_.presented(now, target.framebuffer, coded);
+            watch_.presented(now, display_, coded);
         }
         watch_.look(now, inputs_);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();

@@ -15,6 +15,7 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
     return {
         fmt::format("FrustumScreen {}", FRUSTUMSCREEN_VERSION),
         fmt::format("OpenGL: {}", driver),
+        state("display", status.display),
         state("tracker", status.tracker),
         state("panel", status.panel),
         fmt::format("prop {}, head {}", status.prop_known ? "known" : "lost",

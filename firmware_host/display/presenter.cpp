@@ -69,6 +69,12 @@ Result<MonotonicTime> Presenter::present(bool may_set) {
 }
 
 /// Once for each flip: a card that hangs must not hold up every frame.
+bool Presenter::read_shown(std::span<std::byte> rgba) const {
+    const bool exact =
+        lit_ && scanout_ && scanout_->size() == PixelSize{wish_.picture_width, wish_.picture_height};
+    return exact && scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
+}
+
 void Presenter::wait_for_flip() {
     if (!queued_) {
         return;

@@ -34,6 +34,9 @@ public:
     [[nodiscard]] Result<MonotonicTime> present(bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
+    /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
+    /// false: none is lit, or with a picture scaled.
+    [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
     [[nodiscard]] std::string_view state() const { return state_.view(); }
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return clock_.next_frame(now, period);
