@@ -62,9 +62,9 @@ public:
         SCOPED_TRACE(command);
         EXPECT_NE(mock_.tell(command).find("\"ok\": true"), std::string::npos);
     }
-    /// Steps until it holds; false: it did not within half a minute.
+    /// Steps until it holds; false: it did not within two minutes.
     bool until(const std::function<bool()>& holds) {
-        const MonotonicTime end = monotonic_now() + std::chrono::seconds(30);
+        const MonotonicTime end = monotonic_now() + std::chrono::minutes(2);
         while (!holds()) {
             if (monotonic_now() > end) {
                 return false;
