@@ -19,7 +19,7 @@ packages=(
     # pictures and letters
     libpng-dev libturbojpeg0-dev libwebp-dev libfreetype-dev fonts-dejavu-core
     # devices
-    libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
+    libgpiod-dev libusb-1.0-0-dev libhidapi-dev umockdev libumockdev-dev libevdev-dev libsystemd-dev
     # projectors
     libdrm-dev libgbm-dev libudev-dev libxcvt-dev
     # OpenGL ES without a screen

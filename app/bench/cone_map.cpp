@@ -110,9 +110,8 @@ private:
             return;
         }
         const int half = 1 << (level - 1);
-        const glm::ivec2 near(low.x + half <= 0 ? 1 : 0,
-                              low.y + half <= 0 ? 1 : 0); // the nearest child first
         const glm::ivec2 first = 2 * node;
+        const glm::ivec2 near(low.x + half <= 0 ? 1 : 0, low.y + half <= 0 ? 1 : 0); // this child first
         visit(level - 1, first + near);
         visit(level - 1, first + glm::ivec2(1 - near.x, near.y));
         visit(level - 1, first + glm::ivec2(near.x, 1 - near.y));

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 namespace frustumscreen {
 
 namespace {
@@ -97,7 +99,7 @@ Cones cones_of(const ReliefImages& images, int axis, Image16 (*make)(const Image
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const ReliefImages& images) {
-    if ((images.texels & (images.texels - 1)) != 0) {
+    if (!std::has_single_bit(static_cast<unsigned>(images.texels))) {
         return bad_input(fmt::format("cone maps need a power of two of texels, not {}", images.texels));
     }
     GlTexture relief = make_relief_array(GL_RGBA16UI, images.texels, 1, 6);

@@ -2,8 +2,7 @@
 /// change against a reference that the project keeps.
 ///
 /// Counted  from the frame's plan, a mean over seeded poses: triangles and draw calls sent, vertices that
-/// they
-///          name (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
+///          they name (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
 ///          vertices read, samples' colour and depth written and read back, the picture cleared. What the
 ///          texture's cache lines and hidden fragments add is not in it.
 /// Threads  pure; any.

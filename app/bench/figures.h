@@ -4,8 +4,7 @@
 ///
 /// Units    millimetres on the configured prop.
 /// Held     a figure may be off by a quarter of itself and by `slack_box`: where on the source the sample
-/// points
-///          fall differs from the bake's.
+///          points fall differs from the bake's.
 /// Threads  uses all cores; deterministic.
 #pragma once
 

@@ -1,6 +1,6 @@
 #include "app/bench/peer_culling.h"
 
-#include <meshoptimizer.h>
+#include "assets_baked/bake/clusters.h"
 
 #include <algorithm>
 
@@ -8,67 +8,13 @@ namespace frustumscreen {
 
 namespace {
 
-// As the bake cuts the pack's levels: compact rather than flat.
-constexpr std::size_t most_vertices = 96;
-constexpr std::size_t most_triangles = 64;
-constexpr float cone_weight = 0.0F;
-
-PackCluster bounds_of(const meshopt_Bounds& bounds, bool closed) {
-    PackCluster cluster;
-    cluster.centre = {bounds.center[0], bounds.center[1], bounds.center[2]};
-    cluster.radius = bounds.radius * 1.0001F + 1e-6F;
-    if (closed && bounds.cone_cutoff < 1.0F) {
-        cluster.cone_apex = {bounds.cone_apex[0], bounds.cone_apex[1], bounds.cone_apex[2]};
-        cluster.cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]};
-        cluster.cone_cutoff = bounds.cone_cutoff + 1e-4F; // 32-bit rounding must not cull an edge-on triangle
+/// All triangles are seen from both sides.
+void face_everywhere(LevelTriangles& level) {
+    for (std::vector<float>* part : {&level.normal_x, &level.normal_y, &level.normal_z, &level.distance}) {
+        part->assign(level.indices.size() / 3, 0.0F);
     }
-    return cluster;
-}
-
-/// Cuts one part into clusters behind those of the parts before.
-void add_clusters(std::span<std::uint32_t> indices, bool closed, LevelTriangles& level) {
-    if (indices.empty()) {
-        return;
-    }
-    const float* positions = &level.positions[0].x;
-    const std::size_t count = level.positions.size();
-    meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), count);
-    std::vector<meshopt_Meshlet> meshlets(
-        meshopt_buildMeshletsBound(indices.size(), most_vertices, most_triangles));
-    std::vector<std::uint32_t> vertices(meshlets.size() * most_vertices);
-    std::vector<unsigned char> corners(meshlets.size() * most_triangles * 3);
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), indices.data(),
-                                          indices.size(), positions, count, sizeof(glm::vec3), most_vertices,
-                                          most_triangles, cone_weight));
-    auto out = indices.begin();
-    for (const meshopt_Meshlet& meshlet : meshlets) {
-        PackCluster cluster = bounds_of(
-            meshopt_computeMeshletBounds(&vertices[meshlet.vertex_offset], &corners[meshlet.triangle_offset],
-                                         meshlet.triangle_count, positions, count, sizeof(glm::vec3)),
-            closed);
-        cluster.first_index = static_cast<std::uint32_t>(level.indices.size());
-        cluster.index_count = meshlet.triangle_count * 3;
-        level.clusters.push_back(cluster);
-        for (std::size_t k = 0; k < cluster.index_count; ++k) {
-            *out = vertices[meshlet.vertex_offset + corners[meshlet.triangle_offset + k]];
-            level.indices.push_back(*out++);
-        }
-    }
-}
-
-/// A triangle of no area faces everywhere; so do all of a mesh that is not closed.
-void add_planes(bool closed, LevelTriangles& level) {
-    for (std::size_t first = 0; first + 2 < level.indices.size(); first += 3) {
-        const glm::dvec3 a(level.positions[level.indices[first]]);
-        const glm::dvec3 b(level.positions[level.indices[first + 1]]);
-        const glm::dvec3 c(level.positions[level.indices[first + 2]]);
-        const glm::dvec3 area_normal = glm::cross(b - a, c - a);
-        const double length = glm::length(area_normal);
-        const glm::dvec3 normal = closed && length > 0.0 ? area_normal / length : glm::dvec3(0.0);
-        level.normal_x.push_back(static_cast<float>(normal.x));
-        level.normal_y.push_back(static_cast<float>(normal.y));
-        level.normal_z.push_back(static_cast<float>(normal.z));
-        level.distance.push_back(static_cast<float>(glm::dot(normal, a)));
+    for (PackCluster& cluster : level.clusters) {
+        cluster.cone_cutoff = PackCluster{}.cone_cutoff;
     }
 }
 
@@ -93,15 +39,19 @@ PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& 
     mesh.low_m = box.low;
     const glm::dvec3 size = box.high - box.low;
     mesh.metres_per_box = std::max({size.x, size.y, size.z, 1e-12});
+    LevelTriangles& all = mesh.triangles;
     for (const glm::vec3& position : positions_m) {
-        mesh.triangles.positions.emplace_back((glm::dvec3(position) - mesh.low_m) / mesh.metres_per_box);
+        all.positions.emplace_back((glm::dvec3(position) - mesh.low_m) / mesh.metres_per_box);
     }
     for (const std::span<std::uint32_t> part : parts) {
-        mesh.first_cluster.push_back(mesh.triangles.clusters.size());
-        add_clusters(part, closed, mesh.triangles);
+        mesh.first_cluster.push_back(all.clusters.size());
+        const auto first_index = static_cast<std::uint32_t>(all.indices.size());
+        const std::vector<PackCluster> clusters = cut_into_clusters(part, all.positions, first_index);
+        all.clusters.insert(all.clusters.end(), clusters.begin(), clusters.end());
+        all.indices.insert(all.indices.end(), part.begin(), part.end());
     }
-    mesh.first_cluster.push_back(mesh.triangles.clusters.size());
-    add_planes(closed, mesh.triangles);
+    mesh.first_cluster.push_back(all.clusters.size());
+    (closed ? find_planes : face_everywhere)(all);
     return mesh;
 }
 

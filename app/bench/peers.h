@@ -2,8 +2,8 @@
 ///
 /// full mesh   through each visible face's collineation: one pass, exact up to texture filtering.
 /// two-pass    shader lamps (Raskar, Welch, Low & Bandyopadhyay 2001): the mesh as the eye sees it into a
-/// square
-///             picture cropped to the prop, then that picture projected from the eye onto the prop's faces.
+///             square picture cropped to the prop, then that picture projected from the eye onto the prop's
+///             faces.
 ///
 /// Threads  the one whose context is current; the mesh and stage must outlive the technique.
 #pragma once

@@ -1,5 +1,7 @@
 #include "app/bench/plot_svg.h"
 
+#include "firmware_host/base/xml_text.h"
+
 #include <fmt/format.h>
 
 namespace frustumscreen {
@@ -8,35 +10,12 @@ namespace {
 
 constexpr double mark_px = 4.0;
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
-}
-
 } // namespace
 
 std::string text_at(double x, double y, std::string_view anchor, std::string_view words,
                     std::string_view more) {
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                       escaped(words));
+                       xml_text(words));
 }
 
 std::string mark_at(const glm::dvec2& at, PlotMark mark, std::string_view colour, double opacity) {

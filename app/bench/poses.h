@@ -1,10 +1,9 @@
 /// Seeded poses of prop and eye over the whole allowed zone of a kiosk's settings.
 ///
 /// Zone     prop: anywhere on the table, any yaw, standing; its corners inside the projector's picture; every
-/// face
-///          that the eye sees is lit. Eye: any azimuth, elevation from the settings' lowest to the zenith
-///          (even over the solid angle), distance from the prop's foot between the settings' nearest and
-///          farthest.
+///          face that the eye sees is lit. Eye: any azimuth, elevation from the settings' lowest to the
+///          zenith (even over the solid angle), distance from the prop's foot between the settings' nearest
+///          and farthest.
 /// Frames   table frame, metres.
 /// Threads  pure; any. The same settings, count and seed give the same poses on every machine.
 #pragma once

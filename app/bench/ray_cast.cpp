@@ -4,8 +4,10 @@
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -67,8 +69,7 @@ FaceRays rays_of(const PropFace& face, const TruthView& view) {
         const glm::dvec3 to = face.corners[(k + 1) % 4] - projector;
         rays.edges[k] = glm::cross(from, to) * light;
     }
-    // S = P + (d - n.P) / (n.L) L for the light's ray L; n.L < 0, so that S - E times -n.L looks as S - E
-    // does.
+    // S = P + (d - n.P) / (n.L) L for the light's ray L; n.L < 0, so that -n.L (S - E) looks as S - E does.
     const PixelLinear along = face.plane.normal * light;
     rays.direction =
         face.plane.distance(projector) * light - glm::outerProduct(projector - view.eye_m, along);
@@ -115,6 +116,7 @@ Span span_of(const FaceRays& rays, std::size_t face, int y) {
             end = begin;
         }
     }
+    begin = std::fmin(begin, rays.pixels.right); // an edge along the row may be met anywhere
     return {face, y, static_cast<int>(begin), static_cast<int>(std::fmax(begin, end))};
 }
 

@@ -21,9 +21,10 @@ int axis_of(const glm::dvec3& normal) {
     return size.y >= size.z ? 1 : 2;
 }
 
-/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area.
-glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const glm::dvec3& inward,
-                          const glm::dvec3& across, const glm::dvec3& down) {
+/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area. Where all four
+/// miss what is thinner than a texel, that of its middle.
+glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const glm::vec3& colour_of_middle,
+                          const glm::dvec3& inward, const glm::dvec3& across, const glm::dvec3& down) {
     Truth::Hit hit;
     glm::vec3 sum(0.0F);
     int count = 0;
@@ -36,7 +37,7 @@ glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const gl
             ++count;
         }
     }
-    return sum / static_cast<float>(std::max(count, 1));
+    return count > 0 ? sum / static_cast<float>(count) : glm::clamp(colour_of_middle, 0.0F, 1.0F);
 }
 
 void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
@@ -61,7 +62,8 @@ void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
         const double depth = std::abs(hit.point_m[image.axis] - origin[image.axis]) / size[image.axis];
         image.depth.at(column, row) =
             static_cast<std::uint16_t>(std::lround(std::clamp(depth, 0.0, 1.0) * depth_codes));
-        const glm::vec3 colour = colour_of_texel(truth, origin, inward, one_across, one_down);
+        const glm::vec3 colour =
+            colour_of_texel(truth, origin, hit.colour.linear, inward, one_across, one_down);
         image.colour.at(column, row) = {srgb8_from_linear(colour.r), srgb8_from_linear(colour.g),
                                         srgb8_from_linear(colour.b), 255};
     }

@@ -9,8 +9,7 @@
 /// Shape    every image is [texels][texels], row-major.
 /// Threads  values; `cast_relief_images` uses every core inside.
 /// Source   Oliveira, Bishop & McAllister, Relief texture mapping, 2000; Kim, Shin & Kim, Using relief
-/// texture
-///          for interactive and tangible virtual environments, 2008.
+///          texture for interactive and tangible virtual environments, 2008.
 #pragma once
 
 #include "app/bench/truth.h"

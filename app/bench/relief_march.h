@@ -34,14 +34,13 @@ make_linear_march(const Stage& stage, const ReliefImages& images, const LinearBi
 /// free of its surface (cone_map.h). The largest step of the images that the point lies in front of is taken.
 /// Source   Policarpo & Oliveira, Relaxed cone stepping for relief mapping, GPU Gems 3, ch. 18, 2007.
 /// Differs  a step is at least to the border of the texel, so that no ray is stuck; the crossing is bisected
-/// in
-///          the image that stepped, since behind it the ray may still be in front of the others.
+///          in the image that stepped, since behind it the ray may still be in front of the others.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage,
                                                                  const ReliefImages& images);
 
 /// Maximum mipmaps: a texel of a coarser level bounds the material below it, so the ray skips it whole or
-/// goes a level finer; at the finest the texels' columns are intersected exactly. Source   Tevs, Ihrke &
-/// Seidel, Maximum mipmaps for fast, accurate, and scalable dynamic height field
+/// goes a level finer; at the finest the texels' columns are intersected exactly.
+/// Source   Tevs, Ihrke & Seidel, Maximum mipmaps for fast, accurate, and scalable dynamic height field
 ///          rendering, 2008; Drobot, Quadtree displacement mapping with height blending, GPU Pro, 2010.
 /// Differs  one level for the three axes at a time; columns are flat, not bilinear.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage,

@@ -3,6 +3,9 @@
 #include "app/bench/relief_march.h"
 #include "app/bench/relief_warp.h"
 
+#include <array>
+#include <utility>
+
 namespace frustumscreen {
 
 Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
@@ -11,26 +14,20 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
     const ReliefImages images =
         cast_relief_images(truth, placed_box(mesh, prop_from_artifact), stage.prop, texels);
     std::vector<ReliefPeer> peers;
-    Result<void> added;
-    const auto add = [&](Result<std::unique_ptr<Technique>> technique, std::uint64_t triangles) {
-        if (technique) {
-            peers.push_back({std::move(*technique), triangles});
-        } else {
-            added = tl::unexpected<Error>(technique.error());
+    std::array<Result<std::unique_ptr<Technique>>, 4> marches{
+        make_linear_march(stage, images, {32, 5}), make_linear_march(stage, images, {128, 6}),
+        make_cone_march(stage, images), make_quadtree_march(stage, images)};
+    for (Result<std::unique_ptr<Technique>>& march : marches) {
+        if (!march) {
+            return tl::unexpected<Error>(march.error());
         }
-        return technique.has_value();
-    };
+        peers.push_back({std::move(*march), 0});
+    }
     Result<ReliefWarp> warp = make_relief_warp(stage, images);
     if (!warp) {
         return tl::unexpected<Error>(warp.error());
     }
-    const bool all = add(make_linear_march(stage, images, {32, 5}), 0) &&
-                     add(make_linear_march(stage, images, {128, 6}), 0) &&
-                     add(make_cone_march(stage, images), 0) && add(make_quadtree_march(stage, images), 0) &&
-                     add(std::move(warp->technique), warp->triangles);
-    if (!all) {
-        return tl::unexpected<Error>(added.error());
-    }
+    peers.push_back({std::move(warp->technique), warp->triangles});
     return peers;
 }
 

@@ -3,12 +3,10 @@
 ///
 /// A search is GLSL that defines
 ///     bool search(vec3 start, vec3 along, float leave, out float at)
-/// start + t along is the eye ray in box coordinates, inside the box for 0 < t < leave; `at` is the t of the
-/// hit. It may use
-///     float box_codes                     65535: heights' codes of one box length
-///     int texels                          of an image's side
-///     highp usampler2DArray relief        the technique's own; layers 0..2 have material_along the axes in
-///     .xy bool inside(vec3 p)                 behind the surface of every image, at the nearest texels
+/// start + t along is the eye ray in box coordinates, inside the box for 0 < t < leave; `at` is the hit's t.
+///     It may use float box_codes 65535: heights' codes of one box length int texels of an image's side highp
+///     usampler2DArray relief the technique's own; layers 0..2 have material_along the axes in .xy bool
+///     inside(vec3 p) behind the surface of every image, at the nearest texels
 ///
 /// Threads  the one whose context is current.
 #pragma once

@@ -1,4 +1,4 @@
-#include "app/bench/truth.h"
+#include "app/bench/surface_colour.h"
 
 #include <cmath>
 

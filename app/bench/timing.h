@@ -2,10 +2,9 @@
 /// disturbs all of them alike; the order is shuffled for every pose.
 ///
 /// Cost     one time = one full redraw with glFinish, no read-back. Wall time is the conventions' figure; the
-/// process's
-///          CPU time over all threads goes with it, because other programs on the machine stretch the wall's.
-///          A ratio below 1 is possible: the floor textures the whole prop, a slender artifact only its own
-///          pixels.
+///          process's CPU time over all threads goes with it, because other programs on the machine stretch
+///          the wall's. A ratio below 1 is possible: the floor textures the whole prop, a slender artifact
+///          only its own pixels.
 /// Threads  the one whose context is current.
 #pragma once
 

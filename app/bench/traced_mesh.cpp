@@ -1,6 +1,6 @@
 #include "app/bench/traced_mesh.h"
 
-#include "app/bench/truth.h"
+#include "app/bench/surface_colour.h"
 
 #include <algorithm>
 #include <cmath>

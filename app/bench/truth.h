@@ -11,11 +11,11 @@
 /// Threads  `cast_*` use every core inside; one call at a time is meant.
 #pragma once
 
+#include "app/bench/surface_colour.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/image/image.h"
-#include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
@@ -42,15 +42,6 @@ struct TruthPicture {
     Image8 colour;            ///< one ray through the centre; sRGB codes
     Image8 colour16; ///< 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit`
 };
-
-struct SurfaceColour {
-    glm::vec3 linear{0.0F};
-    float alpha = 1.0F;
-};
-
-/// Base colour of triangle `triangle` at barycentric (u, v): corner weights (1 - u - v, u, v).
-[[nodiscard]] SurfaceColour surface_colour(const SourceMesh& mesh, std::uint32_t triangle, double u,
-                                           double v);
 
 class Truth {
 public:

@@ -1,8 +1,7 @@
 /// The limits that the picture must hold, and whether it does.
 ///
 /// Limits   hold in the worst pose unless they say mean. A silhouette passes in a pose where either its share
-/// of the
-///          artifact's pixels or its shift of the outline is within the limit (thin objects).
+///          of the artifact's pixels or its shift of the outline is within the limit (thin objects).
 /// Threads  pure; any.
 #pragma once
 

@@ -1,7 +1,5 @@
 #include "app/exhibit/exhibit.h"
 
-#include "app/geometry/time_curves.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -18,7 +16,7 @@ std::string_view primary(std::string_view tag) {
 Exhibit::Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
                  MonotonicTime now)
     : count_(artifact_count), languages_(std::move(languages)), language_(std::move(language)),
-      change_start_(now - fade_time) {}
+      fade_(0, fade_time, now) {}
 
 void Exhibit::wish(Wish wish, MonotonicTime now) {
     if (wish == Wish::NextLanguage) {
@@ -30,30 +28,20 @@ void Exhibit::wish(Wish wish, MonotonicTime now) {
         return;
     }
     if (count_ > 1) {
-        change_to((to_ + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now);
+        fade_.change_to((fade_.goal() + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now);
     }
 }
 
-void Exhibit::change_to(std::size_t artifact, MonotonicTime now) {
-    const Nanoseconds elapsed = now - change_start_;
-    if (elapsed < fade_time) {
-        to_ = artifact; // still fading out: only the goal is another
-        return;
-    }
-    from_ = std::exchange(to_, artifact);
-    // A fade-in that is not over turns round at the brightness it has reached.
-    change_start_ = elapsed < 2 * fade_time ? now - (2 * fade_time - elapsed) : now;
+bool Exhibit::heeds(Wish wish) const {
+    return (wish == Wish::NextLanguage ? languages_.size() : count_) > 1;
 }
 
 Shown Exhibit::at(MonotonicTime now) const {
     if (count_ == 0) {
         return {};
     }
-    const double phase = to_seconds(now - change_start_) / to_seconds(fade_time);
-    if (phase < 1.0) {
-        return {from_, 1.0 - ease(phase), true};
-    }
-    return {to_, ease(phase - 1.0), phase < 2.0};
+    const Faded faded = fade_.at(now);
+    return {faded.which, faded.brightness, faded.changing};
 }
 
 std::size_t caption_for(std::string_view language, std::span<const std::string> languages) {

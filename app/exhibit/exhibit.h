@@ -1,15 +1,13 @@
 /// What the exhibit shows: which artifact, in which language, how bright.
 ///
-/// A change of artifact fades the old one out and the new one in, 0.2 s each; a press in the middle of it
-/// turns it round without a jump. Brightness is a closed form of time: nothing is integrated, so a late frame
-/// shows what an early one would have.
+/// A change of artifact fades the old one out and the new one in, 0.2 s each (app/exhibit/fade.h).
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` is pure.
 /// Errors   none. An exhibit without artifacts shows nothing.
 #pragma once
 
-#include "firmware_host/base/time.h"
+#include "app/exhibit/fade.h"
 
 #include <cstddef>
 #include <span>
@@ -36,18 +34,16 @@ public:
             MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now);
+    /// There is something to change to.
+    [[nodiscard]] bool heeds(Wish wish) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
     [[nodiscard]] const std::string& language() const { return language_; }
 
 private:
-    void change_to(std::size_t artifact, MonotonicTime now);
-
     std::size_t count_;
     std::vector<std::string> languages_;
     std::string language_;
-    std::size_t from_ = 0;
-    std::size_t to_ = 0;
-    MonotonicTime change_start_; ///< `from_` begins to fade
+    Fade fade_; ///< of artifacts
 };
 
 /// Index of the caption for `language` among captions in `languages`: the same tag, else the same language

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -149,6 +150,22 @@ Image8 with_prop(const Image8& table, const PatternScene& scene, const RigidTran
                 fmt::format("prop  x {:+.1f} cm  y {:+.1f} cm  turned {:+.1f}\u00b0", p.x * 100.0,
                             p.y * 100.0, glm::degrees(std::atan2(ahead.y, ahead.x))),
                 {30.0, 50.0}, 17.0, prop_colour);
+    return canvas.take();
+}
+
+Image8 with_lines(const Image8& pattern, std::span<const std::string> lines, const Typesetter& typesetter) {
+    constexpr glm::ivec2 corner(30, 80);
+    constexpr int margin_px = 6;
+    std::vector<Paragraph> paragraphs;
+    for (const std::string& line : lines) {
+        paragraphs.push_back({line, 17.0, false, 1.0, 4.0});
+    }
+    const Image<std::uint8_t> text = typesetter.set(paragraphs, pattern.width - 2.0 * corner.x);
+    Canvas canvas(pattern);
+    const glm::dvec2 low(corner - margin_px);
+    canvas.fill(low, low + glm::dvec2(text.width + 2 * margin_px, text.height + 2 * margin_px), Colour(0),
+                0.8);
+    canvas.coverage(text, corner, white);
     return canvas.take();
 }
 

@@ -15,6 +15,9 @@
 
 #include <glm/glm.hpp>
 
+#include <span>
+#include <string>
+
 namespace frustumscreen {
 
 struct PatternScene {
@@ -28,5 +31,8 @@ struct PatternScene {
 [[nodiscard]] Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter);
 [[nodiscard]] Image8 with_prop(const Image8& table, const PatternScene& scene,
                                const RigidTransform& table_from_prop, const Typesetter& typesetter);
+/// With lines for the staff below what the pattern says itself, broken where they are too long.
+[[nodiscard]] Image8 with_lines(const Image8& pattern, std::span<const std::string> lines,
+                                const Typesetter& typesetter);
 
 } // namespace frustumscreen

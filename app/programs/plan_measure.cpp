@@ -40,7 +40,9 @@ Result<std::vector<Situation>> situations(const Settings& settings, const Device
     }
     SituationTracker tracker({}, settings.eye.default_m);
     if (!inputs->tracker) {
-        return std::vector<Situation>{tracker.at(start)};
+        Situation standing = tracker.at(start);
+        standing.prop_known = true;
+        return std::vector<Situation>{standing};
     }
     std::vector<Situation> all;
     std::vector<PoseSample> samples;

@@ -63,8 +63,7 @@ public:
         ProgressLine progress("recorded seconds");
         const auto all = static_cast<std::size_t>(std::ceil(request.seconds));
         MonotonicTime now = start_;
-        while ((request.seconds <= 0.0 || to_seconds(now - start_) < request.seconds) &&
-               !stop.received()) {
+        while ((request.seconds <= 0.0 || to_seconds(now - start_) < request.seconds) && !stop.received()) {
             poll(now, keep);
             if (all > 0) {
                 progress.show(static_cast<std::size_t>(to_seconds(now - start_)), all);

@@ -190,6 +190,7 @@ ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Ren
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
       artifacts_(std::move(artifacts)),
       exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
+      attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m),
       placer_(picture_on_table(settings, 0.0)) {}
 
 const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime now, const Shown& shown,
@@ -221,9 +222,23 @@ const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime no
     return &shape;
 }
 
-DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+/// The situation as it is drawn: without a prop, the artifact stands at a place of its own.
+Situation ArtifactShow::stand(MonotonicTime now, Situation situation, Shown& shown) {
+    if (!attract_) {
+        attract_.emplace(attract_place_m_, situation.prop_known, now);
+    }
+    const Stand stand =
+        attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
+    situation.table_from_prop = stand.table_from_prop;
+    shown.brightness *= stand.brightness;
+    attract_changing_ = stand.changing;
+    return situation;
+}
+
+DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
                               Redraw redraw) {
-    const Shown shown = exhibit_.at(now);
+    Shown shown = exhibit_.at(now);
+    const Situation situation = stand(now, on_table, shown);
     PlanView view{projector_, table_from_projector_, situation.table_from_prop,
                   std::span(&situation.eye_m, 1)};
     view.brightness = shown.brightness;
@@ -276,7 +291,7 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.ignored_times += each.levels.state().ignored_times;
     }
     return {artifact.title, exhibit_.language(), levels,
-            !shown.changing && (opacity <= 0.0 || opacity >= 1.0)};
+            !shown.changing && !attract_changing_ && (opacity <= 0.0 || opacity >= 1.0)};
 }
 
 } // namespace frustumscreen

@@ -5,6 +5,7 @@
 /// BadConfiguration.
 #pragma once
 
+#include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/exhibit.h"
 #include "app/programs/run_levels.h"
@@ -46,7 +47,8 @@ public:
            const RenderTarget& target, MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+    [[nodiscard]] bool heeds(Wish wish) const override { return exhibit_.heeds(wish); }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
                                   Redraw redraw) override;
     void took(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(MonotonicTime now) const override;
@@ -76,6 +78,7 @@ private:
     ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
                  std::vector<Artifact> artifacts, MonotonicTime now);
     void measure(const Settings& settings, const RenderTarget& target);
+    [[nodiscard]] Situation stand(MonotonicTime now, Situation situation, Shown& shown);
     /// Chooses the caption; its brightness includes the fades.
     [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
                                                       const Situation& situation, PlanView& view);
@@ -87,6 +90,9 @@ private:
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
     Exhibit exhibit_;
+    glm::dvec2 attract_place_m_;
+    std::optional<Attract> attract_; ///< from the first picture on
+    bool attract_changing_ = false;
     std::size_t on_ = 0; ///< the artifact that is on
     CaptionPlacer placer_;
     const std::vector<CaptionPicture>* placed_caption_ = nullptr;

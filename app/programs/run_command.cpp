@@ -4,6 +4,7 @@
 #include "app/programs/run_loop.h"
 #include "app/programs/run_pattern.h"
 #include "app/programs/run_report.h"
+#include "app/programs/run_staff.h"
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -95,7 +96,15 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
     }
-    return ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
+    Result<std::unique_ptr<ArtifactShow>> artifacts =
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
+    if (!artifacts) {
+        return tl::unexpected<Error>(artifacts.error());
+    }
+    if (settings.panel.buttons() < 2) {
+        return std::move(*artifacts); // no chord can be held
+    }
+    return std::make_unique<StaffShow>(settings, std::move(*artifacts), display.name());
 }
 
 /// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.

@@ -86,7 +86,8 @@ private:
     [[nodiscard]] Result<void> frame(MonotonicTime now) {
         const MonotonicTime begin = monotonic_now();
         poll(now);
-        const Situation situation = situation_.at(now + light_delay_.from_now());
+        Situation situation = situation_.at(now + light_delay_.from_now());
+        situation.prop_known = situation.prop_known || !inputs_.tracker;
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe = options_.redraw == Redraw::Changes && now - presented_ >= between_probes;
         const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
@@ -102,12 +103,12 @@ private:
         }
         const double ms = milliseconds_since(begin);
         if (drawn.drawn) {
-            watch_.presented(now, target.framebuffer, coded);
+            watch_.presented(now, display_, coded);
         }
         watch_.look(now, inputs_);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
-        result_.status.prop_known = situation.prop_known || !inputs_.tracker;
+        result_.status.prop_known = situation.prop_known;
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state(now);
         if (result_.rows.size() < rows_expected_) {
@@ -139,6 +140,7 @@ private:
         }
         if (inputs_.panel) {
             result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+            inputs_.panel->light(useful_buttons());
         }
         for (const PoseSample& sample : samples_) {
             if (head_is_followed_ || sample.station != head_station) {
@@ -146,11 +148,24 @@ private:
             }
         }
         for (const PanelEvent& event : events_) {
+            if (event.kind == PressKind::Chord) {
+                renew_status(now);
+                show_.chord(now, result_.status);
+            }
             const std::optional<Wish> wish = wish_of(event.button);
             if (wish && event.kind == PressKind::Press) {
                 show_.wish(*wish, now);
             }
         }
+    }
+
+    /// The buttons that do something now, bit k = button k.
+    [[nodiscard]] std::uint32_t useful_buttons() const {
+        std::uint32_t buttons = 0;
+        for (int button = 0; const std::optional<Wish> wish = wish_of(button); ++button) {
+            buttons |= show_.heeds(*wish) ? 1U << static_cast<unsigned>(button) : 0U;
+        }
+        return buttons;
     }
 
     /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
@@ -172,6 +187,16 @@ private:
     }
 
     void post_status(MonotonicTime now) {
+        renew_status(now);
+        if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
+            result_.first_resident_mib = resident_mib();
+        }
+        watch_.note(result_.status);
+        show_.tell(result_.status);
+        status_file_.post(result_.status);
+    }
+
+    void renew_status(MonotonicTime now) {
         RunStatus& status = result_.status;
         const ShowState state = show_.state(now);
         status.artifact = state.artifact;
@@ -187,15 +212,10 @@ private:
         status.p95_ms = times_.quantile(0.95);
         status.p99_ms = times_.quantile(0.99);
         status.uptime_s = to_seconds(now - start_);
-        if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
-            result_.first_resident_mib = resident_mib();
-        }
         status.display = Sentence(display_.state());
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.recording = Sentence(inputs_.recorder ? inputs_.recorder->state() : std::string_view{});
-        watch_.note(status);
-        status_file_.post(status);
     }
 
     [[nodiscard]] bool told_to_stop() const { return options_.stop != nullptr && options_.stop->received(); }

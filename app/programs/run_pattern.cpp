@@ -20,6 +20,13 @@ Result<std::unique_ptr<PatternShow>> PatternShow::create(const Settings& setting
                                                         PictureUpload(pinhole.width, pinhole.height)));
 }
 
+void PatternShow::set_lines(std::vector<std::string> lines) {
+    if (lines != lines_) {
+        lines_ = std::move(lines);
+        shown_.reset();
+    }
+}
+
 DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const RenderTarget& target,
                              Redraw redraw) {
     const glm::dmat4 pose = situation.table_from_prop.matrix();
@@ -32,7 +39,8 @@ DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const Re
         return {true, {}, whole, 0};
     }
     shown_ = pose;
-    upload_.show(with_prop(table_, scene_, situation.table_from_prop, typesetter_), target.framebuffer);
+    const Image8 picture = with_prop(table_, scene_, situation.table_from_prop, typesetter_);
+    upload_.show(lines_.empty() ? picture : with_lines(picture, lines_, typesetter_), target.framebuffer);
     return {true, whole, whole, 1};
 }
 

@@ -11,6 +11,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -19,6 +21,8 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
     void wish(Wish, MonotonicTime) override {}
+    /// Written into the pattern, below what it says itself.
+    void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
                                   Redraw redraw) override;
     [[nodiscard]] ShowState state(MonotonicTime) const override { return {}; }
@@ -30,6 +34,7 @@ private:
     Typesetter typesetter_;
     PictureUpload upload_;
     Image8 table_;
+    std::vector<std::string> lines_;
     std::optional<glm::dmat4> shown_; ///< the prop's pose in the picture on show
 };
 

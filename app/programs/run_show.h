@@ -5,6 +5,7 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/programs/run_levels.h"
+#include "app/programs/run_report.h"
 #include "app/render/renderer.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
@@ -25,6 +26,12 @@ class Show {
 public:
     virtual ~Show() = default;
     virtual void wish(Wish wish, MonotonicTime now) = 0;
+    /// The staff's chord was held.
+    virtual void chord(MonotonicTime /*now*/, const RunStatus& /*status*/) {}
+    /// Once a second, how the run is.
+    virtual void tell(const RunStatus& /*status*/) {}
+    /// Such a wish changes something.
+    [[nodiscard]] virtual bool heeds(Wish /*wish*/) const { return false; }
     /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& situation,
                                           const RenderTarget& target, Redraw redraw) = 0;

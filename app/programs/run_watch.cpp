@@ -17,6 +17,11 @@ template <typename... Values> Sentence sentence(fmt::format_string<Values...> fo
     return Sentence({text.data(), static_cast<std::size_t>(end - text.data())});
 }
 
+std::optional<std::uint8_t> code_shown(const Display& display) {
+    std::array<std::byte, 4 * probe_pixels> corner{};
+    return display.read_shown(corner) ? read_probe(corner) : read_probe(display.framebuffer());
+}
+
 } // namespace
 
 void RunWatch::begin(MonotonicTime now, bool simulated_time) {
@@ -25,7 +30,7 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time) {
     }
 }
 
-void RunWatch::presented(MonotonicTime now, unsigned framebuffer, bool has_code) {
+void RunWatch::presented(MonotonicTime now, const Display& display, bool has_code) {
     if (!ready_) {
         ready_ = true;
         manager_.ready();
@@ -35,7 +40,7 @@ void RunWatch::presented(MonotonicTime now, unsigned framebuffer, bool has_code)
     }
     watchdog_->presented(now);
     if (watchdog_->wants_code(now)) {
-        watchdog_->read_back(now, {!has_code, has_code ? read_probe(framebuffer) : std::nullopt});
+        watchdog_->read_back(now, {!has_code, has_code ? code_shown(display) : std::nullopt});
     }
 }
 
@@ -84,8 +89,8 @@ void RunWatch::note(const RunStatus& status) {
     note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
-    manager_.status(
-        sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(), comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+    manager_.status(sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
+                             comma(tracker_), panel_.view(), comma(panel_), shows.view()));
 }
 
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {

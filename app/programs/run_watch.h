@@ -22,8 +22,9 @@ public:
 
     /// The loop begins.
     void begin(MonotonicTime now, bool simulated_time);
-    /// The framebuffer's picture was presented; `has_code`: a code was written into it.
-    void presented(MonotonicTime now, unsigned framebuffer, bool has_code);
+    /// A picture was presented; `has_code`: a code was written into it. What is looked at is what the
+    /// projector shows, where it can be read, else the display's framebuffer.
+    void presented(MonotonicTime now, const Display& display, bool has_code);
     /// In every frame.
     void look(MonotonicTime now, const Inputs& inputs);
     /// Once a second.

@@ -2,8 +2,7 @@
 /// them.
 ///
 /// Files    DIR/frame_00000.png ..., the k-th belongs to the k-th pose of station 1 in DIR/poses.csv (or
-/// another
-///          pose file); DIR/frames.csv may be missing.
+///          another pose file); DIR/frames.csv may be missing.
 /// Errors   one line: file, line, what is wrong.
 #pragma once
 

@@ -1,5 +1,7 @@
 #include "app/programs/sheet_table.h"
 
+#include "firmware_host/base/xml_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,26 +32,6 @@ std::array<std::string, 8> cells(const TableLine& line) {
             fmt::format("{:.2f}", line.p99_ms),
             line.median_ms > 0.0 ? fmt::format("{:.2f}", line.p99_ms / line.median_ms) : "",
             fmt::format("{:.3f}", line.estimated_error_mm)};
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
 }
 
 } // namespace
@@ -98,8 +80,7 @@ std::string html_table(const std::vector<TableLine>& lines, const std::string& t
     std::string rows = "<tr><th>" + fmt::format("{}", fmt::join(headings, "</th><th>")) + "</th></tr>\n";
     for (const TableLine& line : lines) {
         std::array<std::string, 8> row = cells(line);
-        std::transform(row.begin(), row.end(), row.begin(),
-                       [](const std::string& cell) { return escaped(cell); });
+        std::transform(row.begin(), row.end(), row.begin(), xml_text);
         rows += fmt::format("<tr><td>{}</td></tr>\n", fmt::join(row, "</td><td>"));
     }
     return fmt::format(
@@ -112,7 +93,7 @@ std::string html_table(const std::vector<TableLine>& lines, const std::string& t
         "<p>Times from the tracker\u2019s poll to the finished picture; the error is the level\u2019s "
         "measured mean distance from the source\u2019s surface on the configured prop.</p>\n"
         "</body></html>\n",
-        escaped(title), rows);
+        xml_text(title), rows);
 }
 
 } // namespace frustumscreen

@@ -5,6 +5,7 @@
 #include "firmware_host/display/kms_display.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/button_panel.h"
+#include "firmware_host/panel/key_lines.h"
 #include "firmware_host/panel/scripted_panel.h"
 #include "firmware_host/tracker/hidapi_transport.h"
 #include "firmware_host/tracker/joined_bus.h"
@@ -85,36 +86,40 @@ Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, Monotoni
     return std::make_unique<SimulatedTracker>(visitor, start);
 }
 
-std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
-    LineRequest request{panel.chip, panel.lines, LineBias::AsIs, panel.active_low};
-    switch (panel.bias) {
-    case ButtonBias::AsIs:
-        break;
-    case ButtonBias::PullUp:
-        request.bias = LineBias::PullUp;
-        break;
-    case ButtonBias::PullDown:
-        request.bias = LineBias::PullDown;
-        break;
-    case ButtonBias::Disabled:
-        request.bias = LineBias::Disabled;
-        break;
-    }
+ButtonTimes times_of(const PanelSettings& panel) {
     ButtonTimes times;
     times.debounce = nanoseconds(1e-3 * panel.debounce_ms);
     times.stuck = nanoseconds(panel.stuck_s);
-    return std::make_unique<ButtonPanel>([request] { return open_gpio_lines(request); }, panel.lines.size(),
-                                         times);
+    return times;
 }
 
-std::unique_ptr<Panel> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
-                                  MonotonicTime start) {
+Result<std::unique_ptr<Panel>> make_keys(const PanelSettings& panel) {
+    const Result<std::vector<std::uint16_t>> codes = key_codes(panel.keys);
+    if (!codes) {
+        return tl::unexpected<Error>(codes.error());
+    }
+    const KeyRequest request{panel.device, *codes};
+    return std::make_unique<ButtonPanel>([request] { return open_key_lines(request); }, panel.keys.size(),
+                                         times_of(panel));
+}
+
+std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
+    const LineRequest request{panel.chip, panel.lines, panel.bias, panel.active_low, panel.lamps};
+    return std::make_unique<ButtonPanel>([request] { return open_gpio_lines(request); }, panel.lines.size(),
+                                         times_of(panel));
+}
+
+Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
+                                          MonotonicTime start) {
     if (press_every) {
         return std::make_unique<ScriptedPanel>(
             std::vector<PanelPress>{{*press_every / 2, next_artifact_button}}, *press_every, start);
     }
     if (settings.panel.kind == PanelKind::Gpio) {
         return make_buttons(settings.panel);
+    }
+    if (settings.panel.kind == PanelKind::Keys) {
+        return make_keys(settings.panel);
     }
     std::vector<PanelPress> script;
     for (const ScriptedPress& press : settings.panel.script) {
@@ -178,7 +183,11 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
         inputs.tracker = std::move(*tracker);
     }
     if (plan.panel) {
-        inputs.panel = make_panel(settings, press_every, start);
+        Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);
+        if (!panel) {
+            return tl::unexpected<Error>(panel.error());
+        }
+        inputs.panel = std::move(*panel);
     }
     return inputs;
 }

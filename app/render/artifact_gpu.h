@@ -1,9 +1,8 @@
 /// One level of a pack in the GPU's memory: vertices and colour. Its triangles come with each plan.
 ///
 /// Colour   the texture gives sRGB codes as they are stored; its mip levels are averaged in linear light,
-/// here
-///          and not by the driver: the same everywhere, and the finest need not go to the GPU to make the
-///          rest.
+///          here and not by the driver: the same everywhere, and the finest need not go to the GPU to make
+///          the rest.
 /// Threads  the render thread.
 /// Errors   the driver has no memory, or the texture is larger than it allows.
 #pragma once

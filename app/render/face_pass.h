@@ -8,8 +8,7 @@
 /// scissor to each face's bounds, and leaves stencil test, depth test and culling off.
 ///
 /// Colour   sRGB codes in and out: the framebuffer must take them as they are (GL_FRAMEBUFFER_SRGB_EXT off).
-/// Decoding
-///          and encoding every sample costs a software GPU more than the rest of it.
+///          Decoding and encoding every sample costs a software GPU more than the rest of it.
 /// Threads  the render thread; allocates nothing in `draw`.
 #pragma once
 

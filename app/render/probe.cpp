@@ -3,7 +3,6 @@
 #include <GLES3/gl31.h>
 
 #include <array>
-#include <span>
 
 namespace frustumscreen {
 
@@ -23,14 +22,15 @@ bool bit(std::uint8_t code, int k) {
     return ((code >> static_cast<unsigned>(k)) & 1U) != 0;
 }
 
-std::optional<std::uint8_t> code_in(std::span<const glm::u8vec4, probe_pixels> corner) {
+/// `pixel(k)`: the corner's k-th.
+template <typename Pixel> std::optional<std::uint8_t> code_in(const Pixel& pixel) {
     unsigned code = 0;
-    for (unsigned k = 0; k < probe_pixels; ++k) {
-        const glm::u8vec4& pixel = corner[k];
-        if (pixel.r != pixel.g || pixel.g != pixel.b || (pixel.r != greys[0] && pixel.r != greys[1])) {
+    for (int k = 0; k < probe_pixels; ++k) {
+        const glm::u8vec4 p = pixel(k);
+        if (p.r != p.g || p.g != p.b || (p.r != greys[0] && p.r != greys[1])) {
             return std::nullopt;
         }
-        code |= (pixel.r == greys[1] ? 1U : 0U) << k;
+        code |= (p.r == greys[1] ? 1U : 0U) << static_cast<unsigned>(k);
     }
     return static_cast<std::uint8_t>(code);
 }
@@ -58,15 +58,24 @@ std::optional<std::uint8_t> read_probe(const Image8& picture) {
     if (picture.width < probe_pixels || picture.height < 1) {
         return std::nullopt;
     }
-    return code_in(std::span(picture.texels).first<probe_pixels>());
+    return code_in([&picture](int k) { return picture.at(k, 0); });
+}
+
+std::optional<std::uint8_t> read_probe(std::span<const std::byte, 4 * probe_pixels> corner) {
+    return code_in([corner](int k) {
+        const auto at = [&](int channel) {
+            return static_cast<std::uint8_t>(corner[static_cast<std::size_t>(4 * k + channel)]);
+        };
+        return glm::u8vec4(at(0), at(1), at(2), at(3));
+    });
 }
 
 std::optional<std::uint8_t> read_probe(unsigned framebuffer) {
-    std::array<glm::u8vec4, probe_pixels> corner{};
+    std::array<std::byte, 4 * probe_pixels> corner{};
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, probe_pixels, 1, GL_RGBA, GL_UNSIGNED_BYTE, corner.data());
-    return code_in(corner);
+    return read_probe(corner);
 }
 
 void erase_probe(Image8& picture) {

@@ -14,8 +14,10 @@
 #include "app/image/image.h"
 #include "app/scene/frame_plan.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace frustumscreen {
 
@@ -27,6 +29,8 @@ bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& 
 
 /// The code in a picture's corner; nothing if there is none.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(const Image8& picture);
+/// The same of the corner's pixels alone, RGBA codes.
+[[nodiscard]] std::optional<std::uint8_t> read_probe(std::span<const std::byte, 4 * probe_pixels> corner);
 /// The same of a framebuffer, once everything in it is drawn: waits for the GPU, so not for every frame.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(unsigned framebuffer);
 

@@ -247,10 +247,10 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
 
 DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
     const std::vector<ScriptedPress>& script = settings.panel.script;
-    const bool gpio = settings.panel.kind == PanelKind::Gpio;
+    const bool real = settings.panel.kind != PanelKind::Scripted;
     const auto presses = [&](int button) {
-        if (gpio) {
-            return static_cast<std::size_t>(button) < settings.panel.lines.size();
+        if (real) {
+            return static_cast<std::size_t>(button) < settings.panel.buttons();
         }
         return std::any_of(script.begin(), script.end(),
                            [button](const ScriptedPress& press) { return press.button == button; });
@@ -258,11 +258,14 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
-    plan.panel = pressed || gpio || !script.empty();
+    plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || std::any_of(artifact_buttons.begin(), artifact_buttons.end(), presses);
     plan.language = !pressed && presses(language_button);
     plan.threads = {"the exhibit"};
-    if (gpio && !pressed) {
+    if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
+        plan.threads.emplace_back("the tracker's reader");
+    }
+    if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");
     }
     if (status_file) {

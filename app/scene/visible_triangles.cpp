@@ -56,6 +56,21 @@ bool misses(const Crossed& crossed, const LevelTriangles& level, std::span<const
 
 } // namespace
 
+void find_planes(LevelTriangles& level) {
+    for (std::size_t first = 0; first + 2 < level.indices.size(); first += 3) {
+        const glm::dvec3 a(level.positions[level.indices[first]]);
+        const glm::dvec3 b(level.positions[level.indices[first + 1]]);
+        const glm::dvec3 c(level.positions[level.indices[first + 2]]);
+        const glm::dvec3 area_normal = glm::cross(b - a, c - a);
+        const double length = glm::length(area_normal);
+        const glm::dvec3 normal = length > 0.0 ? area_normal / length : glm::dvec3(0.0);
+        level.normal_x.push_back(static_cast<float>(normal.x));
+        level.normal_y.push_back(static_cast<float>(normal.y));
+        level.normal_z.push_back(static_cast<float>(normal.z));
+        level.distance.push_back(static_cast<float>(glm::dot(normal, a)));
+    }
+}
+
 LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) {
     LevelTriangles result;
     result.clusters = level.clusters;
@@ -66,18 +81,7 @@ LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) 
             glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0;
         result.positions.emplace_back(low + unit * box_size);
     }
-    for (std::size_t first = 0; first + 2 < level.indices.size(); first += 3) {
-        const glm::dvec3 a(result.positions[level.indices[first]]);
-        const glm::dvec3 b(result.positions[level.indices[first + 1]]);
-        const glm::dvec3 c(result.positions[level.indices[first + 2]]);
-        const glm::dvec3 area_normal = glm::cross(b - a, c - a);
-        const double length = glm::length(area_normal);
-        const glm::dvec3 normal = length > 0.0 ? area_normal / length : glm::dvec3(0.0);
-        result.normal_x.push_back(static_cast<float>(normal.x));
-        result.normal_y.push_back(static_cast<float>(normal.y));
-        result.normal_z.push_back(static_cast<float>(normal.z));
-        result.distance.push_back(static_cast<float>(glm::dot(normal, a)));
-    }
+    find_planes(result);
     for (const PackCluster& cluster : result.clusters) {
         LevelTriangles::Extent extent{glm::vec3(std::numeric_limits<float>::infinity()),
                                       glm::vec3(-std::numeric_limits<float>::infinity())};

@@ -34,6 +34,8 @@ struct LevelTriangles {
     /// everywhere.
     std::vector<float> normal_x, normal_y, normal_z, distance;
 };
+/// The planes, from indices and positions.
+void find_planes(LevelTriangles& level);
 [[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
 
 /// What one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the picture's four

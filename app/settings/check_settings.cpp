@@ -95,6 +95,14 @@ void check_devices(const Settings& settings, Fitness& fitness) {
         settings.panel.kind != PanelKind::Gpio || !settings.panel.lines.empty(), "panel.kind",
         "is \"gpio\"; it needs panel.lines, the names or offsets of the buttons' lines: previous, "
         "next, language");
+    fitness.require(settings.panel.kind != PanelKind::Keys ||
+                        (!settings.panel.device.empty() && !settings.panel.keys.empty()),
+                    "panel.kind",
+                    "is \"keys\"; it needs panel.device, a path or name of a keyboard in /dev/input, and "
+                    "panel.keys, such as [\"KEY_LEFT\", \"KEY_RIGHT\", \"KEY_L\"]: previous, next, language");
+    fitness.require(settings.panel.lamps.size() <= settings.panel.lines.size(), "panel.lamps",
+                    fmt::format("names {} lamps; allowed is one for each of the {} lines of panel.lines",
+                                settings.panel.lamps.size(), settings.panel.lines.size()));
     const auto& script = settings.panel.script;
     fitness.require(
         std::is_sorted(script.begin(), script.end(),

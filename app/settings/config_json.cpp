@@ -89,6 +89,9 @@ Json panel_json(const PanelSettings& panel) {
             {"lines", panel.lines},
             {"bias", std::string(name_of(panel.bias))},
             {"active_low", panel.active_low},
+            {"lamps", panel.lamps},
+            {"device", panel.device},
+            {"keys", panel.keys},
             {"debounce_ms", panel.debounce_ms},
             {"stuck_s", panel.stuck_s}};
 }

@@ -20,8 +20,8 @@ constexpr std::size_t most_packs = 256;
 constexpr std::size_t most_presses = 1000;
 constexpr double longest_script_s = 86400.0;
 
-/// By PanelKind and ButtonBias.
-constexpr std::array<std::string_view, 2> panel_names{"scripted", "gpio"};
+/// By PanelKind and LineBias.
+constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 constexpr std::size_t most_buttons = 3;
 constexpr double shortest_direction = 1e-3;
@@ -204,10 +204,13 @@ void read_panel(TableReader table, PanelSettings& panel) {
     panel.kind = static_cast<PanelKind>(kind);
     int bias = static_cast<int>(panel.bias);
     table.choice("bias", bias, bias_names);
-    panel.bias = static_cast<ButtonBias>(bias);
+    panel.bias = static_cast<LineBias>(bias);
     table.text("chip", panel.chip);
     table.texts("lines", panel.lines, most_buttons);
     table.flag("active_low", panel.active_low);
+    table.texts("lamps", panel.lamps, most_buttons);
+    table.text("device", panel.device);
+    table.texts("keys", panel.keys, most_buttons);
     table.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"});
     table.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"});
     for (TableReader& press : table.tables("script", most_presses)) {
@@ -285,7 +288,7 @@ std::string_view name_of(PanelKind kind) {
     return panel_names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(ButtonBias bias) {
+std::string_view name_of(LineBias bias) {
     return bias_names[static_cast<std::size_t>(bias)];
 }
 

@@ -13,6 +13,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/settings/display_mode.h"
+#include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
@@ -78,21 +79,27 @@ struct ScriptedPress {
     double at_s = 0.0;
     int button = 1;
 };
-/// Gpio: real buttons on a GPIO chip.
-enum class PanelKind { Scripted, Gpio };
+/// Gpio: real buttons on a GPIO chip. Keys: keys of a keyboard, for a bench.
+enum class PanelKind { Scripted, Gpio, Keys };
 [[nodiscard]] std::string_view name_of(PanelKind kind);
-/// What holds a line while its button is up.
-enum class ButtonBias { AsIs, PullUp, PullDown, Disabled };
-[[nodiscard]] std::string_view name_of(ButtonBias bias);
+[[nodiscard]] std::string_view name_of(LineBias bias);
 struct PanelSettings {
     PanelKind kind = PanelKind::Scripted;
     std::vector<ScriptedPress> script;
     double repeat_s = 0.0;                     ///< the script starts again after this long; 0 = once
     std::string chip = "gpiochip0";            ///< gpio: path, name, label or number
     std::vector<std::string> lines;            ///< gpio: names or offsets of buttons 0, 1, 2
-    ButtonBias bias = ButtonBias::PullUp;      ///< gpio
+    LineBias bias = LineBias::PullUp;          ///< gpio
     bool active_low = true;                    ///< gpio: a pressed button pulls its line to ground
-    double debounce_ms = 30.0, stuck_s = 30.0; ///< gpio
+    std::vector<std::string> lamps;            ///< gpio: as `lines`, in the buttons' order; may be fewer
+    std::string device;                        ///< keys: path or name of the keyboard's event device
+    std::vector<std::string> keys;             ///< keys: KEY_... of buttons 0, 1, 2
+    double debounce_ms = 30.0, stuck_s = 30.0; ///< gpio, keys
+
+    /// How many real buttons there are.
+    [[nodiscard]] std::size_t buttons() const {
+        return kind == PanelKind::Gpio ? lines.size() : kind == PanelKind::Keys ? keys.size() : 0;
+    }
 };
 
 struct ExhibitSettings {

@@ -1,8 +1,7 @@
 /// Reads one TOML table key by key: every key that is asked for is consumed, what is left over is refused.
 ///
 /// Errors   the first one of a file is kept in `ReadState`, as one line: file, line, key, what was found,
-/// what
-///          is allowed. After it every call leaves its value alone, so callers read on without asking.
+///          what is allowed. After it every call leaves its value alone, so callers read on without asking.
 /// Threads  one caller.
 #pragma once
 

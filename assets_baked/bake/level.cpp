@@ -1,5 +1,6 @@
 #include "assets_baked/bake/level.h"
 
+#include "assets_baked/bake/clusters.h"
 #include "firmware_host/base/parallel.h"
 
 #include <meshoptimizer.h>
@@ -27,48 +28,13 @@ glm::vec3 position_of(const PackVertex& vertex, const glm::dvec3& box_size) {
     return box_low(box_size) + unit / code_max * glm::vec3(box_size);
 }
 
-/// Triangles in clusters, each in vertex-cache order, with what culls them.
-void cluster(PackLevel& level, const glm::dvec3& box_size) {
-    // Compact rather than flat: the kiosk looks at each triangle's side itself.
-    constexpr std::size_t most_vertices = 96;
-    constexpr std::size_t most_triangles = 64;
-    constexpr float cone_weight = 0.0F;
+std::vector<glm::vec3> positions_of(const PackLevel& level, const glm::dvec3& box_size) {
     std::vector<glm::vec3> positions;
     positions.reserve(level.vertices.size());
     for (const PackVertex& vertex : level.vertices) {
         positions.push_back(position_of(vertex, box_size));
     }
-    std::vector<std::uint32_t> ordered(level.indices.size());
-    meshopt_optimizeVertexCache(ordered.data(), level.indices.data(), level.indices.size(), positions.size());
-    std::vector<meshopt_Meshlet> meshlets(
-        meshopt_buildMeshletsBound(ordered.size(), most_vertices, most_triangles));
-    std::vector<std::uint32_t> meshlet_vertices(meshlets.size() * most_vertices);
-    std::vector<unsigned char> meshlet_triangles(meshlets.size() * most_triangles * 3);
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshlet_vertices.data(), meshlet_triangles.data(),
-                                          ordered.data(), ordered.size(), &positions[0].x, positions.size(),
-                                          sizeof(glm::vec3), most_vertices, most_triangles, cone_weight));
-    level.indices.clear();
-    for (const meshopt_Meshlet& meshlet : meshlets) {
-        const meshopt_Bounds bounds = meshopt_computeMeshletBounds(
-            &meshlet_vertices[meshlet.vertex_offset], &meshlet_triangles[meshlet.triangle_offset],
-            meshlet.triangle_count, &positions[0].x, positions.size(), sizeof(glm::vec3));
-        PackCluster result;
-        result.first_index = static_cast<std::uint32_t>(level.indices.size());
-        result.index_count = meshlet.triangle_count * 3;
-        result.centre = {bounds.center[0], bounds.center[1], bounds.center[2]};
-        result.radius = bounds.radius * 1.0001F + 1e-6F;
-        if (bounds.cone_cutoff < 1.0F) {
-            result.cone_apex = {bounds.cone_apex[0], bounds.cone_apex[1], bounds.cone_apex[2]};
-            result.cone_axis = {bounds.cone_axis[0], bounds.cone_axis[1], bounds.cone_axis[2]};
-            result.cone_cutoff =
-                bounds.cone_cutoff + 1e-4F; // 32-bit rounding must not cull an edge-on triangle
-        }
-        for (std::size_t k = 0; k < result.index_count; ++k) {
-            const unsigned char local = meshlet_triangles[meshlet.triangle_offset + k];
-            level.indices.push_back(meshlet_vertices[meshlet.vertex_offset + local]);
-        }
-        level.clusters.push_back(result);
-    }
+    return positions;
 }
 
 void order_vertices(PackLevel& level) {
@@ -146,17 +112,14 @@ PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size, LevelT
         level.vertices.push_back(vertex);
     }
     level.indices = mesh.indices;
-    cluster(level, box_size);
+    level.clusters = cut_into_clusters(level.indices, positions_of(level, box_size));
     order_vertices(level);
     return level;
 }
 
 TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size) {
     TriangleMesh mesh;
-    mesh.positions.reserve(level.vertices.size());
-    for (const PackVertex& vertex : level.vertices) {
-        mesh.positions.push_back(position_of(vertex, box_size));
-    }
+    mesh.positions = positions_of(level, box_size);
     mesh.indices = level.indices;
     return mesh;
 }

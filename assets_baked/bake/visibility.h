@@ -3,8 +3,7 @@
 /// Frame    box; the eyes are those of the viewing zone, all the way round (the prop can be turned), from
 ///          `lowest_elevation_deg` up to straight above.
 /// Method   sample points on each triangle look for one eye of the zone that sees them; what is found is
-/// grown by the
-///          triangles that share a vertex, so that no picture meets an edge of the kept surface.
+///          grown by the triangles that share a vertex, so that no picture meets an edge of the kept surface.
 /// Threads  uses all cores; deterministic.
 #pragma once
 

@@ -6,6 +6,8 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,6 +30,9 @@ public:
     [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return now + period;
     }
+    /// The first pixels of the top row as the projector shows them now, RGBA codes. False: nothing is shown,
+    /// or not pixel for pixel; then the framebuffer has what was presented.
+    [[nodiscard]] virtual bool read_shown(std::span<std::byte> /*rgba*/) const { return false; }
     [[nodiscard]] virtual std::string name() const = 0;
     /// How the device is, in one plain sentence; empty: there is nothing that could fail. Good until the next
     /// call.

@@ -48,6 +48,7 @@ public:
     [[nodiscard]] const char* make();
     [[nodiscard]] PixelSize size() const override { return size_; }
     [[nodiscard]] FramebufferId fill(int which) override;
+    [[nodiscard]] bool read(int which, std::span<std::byte> rgba) const override;
 
 private:
     struct Buffer {
@@ -154,6 +155,17 @@ FramebufferId GbmScanoutPair::fill(int which) {
         glFinish();
     }
     return buffer.shown;
+}
+
+bool GbmScanoutPair::read(int which, std::span<std::byte> rgba) const {
+    const Copying copying(screen_.copying_, screen_.context_);
+    if (!copying.current()) {
+        return false;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, buffers_.at(static_cast<std::size_t>(which)).framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, static_cast<GLsizei>(rgba.size() / 4), 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    return true;
 }
 
 Result<std::unique_ptr<GbmScreen>> GbmScreen::create(int card, PixelSize picture_size) {

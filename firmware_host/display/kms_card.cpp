@@ -12,7 +12,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 
 extern "C" {
@@ -84,29 +83,23 @@ Result<KmsCard> KmsCard::open(std::string_view name) {
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
-    std::optional<KmsCard> first;
-    Error why{ErrorKind::DeviceLost,
-              fmt::format("display: no graphics card in {}; a driver is missing", folder)};
+    Result<KmsCard> best = fail(ErrorKind::DeviceLost,
+                                fmt::format("display: no graphics card in {}; a driver is missing", folder));
     for (const std::string& path : card_paths()) {
         Result<KmsCard> card = open_path(path);
-        if (!card) {
-            why = card.error();
-            continue;
+        if (card) {
+            card->wanted_.clear();
+            const std::vector<ConnectorSeen> seen = card->look(false).connectors;
+            if (std::any_of(seen.begin(), seen.end(),
+                            [](const ConnectorSeen& one) { return one.plugged == Plugged::Yes; })) {
+                return card;
+            }
         }
-        const std::vector<ConnectorSeen> connectors = card->look(false).connectors;
-        const bool used = std::any_of(connectors.begin(), connectors.end(),
-                                      [](const ConnectorSeen& seen) { return seen.plugged == Plugged::Yes; });
-        if (used) {
-            return card;
-        }
-        if (!first) {
-            first = std::move(*card);
+        if (!best) {
+            best = std::move(card); // or the reason why there is none
         }
     }
-    if (first) {
-        return std::move(*first);
-    }
-    return tl::unexpected<Error>(why);
+    return best;
 }
 
 Result<KmsCard> KmsCard::open_path(const std::string& path) {
@@ -138,11 +131,13 @@ KmsCard::~KmsCard() {
 }
 
 KmsCard::KmsCard(KmsCard&& other) noexcept
-    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)) {}
+    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)),
+      wanted_(std::move(other.wanted_)) {}
 
 KmsCard& KmsCard::operator=(KmsCard&& other) noexcept {
     std::swap(file_, other.file_);
     std::swap(path_, other.path_);
+    std::swap(wanted_, other.wanted_);
     return *this;
 }
 
@@ -177,9 +172,9 @@ CardSeen KmsCard::look(bool thoroughly) const {
     return seen;
 }
 
-/// Of a card that does not answer: another one may be at its place.
+/// Of a card that does not answer: it, or another one, may be there anew.
 CardState KmsCard::state() const {
-    return open_path(path_) ? CardState::Back : CardState::Gone;
+    return open(wanted_) ? CardState::Back : CardState::Gone;
 }
 
 } // namespace frustumscreen

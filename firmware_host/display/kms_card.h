@@ -30,12 +30,13 @@ public:
     [[nodiscard]] CardSeen look(bool thoroughly) const;
 
 private:
-    KmsCard(int file, std::string path) : file_(file), path_(std::move(path)) {}
+    KmsCard(int file, std::string path) : file_(file), path_(path), wanted_(std::move(path)) {}
     [[nodiscard]] static Result<KmsCard> open_path(const std::string& path);
     [[nodiscard]] CardState state() const;
 
     int file_ = -1;
     std::string path_;
+    std::string wanted_; ///< as asked for
 };
 
 } // namespace frustumscreen

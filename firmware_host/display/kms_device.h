@@ -8,10 +8,12 @@
 #include "firmware_host/display/kms_mode.h"
 #include "firmware_host/display/letterbox.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace frustumscreen {
 
@@ -58,6 +60,8 @@ public:
     [[nodiscard]] virtual PixelSize size() const = 0;
     /// Copies the picture into framebuffer 0 or 1; done when it returns.
     [[nodiscard]] virtual FramebufferId fill(int which) = 0;
+    /// The first pixels of its top row, RGBA codes; false: they cannot be read.
+    [[nodiscard]] virtual bool read(int /*which*/, std::span<std::byte> /*rgba*/) const { return false; }
 };
 using MakeScanout = std::function<Result<std::unique_ptr<ScanoutPair>>(PixelSize size)>;
 

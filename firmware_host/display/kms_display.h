@@ -38,6 +38,9 @@ public:
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
         return presenter_.next_frame(now, period);
     }
+    [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const override {
+        return presenter_.read_shown(rgba);
+    }
     [[nodiscard]] std::string name() const override { return card_.path() + ", " + gl_driver_name(); }
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 

@@ -27,6 +27,7 @@ Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wis
 void Presenter::connected(CardSeen seen) {
     seen_ = std::move(seen);
     try_again_.reset();
+    unfit_.clear();
     if (seen_.state != CardState::There) {
         lose("the graphics card is gone; the exhibit goes on in the dark");
     } else if (lit_ && !still_right()) {
@@ -68,6 +69,12 @@ Result<MonotonicTime> Presenter::present(bool may_set) {
 }
 
 /// Once for each flip: a card that hangs must not hold up every frame.
+bool Presenter::read_shown(std::span<std::byte> rgba) const {
+    const bool exact =
+        lit_ && scanout_ && scanout_->size() == PixelSize{wish_.picture_width, wish_.picture_height};
+    return exact && scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
+}
+
 void Presenter::wait_for_flip() {
     if (!queued_) {
         return;
@@ -148,10 +155,12 @@ void Presenter::light() {
     }
     master_ = true;
     for (const ModeTiming& mode : modes_to_try(*connector, wish_)) {
-        if (light(*connector, mode)) {
+        const bool unfit = std::find(unfit_.begin(), unfit_.end(), mode) != unfit_.end();
+        if (!unfit && light(*connector, mode)) {
             return;
         }
     }
+    unfit_.clear();
     state_ =
         sentence("the graphics card takes no mode of the projector at {}; the exhibit goes on in the dark",
                  connector->name);
@@ -166,7 +175,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     if (answer == KmsAnswer::Done) {
         const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
                             (wish_.force && mode == modes_to_try(connector, wish_).front());
-        lit_ = Lit{connector.id, connector.name, mode, wished};
+        lit_ = Lit{connector.id, connector.name, mode, wished, false};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         say_lit();
@@ -183,9 +192,13 @@ void Presenter::flip() {
     const KmsAnswer answer = device_.flip(scanout_->fill(free_), ++ticket_);
     if (answer == KmsAnswer::Done) {
         queued_ = Queued{device_.now(), ticket_, free_};
-    } else {
-        went_wrong(answer);
+        lit_->flips = true;
+        return;
     }
+    if (answer == KmsAnswer::Refused && !lit_->flips) {
+        unfit_.push_back(lit_->mode);
+    }
+    went_wrong(answer);
 }
 
 bool Presenter::make_scanout(PixelSize size) {
@@ -212,6 +225,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Refused:
         lose("the graphics card refused a picture; the projector will be lit anew");
+        try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:
         lose("another program holds the screen; the exhibit goes on in the dark until it lets go");

@@ -12,6 +12,7 @@
 #include "firmware_host/display/kms_device.h"
 
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -33,6 +34,9 @@ public:
     [[nodiscard]] Result<MonotonicTime> present(bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
+    /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
+    /// false: none is lit, or with a picture scaled.
+    [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
     [[nodiscard]] std::string_view state() const { return state_.view(); }
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return clock_.next_frame(now, period);
@@ -44,6 +48,7 @@ private:
         std::string name;
         ModeTiming mode;
         bool wished = true; ///< it is the mode that the settings ask for
+        bool flips = false; ///< it has shown more than its first picture
     };
     struct Queued {
         MonotonicTime at;
@@ -76,6 +81,7 @@ private:
     std::optional<Queued> queued_;
     FlipClock clock_;
     std::optional<MonotonicTime> try_again_; ///< not before
+    std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown
     bool late_ = false; ///< the flip queued was waited for in vain

@@ -4,10 +4,10 @@
 /// Errors   DeviceLost: the chip is gone, or not there yet; its message is a sentence for a technician.
 #pragma once
 
+#include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -23,16 +23,16 @@ public:
     [[nodiscard]] virtual Result<void> read(std::span<bool> down) = 0;
     /// Until a level changes, but no longer than `timeout`.
     [[nodiscard]] virtual Result<void> wait(Nanoseconds timeout) = 0;
+    /// True = lit, one each button; buttons without a lamp do not mind.
+    [[nodiscard]] virtual Result<void> light(std::span<const bool> /*lit*/) { return {}; }
 };
-
-enum class LineBias : std::uint8_t { AsIs, PullUp, PullDown, Disabled };
-[[nodiscard]] std::string_view name_of(LineBias bias);
 
 struct LineRequest {
     std::string chip;               ///< path, name, label or number
     std::vector<std::string> lines; ///< names, or offsets in digits; one each button
     LineBias bias = LineBias::PullUp;
-    bool active_low = true; ///< a pressed button pulls its line to ground
+    bool active_low = true;              ///< a pressed button pulls its line to ground
+    std::vector<std::string> lamps = {}; ///< as `lines`; in the order of the buttons, as many as there are
 };
 /// Through libgpiod 1.6, the version of Debian 12; 2.x is another file of the same function.
 [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request);

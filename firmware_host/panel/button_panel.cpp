@@ -13,6 +13,27 @@ constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop
 constexpr std::string_view all_well = "its buttons are there";
 constexpr std::string_view one_stuck = "a button is stuck and is ignored; free it or exchange it";
 
+/// What the lamps show; told to them when it changes.
+class Lamps {
+public:
+    explicit Lamps(std::size_t count) : count_(count), lit_(std::make_unique<bool[]>(count)) {}
+
+    /// Lit where the button is wished for and not broken.
+    [[nodiscard]] Result<void> follow(std::uint32_t wished, const Buttons& buttons, ButtonLines& lines) {
+        bool changed = false;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const bool lit = ((wished >> k) & 1U) != 0 && !buttons.stuck(k);
+            changed = changed || lit != lit_[k];
+            lit_[k] = lit;
+        }
+        return changed ? lines.light({lit_.get(), count_}) : Result<void>{};
+    }
+
+private:
+    std::size_t count_;
+    std::unique_ptr<bool[]> lit_; ///< dark at the beginning, as they are when they are opened
+};
+
 } // namespace
 
 ButtonPanel::ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes& times)
@@ -42,6 +63,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
     Buttons buttons(count_, times_);
     const auto down = std::make_unique<bool[]>(count_);
     const std::span<bool> levels(down.get(), count_);
+    Lamps lamps(count_);
     std::vector<PanelEvent> events;
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + longest_round);
@@ -55,13 +77,17 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
             mailbox_.put(events);
             said_.set(buttons.any_stuck() ? one_stuck : all_well);
         }
+        if (Result<void> lit = lamps.follow(wished_, buttons, lines); !lit) {
+            return lit.error();
+        }
         const std::optional<MonotonicTime> due = buttons.due();
         const Nanoseconds until_due = due ? std::max(Nanoseconds(*due - now), Nanoseconds(0)) : longest_wait;
         if (Result<void> waited = lines.wait(std::min(until_due, longest_wait)); !waited) {
             return waited.error();
         }
     }
-    return {ErrorKind::DeviceLost, {}};
+    const Result<void> dark = lamps.follow(0, buttons, lines);
+    return dark ? Error{ErrorKind::DeviceLost, {}} : dark.error();
 }
 
 } // namespace frustumscreen

@@ -13,6 +13,7 @@
 #include "firmware_host/panel/buttons.h"
 #include "firmware_host/panel/panel.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
@@ -32,6 +33,7 @@ public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
     [[nodiscard]] std::string name() const override { return "buttons"; }
     [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    void light(std::uint32_t buttons) override { wished_ = buttons; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
     }
@@ -46,7 +48,8 @@ private:
     ButtonTimes times_;
     Mailbox<PanelEvent, most_waiting> mailbox_;
     SharedSentence said_{"its buttons are not opened yet"};
-    Sentence state_; ///< the latest said that `poll` saw
+    Sentence state_;                       ///< the latest said that `poll` saw
+    std::atomic<std::uint32_t> wished_{0}; ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;

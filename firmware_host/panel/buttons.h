@@ -30,7 +30,8 @@ public:
     void sample(MonotonicTime now, std::span<const bool> down, std::vector<PanelEvent>& events);
     /// When something happens though no level changes; nothing = never.
     [[nodiscard]] std::optional<MonotonicTime> due() const;
-    /// Some button counts as broken.
+    /// The button counts as broken.
+    [[nodiscard]] bool stuck(std::size_t which) const { return buttons_[which].stuck; }
     [[nodiscard]] bool any_stuck() const;
 
 private:

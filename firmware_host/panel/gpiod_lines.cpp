@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -47,6 +46,21 @@ gpiod_line* find(gpiod_chip* chip, const std::string& line) {
                                                : ::gpiod_chip_find_line(chip, line.c_str());
 }
 
+Result<gpiod_line_bulk> find_all(gpiod_chip* chip, const std::vector<std::string>& names,
+                                 const std::string& chip_name) {
+    gpiod_line_bulk lines{};
+    ::gpiod_line_bulk_init(&lines);
+    for (const std::string& name : names) {
+        gpiod_line* const line = find(chip, name);
+        if (line == nullptr) {
+            return lost(fmt::format("GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
+                                    chip_name, name, ::gpiod_chip_num_lines(chip)));
+        }
+        ::gpiod_line_bulk_add(&lines, line);
+    }
+    return lines;
+}
+
 int flags_of(const LineRequest& request) {
     int flags = request.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
     switch (request.bias) {
@@ -64,8 +78,8 @@ int flags_of(const LineRequest& request) {
 
 class GpiodLines final : public ButtonLines {
 public:
-    GpiodLines(Chip chip, std::string name, const gpiod_line_bulk& lines)
-        : chip_(std::move(chip)), name_(std::move(name)), lines_(lines) {}
+    GpiodLines(Chip chip, std::string name, const gpiod_line_bulk& lines, const gpiod_line_bulk& lamps)
+        : chip_(std::move(chip)), name_(std::move(name)), lines_(lines), lamps_(lamps) {}
 
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
         for (std::size_t k = 0; k < down.size(); ++k) {
@@ -96,41 +110,48 @@ public:
         return {};
     }
 
+    [[nodiscard]] Result<void> light(std::span<const bool> lit) override {
+        std::array<int, GPIOD_LINE_BULK_MAX_LINES> levels{};
+        std::copy(lit.begin(), lit.end(), levels.begin());
+        if (lamps_.num_lines > 0 && ::gpiod_line_set_value_bulk(&lamps_, levels.data()) < 0) {
+            return lost(fmt::format("{}: its lamps: {}", name_, reason(errno)));
+        }
+        return {};
+    }
+
 private:
     Chip chip_;
     std::string name_;
     gpiod_line_bulk lines_;
+    gpiod_line_bulk lamps_;
 };
 
 } // namespace
-
-std::string_view name_of(LineBias bias) {
-    constexpr std::array<std::string_view, 4> names{"as-is", "pull-up", "pull-down", "disabled"};
-    return names.at(static_cast<std::size_t>(bias));
-}
 
 Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
     Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));
     if (!chip) {
         return lost(fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
     }
-    gpiod_line_bulk lines{};
-    ::gpiod_line_bulk_init(&lines);
-    for (const std::string& name : request.lines) {
-        gpiod_line* const line = find(chip.get(), name);
-        if (line == nullptr) {
-            return lost(fmt::format("GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
-                                    request.chip, name, ::gpiod_chip_num_lines(chip.get())));
-        }
-        ::gpiod_line_bulk_add(&lines, line);
+    const auto lines = find_all(chip.get(), request.lines, request.chip);
+    const auto lamps = find_all(chip.get(), request.lamps, request.chip);
+    if (!lines || !lamps) {
+        return tl::unexpected<Error>(!lines ? lines.error() : lamps.error());
     }
+    gpiod_line_bulk watched = *lines;
     const gpiod_line_request_config config{"frustumscreen", GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES,
                                            flags_of(request)};
-    if (::gpiod_line_request_bulk(&lines, &config, nullptr) < 0) {
+    if (::gpiod_line_request_bulk(&watched, &config, nullptr) < 0) {
         return lost(
             fmt::format("GPIO chip {}: its lines cannot be watched: {}", request.chip, reason(errno)));
     }
-    return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, lines);
+    gpiod_line_bulk lit = *lamps;
+    const gpiod_line_request_config output{"frustumscreen", GPIOD_LINE_REQUEST_DIRECTION_OUTPUT, 0};
+    const std::array<int, GPIOD_LINE_BULK_MAX_LINES> dark{};
+    if (lit.num_lines > 0 && ::gpiod_line_request_bulk(&lit, &output, dark.data()) < 0) {
+        return lost(fmt::format("GPIO chip {}: its lamps cannot be lit: {}", request.chip, reason(errno)));
+    }
+    return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, watched, lit);
 }
 
 } // namespace frustumscreen

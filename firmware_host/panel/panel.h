@@ -35,6 +35,8 @@ public:
     /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing
     /// that could fail.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// The buttons that do something, bit k = button k: their lamps are lit. Handed over, not waited for.
+    virtual void light(std::uint32_t /*buttons*/) {}
     /// Until when its thread has promised to be heard of again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };

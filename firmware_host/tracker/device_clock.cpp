@@ -19,7 +19,6 @@ constexpr Nanoseconds longest_late = std::chrono::seconds(1);
 } // namespace
 
 void DeviceClock::begin(std::uint32_t tick, MonotonicTime arrival) {
-    begun_ = true;
     last_tick_ = tick;
     ticks_ = 0;
     first_arrival_ = arrival;
@@ -85,11 +84,11 @@ void DeviceClock::fit() {
 }
 
 MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
-    if (begun_ && tick == last_tick_ && last_time_) {
+    if (last_time_ && tick == last_tick_) {
         return *last_time_;
     }
     const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device does
-    if (!begun_) {
+    if (!last_time_) {
         begin(tick, arrival);
     } else {
         const Point next = point_of(ticks_ + step, arrival);

@@ -47,12 +47,11 @@ private:
     }
 
     double tick_ns_;
-    bool begun_ = false;
     std::uint32_t last_tick_ = 0;
     std::int64_t ticks_ = 0; ///< since the first, without wrapping
     MonotonicTime first_arrival_;
     std::optional<MonotonicTime> late_since_;
-    std::optional<MonotonicTime> last_time_;
+    std::optional<MonotonicTime> last_time_;  ///< what was answered last; none before the first tick
     std::array<Point, most_blocks> blocks_{}; ///< earliest arrival of each second; a ring
     std::size_t block_count_ = 0;             ///< ever
     std::optional<Point> block_;              ///< of the second that is going on

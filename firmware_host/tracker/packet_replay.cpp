@@ -1,11 +1,11 @@
 #include "firmware_host/tracker/packet_replay.h"
 
 #include "firmware_host/base/byte_reader.h"
+#include "firmware_host/tracker/replay_speed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace frustumscreen {
 
@@ -13,10 +13,6 @@ namespace {
 
 /// Between the end of a round and the beginning of the next; also what keeps the shortest round from being 0.
 constexpr Nanoseconds between_rounds = std::chrono::seconds(1);
-
-Nanoseconds scaled(Nanoseconds length, double factor) {
-    return Nanoseconds(std::llround(static_cast<double>(length.count()) * factor));
-}
 
 } // namespace
 

@@ -5,8 +5,7 @@
 ///          distortion, f32[3] position in centimetres, f32[4] quaternion w first. `O*,8,9,11,3,7` chooses
 ///          this payload.
 /// Errors   values; any bytes are safe. The family has no checksum: headers, size and the quaternion's length
-/// are
-///          checked here, the counter by the policy; a changed low digit of a position cannot be noticed
+///          are checked here, the counter by the policy; a changed low digit of a position cannot be noticed
 ///          beyond what USB's own CRC does.
 /// Threads  pure functions; they allocate nothing.
 /// Source   public drivers. Not held against a device yet: the text that answers `U` and `H`.

@@ -1,17 +1,10 @@
 #include "firmware_host/tracker/replay_tracker.h"
 
+#include "firmware_host/tracker/replay_speed.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace frustumscreen {
-
-namespace {
-
-Nanoseconds slowed(Nanoseconds length, double speed) {
-    return Nanoseconds(std::llround(static_cast<double>(length.count()) / speed));
-}
-
-} // namespace
 
 ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat, double speed)
     : recording_(std::move(samples)) {
@@ -23,7 +16,7 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
     if (speed != 1.0) {
         const MonotonicTime first = recording_.front().time;
         for (PoseSample& sample : recording_) {
-            sample.time = first + slowed(sample.time - first, speed);
+            sample.time = first + scaled(sample.time - first, 1.0 / speed);
         }
     }
     shift_ = start - recording_.front().time;

@@ -2,12 +2,11 @@
 ///
 /// Frame    table T. The prop stands upright on the table; the head's rotation turns its +Y towards the prop.
 /// Time     everything is a function of the seed and of the time since `start`: polls at any rhythm hand out
-/// the
-///          same samples. In rests the pose does not change at all.
+///          the same samples. In rests the pose does not change at all.
 /// Threads  one caller; the functions are pure.
 /// Method   each movement follows the minimum-jerk profile of human reaching (Flash and Hogan 1985, eq. 8)
-/// along
-///          a parabola; where to, when and for how long are hashes of the seed and the movement's number.
+///          along a parabola; where to, when and for how long are hashes of the seed and the movement's
+///          number.
 #pragma once
 
 #include "firmware_host/tracker/tracker.h"

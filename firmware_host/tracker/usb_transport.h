@@ -23,6 +23,7 @@ public:
     virtual ~UsbTransport() = default;
     /// Some bytes, at most buffer.size(); 0: none came in time.
     [[nodiscard]] virtual Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds timeout) = 0;
+    /// A device that does not take them in time is no error here: it will not answer either.
     [[nodiscard]] virtual Result<void> write(std::span<const std::byte> bytes, Nanoseconds timeout) = 0;
     /// Gives the device back; nothing is read or written after.
     virtual void close() = 0;

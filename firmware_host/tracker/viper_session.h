@@ -1,4 +1,4 @@
-/// A VIPER's session: every setting is sent, then read back; the frame rate as answered is the clock's tick.
+/// A VIPER's session: every setting is sent, then read back; the frame rate so confirmed is the clock's tick.
 ///
 /// Frame, units, time, threads: see device_session.h.
 #pragma once

@@ -1,10 +1,6 @@
-#include "app/bench/measure.h"
 #include "app/bench/pack_level.h"
-#include "app/bench/truth.h"
-#include "app/render/read_back.h"
 #include "assets_baked/bake/bake.h"
-#include "firmware_host/display/surfaceless_display.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/drawn_near.h"
 
 #include <gtest/gtest.h>
 
@@ -50,15 +46,8 @@ std::shared_ptr<SourceMesh> fence(bool with_wall) {
     return mesh;
 }
 
-class CutOut : public ::testing::Test {
+class CutOut : public DrawnNear {
 protected:
-    void SetUp() override {
-        auto display = SurfacelessDisplay::create(640, 400);
-        ASSERT_TRUE(display) << display.error().message;
-        display_ = std::move(*display);
-        stage_ = {near_settings(), make_prop({}), display_->framebuffer()};
-    }
-
     void bake_fence(bool with_wall) {
         mesh_ = fence(with_wall);
         BakeOptions options;
@@ -70,20 +59,11 @@ protected:
     }
 
     [[nodiscard]] PictureError error_of(std::uint32_t level, const BenchPose& pose) {
-        auto technique = make_pack_level(stage_, pack_, level, {finest_samples}, "level");
-        EXPECT_TRUE(technique) << technique.error().message;
-        const auto truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact);
-        const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), true);
-        EXPECT_TRUE(truth);
-        (*technique)->draw(pose);
-        Image8 colour = read_colour(stage_.framebuffer, 640, 400);
-        auto points = (*technique)->hit_points(pose);
-        EXPECT_TRUE(points);
-        return measure(picture, {std::move(colour), std::move(*points)});
+        auto technique = make_pack_level(stage_, pack_, level, {finest_samples}, "level").value();
+        const Truth truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact).value();
+        return DrawnNear::error_of(*technique, pose, ray_cast(truth, pose));
     }
 
-    std::unique_ptr<SurfacelessDisplay> display_;
-    Stage stage_;
     std::shared_ptr<SourceMesh> mesh_;
     Pack pack_;
 };

@@ -2,13 +2,10 @@
 // which of them a person asks for.
 
 #include "app/bench/level_of_detail.h"
-#include "app/bench/measure.h"
 #include "app/bench/peer_choice.h"
 #include "app/bench/peers.h"
 #include "app/bench/ray_cast.h"
-#include "app/render/read_back.h"
-#include "firmware_host/display/surfaceless_display.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/drawn_near.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>
@@ -16,30 +13,18 @@
 namespace frustumscreen {
 namespace {
 
-constexpr double major_m = 0.030, minor_m = 0.010; ///< radii of the ring
 /// Between a corner circle's chord and its arc, both ways round.
-constexpr double facets_m = 0.040 * (1.0 - 0.99946) + 0.010 * (1.0 - 0.9951);
+constexpr double facets_m = (ring_major_m + ring_minor_m) * (1.0 - 0.99946) + ring_minor_m * (1.0 - 0.9951);
 
 double distance_from_ring(const glm::dvec3& point) {
-    const double across = std::hypot(point.x, point.z - 0.045) - major_m;
-    return std::abs(std::hypot(across, point.y) - minor_m);
+    const double across = std::hypot(point.x, point.z - ring_middle_m) - ring_major_m;
+    return std::abs(std::hypot(across, point.y) - ring_minor_m);
 }
 
-class PeerMeshes : public ::testing::Test {
+class PeerMeshes : public DrawnNear {
 protected:
-    void SetUp() override {
-        auto display = SurfacelessDisplay::create(640, 400);
-        ASSERT_TRUE(display) << display.error().message;
-        display_ = std::move(*display);
-        stage_ = {near_settings(), make_prop({}), display_->framebuffer()};
-        mesh_ = ring();
-        poses_ = draw_poses(stage_.settings, stage_.prop, 5, 11).value();
-    }
-
-    std::unique_ptr<SurfacelessDisplay> display_;
-    Stage stage_;
-    std::shared_ptr<SourceMesh> mesh_;
-    std::vector<BenchPose> poses_;
+    std::shared_ptr<SourceMesh> mesh_ = ring();
+    std::vector<BenchPose> poses_ = draw_poses(stage_.settings, stage_.prop, 5, 11).value();
 };
 
 TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {

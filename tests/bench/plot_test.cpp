@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <string>
 
 namespace frustumscreen {
 namespace {

@@ -9,6 +9,9 @@
 
 namespace frustumscreen {
 
+/// The ring's radii, and how high its middle is above the table, metres.
+inline constexpr double ring_major_m = 0.030, ring_minor_m = 0.010, ring_middle_m = 0.045;
+
 /// A closed, concave object: a ring (torus) standing in the prop, with a smooth texture.
 inline std::shared_ptr<SourceMesh> ring() {
     constexpr std::uint32_t around = 96;
@@ -27,8 +30,9 @@ inline std::shared_ptr<SourceMesh> ring() {
         for (std::uint32_t i = 0; i <= across; ++i) {
             const double a = 2.0 * std::numbers::pi * j / around;
             const double b = 2.0 * std::numbers::pi * i / across;
-            const double r = 0.030 + 0.010 * std::cos(b);
-            mesh->positions.emplace_back(r * std::cos(a), 0.010 * std::sin(b), 0.045 + r * std::sin(a));
+            const double r = ring_major_m + ring_minor_m * std::cos(b);
+            mesh->positions.emplace_back(r * std::cos(a), ring_minor_m * std::sin(b),
+                                         ring_middle_m + r * std::sin(a));
             mesh->uvs.emplace_back(static_cast<float>(j) / around, static_cast<float>(i) / across);
         }
     }

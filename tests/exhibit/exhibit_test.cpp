@@ -108,6 +108,11 @@ TEST(Exhibit, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
     none.wish(Wish::NextLanguage, start);
     EXPECT_EQ(none.at(start + std::chrono::seconds(1)).brightness, 0.0);
     Exhibit one(1, {"en"}, "en", start);
+    for (const Wish wish : {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage}) {
+        EXPECT_FALSE(none.heeds(wish));
+        EXPECT_FALSE(one.heeds(wish));
+        EXPECT_TRUE(three_artifacts().heeds(wish));
+    }
     one.wish(Wish::NextArtifact, start + std::chrono::seconds(1));
     EXPECT_EQ(one.at(start + milliseconds(1100)).brightness, 1.0);
 }

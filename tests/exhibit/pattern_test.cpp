@@ -59,5 +59,31 @@ TEST(Canvas, AFillCoversPartsOfPixelsByTheirShare) {
     EXPECT_EQ(canvas.image().at(2, 1).r, 0);
 }
 
+TEST(Pattern, LinesForTheStaffStayWithinThePictureAndLongOnesAreBroken) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    const Image8 black(640, 400, glm::u8vec4(0, 0, 0, 255));
+    const auto lit_rows = [&](const std::string& line) {
+        const Image8 picture = with_lines(black, std::vector<std::string>{line}, *typesetter);
+        int rows = 0;
+        for (int y = 0; y < picture.height; ++y) {
+            bool lit = false;
+            for (int x = 0; x < picture.width; ++x) {
+                lit = lit || picture.at(x, y).r > 100;
+                EXPECT_TRUE(picture.at(x, y).r == 0 || (x >= 20 && x < 620));
+            }
+            rows += lit ? 1 : 0;
+        }
+        return rows;
+    };
+    const int one = lit_rows("tracker: running");
+    EXPECT_GT(one, 5);
+    std::string many = "tracker:";
+    for (int k = 0; k < 20; ++k) {
+        many += " is running well";
+    }
+    EXPECT_GT(lit_rows(many), 3 * one);
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
-// Pose files: what is taken is finite and in range, and written again it reads the same.
+// Pose files: what is taken is finite and in range, written again it reads the same, and it can be replayed.
 #include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/replay_tracker.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace frustumscreen;
@@ -20,6 +21,21 @@ void require_same(const PoseSample& a, const PoseSample& b) {
     const glm::dquat d = a.rotation - b.rotation;
     fuzz::require(std::abs(d.w) + std::abs(d.x) + std::abs(d.y) + std::abs(d.z) < 1e-15,
                   "a rotation written again reads the same");
+}
+
+/// Round after round, at the slowest and the fastest speed that settings allow.
+void check_replay(const std::vector<PoseSample>& poses, double speed) {
+    MonotonicTime now = from_microseconds(1'000'000);
+    MonotonicTime latest = now;
+    ReplayTracker tracker(poses, now, true, speed);
+    for (int k = 0; k < 24; ++k, now += std::chrono::milliseconds(1 << k % 12)) {
+        std::vector<PoseSample> samples;
+        fuzz::require(tracker.poll(now, samples).has_value(), "a replay has no errors");
+        for (const PoseSample& sample : samples) {
+            fuzz::require(sample.time >= latest && sample.time <= now, "a replay's times ascend up to now");
+            latest = sample.time;
+        }
+    }
 }
 
 } // namespace
@@ -44,5 +60,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         require_sound((*poses)[k]);
         require_same((*poses)[k], (*again)[k]);
     }
+    check_replay(*poses, 0.01);
+    check_replay(*poses, 100.0);
     return 0;
 }

@@ -12,7 +12,13 @@ namespace frustumscreen::fuzz {
 
 class SessionTalk {
 public:
-    explicit SessionTalk(DeviceSession& session) : session_(session) { ask(); }
+    using Check = void (*)(const PoseSample&);
+    /// `check` is asked about every sample besides.
+    explicit SessionTalk(
+        DeviceSession& session, Check check = [](const PoseSample&) {})
+        : session_(session), check_(check) {
+        ask();
+    }
 
     /// The session's latest command; empty if it sent none.
     [[nodiscard]] const Bytes& command() const { return command_; }
@@ -39,7 +45,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_wire = 32768;
+    static constexpr std::size_t most_wire = 8192;
 
     void ask() {
         const std::span<const std::byte> due = session_.due(now_);
@@ -60,6 +66,7 @@ private:
             require(is_finite(sample.position_m) && is_unit(sample.rotation), "a pose is finite");
             require(is_pose(sample.position_m, sample.rotation), "a pose is near and a rotation");
             require(sample.station >= 1 && sample.station <= 128, "a station is numbered from 1");
+            check_(sample);
         }
         const IntakeCounts& counts = session_.intake().counts();
         require(counts.frames >= frames_ && counts.refused >= refused_, "counts do not go back");
@@ -68,6 +75,7 @@ private:
     }
 
     DeviceSession& session_;
+    Check check_;
     MonotonicTime now_ = from_microseconds(1'000'000'000);
     std::size_t piece_ = 0;
     Bytes command_;

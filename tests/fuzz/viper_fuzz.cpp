@@ -1,5 +1,6 @@
 // A VIPER that says whatever it likes: the codec, the set-up, the stream. Frames may be broken by hand or
 // have their checksum put right, so that the fields behind it are reached.
+#include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/viper_session.h"
 #include "tests/fuzz/session_talk.h"
 

@@ -1,8 +1,10 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
 #include "app/pack/manifest.h"
+#include "firmware_host/tracker/packet_file.h"
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
 #include "tests/pack/samples.h"
+#include "tests/tracker/wire_bytes.h"
 
 #include <cstdio>
 #include <fstream>
@@ -63,6 +65,37 @@ void talks(const Seeds& seeds) {
     }
     seeds.add("patriot", "streaming", patriot + pose + wait + pose + wait + pose);
     seeds.add("patriot", "cut", patriot + "\6\1" + pose + wait + pose);
+    std::string hid("\3\2");
+    for (int k = 0; k < 4; ++k) {
+        hid += wait.substr(0, 1) + std::string("\10\0", 2) + pose + std::string(1, '\0');
+    }
+    seeds.add("hid_tracker", "streaming", hid);
+    const std::string push("\x20\0\7\1\x5e\1\0\0\x80\0", 10);
+    const std::string both("\x20\0\15\1\x5e\1\0\0\x80\0\x20\3\0\0\1\1", 16);
+    seeds.add("space_mouse", "push", push + push + both + push);
+}
+
+/// One device of each make, opened and heard.
+void recordings(const Seeds& seeds) {
+    for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Patriot,
+                                        UsbTrackerModel::Hid, UsbTrackerModel::SpaceMouse}) {
+        Bytes file;
+        append_packet_header(file);
+        std::int64_t time_us = 1'000'000;
+        const auto add = [&](PacketKind kind, std::span<const std::byte> payload) {
+            append_packet(file, {kind, from_microseconds(time_us += 8333), payload});
+        };
+        add(PacketKind::About, as_bytes("a seed"));
+        add(PacketKind::Opened, OpenedDevice{model, {}}.bytes());
+        add(PacketKind::Sent, as_bytes("P"));
+        add(PacketKind::Received, wire::viper_frame(1, {{}}));
+        add(PacketKind::Received, wire::patriot_frame(1, 1, {}));
+        add(PacketKind::Received, as_bytes(std::string_view("\1\x20\1\0\0\0\0", 7)));
+        add(PacketKind::State, as_bytes("the tracker is running"));
+        add(PacketKind::Dropped, as_bytes(std::string_view("\3\0\0\0\0\0\0\0", 8)));
+        add(PacketKind::Closed, {});
+        seeds.add("packets", std::to_string(static_cast<int>(model)), as_text(file));
+    }
 }
 
 void packs(const Seeds& seeds) {
@@ -111,6 +144,7 @@ int main(int count, char** arguments) {
     const Seeds seeds(arguments[1]);
     texts(seeds);
     talks(seeds);
+    recordings(seeds);
     packs(seeds);
     pictures(seeds);
     meshes(seeds);

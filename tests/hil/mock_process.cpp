@@ -52,9 +52,15 @@ std::optional<Descriptor> connect_to(const std::string& path) {
     return connection;
 }
 
+/// Of the HID tracker's reports, by their number (docs/hid_tracker.md): a stream does not say where one ends.
+std::size_t report_bytes(std::byte number) {
+    return number == std::byte{1} ? 34 : 10;
+}
+
 class SocketTransport final : public UsbTransport {
 public:
-    explicit SocketTransport(Descriptor connection) : connection_(std::move(connection)) {}
+    SocketTransport(Descriptor connection, bool reports)
+        : connection_(std::move(connection)), reports_(reports) {}
 
     [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds timeout) override {
         pollfd waiting{connection_.get(), POLLIN, 0};
@@ -62,7 +68,11 @@ public:
         if (::poll(&waiting, 1, static_cast<int>(ms)) == 0) {
             return 0U;
         }
-        const ssize_t count = ::recv(connection_.get(), buffer.data(), buffer.size(), 0);
+        if (reports_ && ::recv(connection_.get(), buffer.data(), 1, MSG_PEEK) == 1) {
+            buffer = buffer.first(report_bytes(buffer.front()));
+        }
+        const ssize_t count =
+            ::recv(connection_.get(), buffer.data(), buffer.size(), reports_ ? MSG_WAITALL : 0);
         if (count <= 0) {
             return fail(ErrorKind::DeviceLost, "the mock has closed the socket");
         }
@@ -79,6 +89,7 @@ public:
 
 private:
     Descriptor connection_;
+    bool reports_; ///< one whole report a read
 };
 
 class SocketBus final : public UsbBus {
@@ -90,7 +101,9 @@ public:
         if (!connection) {
             return tl::unexpected(UsbTrackerState::NotConnected);
         }
-        return FoundTracker{std::make_unique<SocketTransport>(std::move(*connection)), model_};
+        return FoundTracker{
+            std::make_unique<SocketTransport>(std::move(*connection), model_ == UsbTrackerModel::Hid),
+            model_};
     }
 
 private:
@@ -118,6 +131,7 @@ MockProcess::MockProcess(std::vector<std::string> arguments, std::string control
     arguments.insert(arguments.begin(), FRUSTUMSCREEN_SOURCE_DIR "/tests/hil/mock_tracker");
     arguments.insert(arguments.end(), {"--control", control_});
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) {
         pointers.push_back(argument.data());
     }

@@ -129,6 +129,8 @@ const std::vector<Guard> guards = {
     {"libusb", {"firmware_host/tracker/"}},
     {"hidapi", {"firmware_host/tracker/"}},
     {"gpiod", {"firmware_host/panel/"}},
+    {"libevdev", {"firmware_host/panel/"}},
+    {"linux/input", {"firmware_host/panel/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},
     {"embree", {"assets_baked/bake/", "app/bench/"}},

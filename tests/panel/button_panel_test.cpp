@@ -15,6 +15,7 @@ using std::chrono::seconds;
 /// A chip that a test plugs, unplugs and presses.
 struct FakeChip {
     std::array<std::atomic<bool>, 3> down{};
+    std::array<std::atomic<bool>, 3> lit{};
     std::atomic<bool> plugged{true};
     std::atomic<int> opened{0};
 };
@@ -33,6 +34,11 @@ public:
     }
     [[nodiscard]] Result<void> wait(Nanoseconds timeout) override {
         std::this_thread::sleep_for(std::min<Nanoseconds>(timeout, milliseconds(2)));
+        return {};
+    }
+
+    [[nodiscard]] Result<void> light(std::span<const bool> lit) override {
+        std::copy(lit.begin(), lit.end(), chip_.lit.begin());
         return {};
     }
 
@@ -107,6 +113,36 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     ASSERT_LE(events.size(), ButtonPanel::most_waiting);
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.back().button, 2);
+}
+
+TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
+    FakeChip chip;
+    const auto lit = [&chip](bool a, bool b, bool c) {
+        return chip.lit[0] == a && chip.lit[1] == b && chip.lit[2] == c;
+    };
+    {
+        ButtonTimes times;
+        times.debounce = milliseconds(1);
+        times.stuck = milliseconds(50);
+        ButtonPanel panel(opener(chip), 3, times);
+        std::vector<PanelEvent> events;
+        ASSERT_TRUE(until(panel, events, [&] { return chip.opened == 1; }));
+        EXPECT_TRUE(lit(false, false, false));
+        panel.light(0b011U);
+        ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));
+        chip.down[1] = true;
+        ASSERT_TRUE(until(panel, events, [&] { return lit(true, false, false); }));
+        chip.down[1] = false;
+        ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));
+        chip.plugged = false;
+        ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "not there"; }));
+        for (auto& lamp : chip.lit) {
+            lamp = false; // its power was away
+        }
+        chip.plugged = true;
+        ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));
+    }
+    EXPECT_TRUE(lit(false, false, false));
 }
 
 TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {

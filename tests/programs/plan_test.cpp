@@ -98,6 +98,7 @@ protected:
         std::vector<Situation> all;
         for (int k = 0; k < count; ++k) {
             Situation situation;
+            situation.prop_known = true;
             situation.eye_m = settings.eye.default_m;
             if (settings.tracker.kind != TrackerKind::None) {
                 const double yaw = 3.1416 * u(random);

@@ -15,10 +15,12 @@ TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
     const DrawResult drawn = rig.draw();
     const Image8 plain = rig.picture();
     EXPECT_FALSE(read_probe(plain)); // the offline renderer's pictures have none
+    EXPECT_FALSE(read_probe(rig.display->framebuffer()));
     for (unsigned code = 0; code < 256; ++code) {
         ASSERT_TRUE(write_probe(rig.display->framebuffer(), static_cast<std::uint8_t>(code), drawn.lit));
         Image8 picture = rig.picture();
         ASSERT_EQ(read_probe(picture), static_cast<std::uint8_t>(code));
+        ASSERT_EQ(read_probe(rig.display->framebuffer()), static_cast<std::uint8_t>(code));
         int changed = 0;
         int brightest = 0;
         for (std::size_t k = 0; k < plain.texels.size(); ++k) {

@@ -51,6 +51,15 @@ TEST(Settings, AUsbTrackerAndItsHemisphereAreRead) {
     EXPECT_EQ(name_of(TrackerKind::Usb), "usb");
 }
 
+TEST(Settings, ASpaceMouseAndTheSpeedOfAReplayAreRead) {
+    EXPECT_EQ(parsed("[tracker]\nkind = \"spacemouse\"\n").tracker.kind, TrackerKind::SpaceMouse);
+    EXPECT_EQ(name_of(TrackerKind::SpaceMouse), "spacemouse");
+    const Settings replay =
+        parsed("[tracker]\nkind = \"replay\"\nposes = \"fault.rec\"\nreplay_speed = 0.5\n");
+    EXPECT_EQ(replay.tracker.replay_speed, 0.5);
+    EXPECT_EQ(Settings().tracker.replay_speed, 1.0);
+}
+
 TEST(Settings, AFixedSceneIsWrittenOut) {
     const Settings fixed =
         parsed("[eye]\ntracked = false\n[tracker]\nkind = \"none\"\n[exhibit]\ncaptions = false\n");
@@ -163,10 +172,19 @@ TEST(Settings, TakesButtonsOnAGpioChip) {
     EXPECT_EQ(settings.panel.kind, PanelKind::Gpio);
     EXPECT_EQ(settings.panel.chip, "cp2112_gpio");
     EXPECT_EQ(settings.panel.lines, (std::vector<std::string>{"PREVIOUS", "5"}));
-    EXPECT_EQ(settings.panel.bias, ButtonBias::AsIs);
+    EXPECT_EQ(settings.panel.bias, LineBias::AsIs);
     EXPECT_FALSE(settings.panel.active_low);
     EXPECT_EQ(settings.panel.debounce_ms, 12.5);
     EXPECT_EQ(settings.panel.stuck_s, 60.0);
+    EXPECT_EQ(settings.panel.buttons(), 2U);
+    EXPECT_EQ(parsed("[panel]\nkind = \"gpio\"\nlines = [\"4\"]\nlamps = [\"0\"]\n").panel.lamps,
+              std::vector<std::string>{"0"});
+    const Settings keys =
+        parsed("[panel]\nkind = \"keys\"\ndevice = \"Bench keyboard\"\nkeys = [\"KEY_A\", \"KEY_B\"]\n");
+    EXPECT_EQ(keys.panel.kind, PanelKind::Keys);
+    EXPECT_EQ(keys.panel.device, "Bench keyboard");
+    EXPECT_EQ(keys.panel.keys, (std::vector<std::string>{"KEY_A", "KEY_B"}));
+    EXPECT_EQ(keys.panel.buttons(), 2U);
 }
 
 } // namespace

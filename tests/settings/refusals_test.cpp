@@ -138,6 +138,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[tracker]\nhemisphere = [0, 0, 0]", {":2: tracker.hemisphere gives no direction"}},
         {"[eye]\ntracked = 1", {":2: eye.tracked is", "allowed are true and false"}},
         {"[panel]\nkind = \"gpio\"", {":2: panel.kind is \"gpio\"", "panel.lines"}},
+        {"[panel]\nkind = \"keys\"", {":2: panel.kind is \"keys\"", "panel.device", "panel.keys"}},
+        {"[panel]\nlamps = [\"1\"]", {":2: panel.lamps names 1 lamps", "each of the 0 lines"}},
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},

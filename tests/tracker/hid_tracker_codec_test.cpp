@@ -1,51 +1,24 @@
-#include "firmware_host/base/file.h"
 #include "firmware_host/tracker/hid_ids.h"
 #include "firmware_host/tracker/hid_tracker_codec.h"
+#include "tests/tracker/bytes_in_document.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
-#include <sstream>
-#include <string>
 
 namespace frustumscreen {
 namespace {
 
-std::string document() {
-    const Result<Bytes> bytes = read_file(FRUSTUMSCREEN_SOURCE_DIR "/docs/hid_tracker.md");
-    return bytes ? std::string(as_text(*bytes)) : std::string();
-}
-
-/// The bytes in the document's block that begins with `start`, whatever text follows them in a line.
-wire::Wire bytes_in_document(const std::string& start) {
-    const std::string text = document();
-    const std::size_t begin = text.find("```\n" + start);
-    const std::size_t end = text.find("```", begin + 3);
-    if (begin == std::string::npos || end == std::string::npos) {
-        ADD_FAILURE() << "docs/hid_tracker.md has no block that begins with " << start;
-        return {};
-    }
-    std::istringstream lines(text.substr(begin + 4, end - begin - 4));
-    wire::Wire bytes;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        for (std::string word; words >> word && word.size() == 2 &&
-                               word.find_first_not_of("0123456789ABCDEF") == std::string::npos;) {
-            const wire::Wire byte = wire::from_hex(word);
-            bytes.push_back(byte[0]);
-        }
-    }
-    return bytes;
-}
+using wire::bytes_in_document;
 
 const HidTrackerPose* pose_of(const HidTrackerMessage& message) {
     return std::get_if<HidTrackerPose>(&message);
 }
 
 TEST(HidTrackerCodec, ReadsTheDocumentsPose) {
-    const wire::Wire report = bytes_in_document("01 01 00 00 E8");
+    const wire::Wire report = bytes_in_document("hid_tracker.md", "01 01 00 00 E8");
     ASSERT_EQ(report.size(), 34U);
     const HidTrackerMessage message = parse_hid_tracker(report);
     const HidTrackerPose* pose = pose_of(message);
@@ -62,7 +35,7 @@ TEST(HidTrackerCodec, ReadsTheDocumentsPose) {
 }
 
 TEST(HidTrackerCodec, ReadsTheDocumentsDevice) {
-    const HidTrackerMessage message = parse_hid_tracker(bytes_in_document("02 01"));
+    const HidTrackerMessage message = parse_hid_tracker(bytes_in_document("hid_tracker.md", "02 01"));
     const auto* info = std::get_if<HidTrackerInfo>(&message);
     ASSERT_NE(info, nullptr);
     EXPECT_EQ(info->version, hid_tracker_version);
@@ -132,7 +105,7 @@ Described described(const wire::Wire& descriptor) {
 }
 
 TEST(HidTrackerCodec, TheDocumentsDescriptorDescribesTheReports) {
-    const Described device = described(bytes_in_document("06 46 FF"));
+    const Described device = described(bytes_in_document("hid_tracker.md", "06 46 FF"));
     EXPECT_EQ(device.usage_page, hid_tracker_usage_page);
     EXPECT_EQ(device.usage, hid_tracker_usage);
     EXPECT_EQ(device.depth, 0);

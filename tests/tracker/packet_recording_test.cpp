@@ -1,6 +1,8 @@
+#include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/packet_file.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/usb_tracker_driver.h"
+#include "tests/tracker/bytes_in_document.h"
 #include "tests/tracker/fake_usb_tracker.h"
 
 #include <gtest/gtest.h>
@@ -193,6 +195,27 @@ TEST(PacketReplay, ARecordingThatIsCutOffPlaysUpToTheCut) {
     EXPECT_GT(before, 100U);
 }
 
+TEST(PacketFile, TheChecksumIsTheCataloguesCrc32) {
+    EXPECT_EQ(crc32_ieee(as_bytes("123456789")), 0xCBF43926U);
+    EXPECT_EQ(crc32_ieee({}), 0U);
+}
+
+TEST(PacketFile, ReadsTheDocumentsExample) {
+    const wire::Wire file = wire::bytes_in_document("packet_recording.md", "46 53 50 41");
+    Result<PacketReader> reader = PacketReader::open(file, "test");
+    ASSERT_TRUE(reader);
+    const std::optional<Packet> packet = reader->next();
+    ASSERT_TRUE(packet);
+    EXPECT_EQ(packet->kind, PacketKind::State);
+    EXPECT_EQ(packet->time, from_microseconds(1'000'000));
+    EXPECT_EQ(as_text(packet->payload), "hello");
+    EXPECT_EQ(reader->left(), 0U);
+    Bytes written;
+    append_packet_header(written);
+    append_packet(written, *packet);
+    EXPECT_EQ(written, file);
+}
+
 TEST(PacketFile, EveryChangedBitEndsTheRecordingThere) {
     MemoryTap tap;
     const std::array<std::byte, 3> payload{std::byte{1}, std::byte{2}, std::byte{3}};
@@ -312,6 +335,23 @@ TEST(PacketReplayTracker, PlaysAtAnySpeedAndAgain) {
                 ASSERT_LT(std::abs((samples[k].time - round_start - expected).count()), 1000);
             }
         }
+    }
+}
+
+TEST(PacketReplayTracker, ARecordingOfACenturyDoesNoHarmAtAnySpeed) {
+    for (const double speed : {0.01, 1.0, 100.0}) {
+        MemoryTap tap;
+        tap.packet(PacketKind::Opened, from_microseconds(0),
+                   OpenedDevice{UsbTrackerModel::SpaceMouse, {}}.bytes());
+        tap.packet(PacketKind::Received, MonotonicTime::max(), wire::space_mouse(1, {350, 0, 0}));
+        Result<PacketReplay> replay = PacketReplay::open(tap.file, "test");
+        ASSERT_TRUE(replay);
+        PacketReplayTracker tracker(std::move(*replay), from_microseconds(0), speed);
+        std::vector<PoseSample> samples;
+        for (int hour = 0; hour < 100; ++hour) {
+            ASSERT_TRUE(tracker.poll(from_microseconds(0) + std::chrono::hours(hour), samples));
+        }
+        EXPECT_TRUE(samples.empty());
     }
 }
 

@@ -1,4 +1,5 @@
 #include "firmware_host/tracker/patriot_codec.h"
+#include "tests/tracker/parsed_stream.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
@@ -17,33 +18,12 @@ const Wire frame_by_hand = wire::from_hex("5041 01 43 20 00 2800"      // PA, se
                                           "0000003F 0000003F 000000BF 0000003F" // 0.5, 0.5, -0.5, 0.5
 );
 
-struct Parsed {
-    std::vector<DeviceFrame> frames;
-    int refusals = 0;
-    std::size_t left = 0;
-};
-
-Parsed parse_all(std::span<const std::byte> stream) {
-    Parsed parsed;
-    while (true) {
-        const PatriotStep step = parse_patriot(stream);
-        EXPECT_EQ(step.consumed == 0, std::holds_alternative<NeedMore>(step.message));
-        EXPECT_LE(step.consumed, stream.size());
-        if (step.consumed == 0 || step.consumed > stream.size()) {
-            parsed.left = stream.size();
-            return parsed;
-        }
-        if (const auto* frame = std::get_if<DeviceFrame>(&step.message)) {
-            parsed.frames.push_back(*frame);
-        } else {
-            ++parsed.refusals;
-        }
-        stream = stream.subspan(step.consumed);
-    }
+ParsedStream parse_all(std::span<const std::byte> stream) {
+    return parsed_stream(stream, parse_patriot);
 }
 
 TEST(PatriotCodec, AFrameWrittenOutByHandIsReadAndCentimetresBecomeMetres) {
-    const Parsed parsed = parse_all(frame_by_hand);
+    const ParsedStream parsed = parse_all(frame_by_hand);
     ASSERT_EQ(parsed.frames.size(), 1U);
     EXPECT_EQ(parsed.left, 0U);
     const DeviceFrame& frame = parsed.frames[0];
@@ -76,7 +56,7 @@ TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
             Wire stream = frame_by_hand;
             stream[byte] ^= static_cast<std::byte>(1U << bit);
             stream.insert(stream.end(), next.begin(), next.end());
-            const Parsed parsed = parse_all(stream);
+            const ParsedStream parsed = parse_all(stream);
             EXPECT_GE(parsed.refusals, 1);
             ASSERT_EQ(parsed.frames.size(), 1U) << "byte " << byte << " bit " << bit;
             EXPECT_EQ(parsed.frames[0].counter, 62U);
@@ -99,7 +79,7 @@ TEST(PatriotCodec, AnyOtherWrongBitGivesAPoseWithinTheTrackersReachOrNone) {
 
 TEST(PatriotCodec, AFrameCutShortAtAnyByteIsWaitedFor) {
     for (std::size_t cut = 0; cut < frame_by_hand.size(); ++cut) {
-        const Parsed parsed = parse_all(std::span(frame_by_hand).first(cut));
+        const ParsedStream parsed = parse_all(std::span(frame_by_hand).first(cut));
         EXPECT_TRUE(parsed.frames.empty());
         EXPECT_EQ(parsed.refusals, 0);
         EXPECT_EQ(parsed.left, cut);
@@ -129,7 +109,7 @@ TEST(PatriotCodec, GarbageInFrontIsPassedOver) {
             stream.push_back(static_cast<std::byte>("PALYU\1\n\xFF"[engine() % 8]));
         }
         stream.insert(stream.end(), frame_by_hand.begin(), frame_by_hand.end());
-        const Parsed parsed = parse_all(stream);
+        const ParsedStream parsed = parse_all(stream);
         ASSERT_EQ(parsed.frames.size(), 1U) << length;
         EXPECT_EQ(parsed.frames[0].counter, 61U);
     }
@@ -148,7 +128,7 @@ TEST(PatriotCodec, NoNumberAndNoRotationAreRefused) {
 }
 
 TEST(PatriotCodec, AFrameThatTheDeviceDisownsIsReadAndNotUsable) {
-    const Parsed parsed = parse_all(wire::patriot_frame(1, 1, {}, 'e'));
+    const ParsedStream parsed = parse_all(wire::patriot_frame(1, 1, {}, 'e'));
     ASSERT_EQ(parsed.frames.size(), 1U);
     EXPECT_FALSE(parsed.frames[0].sensors[0].usable);
 }

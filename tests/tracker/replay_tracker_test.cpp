@@ -60,5 +60,24 @@ TEST(ReplayTracker, RepeatsASinglePoseOnceASecondAndAnEmptyFileNever) {
     EXPECT_EQ(samples.size(), 4U);
 }
 
+TEST(ReplayTracker, PlaysAtAnySpeed) {
+    std::vector<PoseSample> recording(11);
+    for (std::size_t k = 0; k < recording.size(); ++k) {
+        recording[k].time = from_microseconds(500 + 100'000 * static_cast<std::int64_t>(k));
+        recording[k].position_m.x = static_cast<double>(k);
+    }
+    const MonotonicTime start = from_microseconds(7'000'000);
+    for (const double speed : {0.25, 4.0}) {
+        ReplayTracker tracker(recording, start, false, speed);
+        std::vector<PoseSample> samples;
+        ASSERT_TRUE(tracker.poll(start + std::chrono::seconds(100), samples));
+        ASSERT_EQ(samples.size(), recording.size());
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            EXPECT_NEAR(to_seconds(samples[k].time - start), 0.1 * static_cast<double>(k) / speed, 1e-9);
+            EXPECT_EQ(samples[k].position_m.x, static_cast<double>(k));
+        }
+    }
+}
+
 } // namespace
 } // namespace frustumscreen

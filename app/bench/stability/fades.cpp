@@ -3,6 +3,7 @@
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
+#include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/exhibit.h"
 #include "app/geometry/time_curves.h"
@@ -159,6 +160,72 @@ StabilityResult captions(const StabilityOptions&) {
              {"frames with a caption, short of 10000", 0.0, std::fmax(0.0, 10'000.0 - worst.shown)}}};
 }
 
+/// A tracker whose prop is lost and found at random, for moments and for long.
+struct LostAndFound {
+    std::mt19937 random{9};
+    MonotonicTime next = from_microseconds(1'000'000);
+    MonotonicTime good = next; ///< the latest good pose
+    bool there = true;
+
+    /// The age of the latest good pose at `now`.
+    Nanoseconds age(MonotonicTime now) {
+        for (; next <= now; there = !there) {
+            good = there ? next : good;
+            next += std::chrono::milliseconds(1 + random() % (random() % 2 == 0 ? 900 : 9000));
+        }
+        return there ? Nanoseconds(0) : Nanoseconds(now - good);
+    }
+};
+
+/// Largest step of brightness, or of both brightnesses where the pose is another.
+double attract_jump(double step_s) {
+    const auto step = Nanoseconds(std::llround(step_s * 1e9));
+    MonotonicTime now = from_microseconds(1'000'000);
+    const RigidTransform pose{{1.0, 0.0, 0.0, 0.0}, {0.2, 0.1, 0.0}};
+    Attract attract(glm::dvec2(0.0), true, now);
+    LostAndFound prop;
+    Stand before{pose};
+    double jump = 0.0;
+    for (int k = 0; k < 20'000; ++k) {
+        now += step;
+        const Nanoseconds age = prop.age(now);
+        const Stand stand = attract.at(now, age <= std::chrono::seconds(1), age, pose);
+        jump =
+            std::fmax(jump, stand.attracts == before.attracts ? std::abs(stand.brightness - before.brightness)
+                                                              : stand.brightness + before.brightness);
+        before = stand;
+    }
+    return jump;
+}
+
+StabilityResult lost_props(const StabilityOptions&) {
+    double over = 0.0;
+    for (const double step : fade_steps) {
+        const double allowed = std::fmin(2.0, steepest * step / to_seconds(Attract::each_way));
+        over = std::fmax(over, attract_jump(step) / allowed);
+    }
+    // The fade out and the one in again, looked at once and looked at often.
+    double other = 0.0;
+    double rising = 0.0;
+    const MonotonicTime start = from_microseconds(1'000'000);
+    Stand before;
+    Attract often(glm::dvec2(0.0), true, start);
+    for (int ms = 0; ms < 6000; ++ms) {
+        const Nanoseconds age = std::chrono::milliseconds(ms);
+        const Stand seen = often.at(start + age, ms <= 1000, age, {});
+        Attract once(glm::dvec2(0.0), true, start);
+        const Stand late = once.at(start + age, ms <= 1000, age, {});
+        other += seen.brightness == late.brightness && seen.attracts == late.attracts ? 0.0 : 1.0;
+        const bool same = seen.attracts == before.attracts;
+        const double towards = seen.attracts ? 1.0 : -1.0; // out, then in
+        rising += same && towards * (seen.brightness - before.brightness) < 0.0 ? 1.0 : 0.0;
+        before = seen;
+    }
+    return {{{"largest jump, over steepest slope x step (2 at most)", 1.0 + 1e-9, over},
+             {"brightness other at another rhythm of frames", 0.0, other},
+             {"rising while it fades out, falling while it fades in", 0.0, rising}}};
+}
+
 } // namespace
 
 std::vector<StepError> fade_step_errors() {
@@ -175,7 +242,8 @@ std::vector<StabilityCase> fade_cases() {
     return {{theme, "closed forms", FloatingPoint::Strict, closed_forms},
             {theme, "from artifact to artifact, pressed at any moment", FloatingPoint::Strict, artifacts},
             {theme, "the same at any rhythm of frames", FloatingPoint::Strict, any_rhythm},
-            {theme, "captions that give way", FloatingPoint::Strict, captions}};
+            {theme, "captions that give way", FloatingPoint::Strict, captions},
+            {theme, "a prop that is lost and found", FloatingPoint::Strict, lost_props}};
 }
 
 } // namespace frustumscreen

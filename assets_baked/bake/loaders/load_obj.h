@@ -5,9 +5,8 @@
 /// Colour   Kd is taken as linear, as today's writers mean it; vertex colours are sRGB in 0..1.
 /// Errors   throws Refusal naming the line. A missing .mtl leaves white; a missing picture is refused.
 /// Library  the .mtl is read by tinyobjloader. Geometry is read here: the library takes an unreadable number
-/// for 0, cuts
-///          polygons at 255 corners, drops colours with callbacks, and does not say in which line it
-///          stumbled.
+///          for 0, cuts polygons at 255 corners, drops colours with callbacks, and does not say in which line
+///          it stumbled.
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"

@@ -2,8 +2,7 @@
 ///
 /// Shape    corners in order; the result's numbers count the polygon's own corners, orientation kept.
 /// Method   a fan where the polygon is convex; otherwise ears are cut off one after the other (Meisters,
-/// Polygons
-///          have ears, 1975). More than 64 corners are always fanned: cutting ears takes their cube.
+///          Polygons have ears, 1975). More than 64 corners are always fanned: cutting ears takes their cube.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -36,7 +36,8 @@ class CommandLine(unittest.TestCase):
             self.assertIn(words, found.stderr)
 
     def test_work_that_fails_is_said_in_one_line(self):
-        for arguments in ((TRACKER, "--stdio", "--poses", "/nowhere.csv"), (TRACKER, "--tell", "/nowhere", "status")):
+        for arguments in ((TRACKER, "--stdio", "--poses", "/nowhere.csv"), (TRACKER, "--tell", "/nowhere", "status"),
+                          (TRACKER, "--usbredir", "/nowhere/socket"), (BUTTONS, "--socket", "/nowhere/socket")):
             found = run(*arguments)
             self.assertEqual(found.returncode, 1)
             self.assertEqual(len(found.stderr.splitlines()), 1)

@@ -1,4 +1,4 @@
-"""A Silicon Labs CP2112: a USB bridge whose eight pins the kernel's hid-cp2112 makes a GPIO chip. Buttons pull pins low.
+"""A Silicon Labs CP2112: a USB bridge whose eight pins hid-cp2112 makes a GPIO chip. Buttons pull pins low.
 
 Reports (Silicon Labs AN495), the number first: 0x02 pin directions and modes, 0x03 pins read, 0x04 pins written, 0x05
 part and version, 0x06 SMBus settings, 0x20 which strings may still be written. No SMBus device answers.

@@ -141,11 +141,14 @@ class FramePath:
         return frames if held is None else [*frames, held]
 
 
+def flip(data, random_, begin=0):
+    """Up to four bits flipped, from the byte `begin` on."""
+    broken = bytearray(data)
+    for bit in random_.sample(range(8 * begin, 8 * len(data)), random_.randint(1, 4)):
+        broken[bit // 8] ^= 1 << bit % 8
+    return bytes(broken)
+
+
 def flip_or_cut(data, random_):
     """Some bits flipped, or the frame cut short."""
-    if random_.random() < 0.5:
-        return data[:random_.randrange(1, len(data))]
-    broken = bytearray(data)
-    for _ in range(random_.randint(1, 4)):
-        broken[random_.randrange(len(broken))] ^= 1 << random_.randrange(8)
-    return bytes(broken)
+    return flip(data, random_) if random_.random() < 0.5 else data[:random_.randrange(1, len(data))]

@@ -4,7 +4,7 @@ import asyncio
 import struct
 
 from .crc import crc16_arc
-from .faults import Frame
+from .faults import Frame, flip
 from .tracker import Tracker
 from .usb_device import IN, INTERRUPT, Endpoint
 
@@ -66,10 +66,7 @@ class HidTracker(Tracker):
     @staticmethod
     def break_bytes(data, random_):
         """USB carries a report as a whole or not at all; what is broken was broken before."""
-        broken = bytearray(data)
-        for _ in range(random_.randint(1, 4)):
-            broken[random_.randrange(1, len(broken))] ^= 1 << random_.randrange(8)
-        return bytes(broken)
+        return flip(data, random_, begin=1)
 
     def get_report(self, kind, number, length):
         self.commands += 1

@@ -19,7 +19,7 @@ def _address(text):
 
 def add_arguments(parser):
     group = parser.add_argument_group("connection, one of").add_mutually_exclusive_group()
-    group.add_argument("--usbredir", metavar="SOCKET", help="to QEMU: listen there for the chardev of its usb-redir device")
+    group.add_argument("--usbredir", metavar="SOCKET", help="to QEMU: listen there for its usb-redir device")
     group.add_argument("--usbip", metavar="[ADDRESS:]PORT", type=_address, nargs="?", const=("127.0.0.1", _USBIP_PORT),
                        help=f"to any Linux machine: listen there for 'usbip attach' (127.0.0.1:{_USBIP_PORT})")
     group.add_argument("--vhci", action="store_true",
@@ -31,7 +31,8 @@ def add_arguments(parser):
 
 
 def chosen(arguments):
-    return any(getattr(arguments, option[2:]) for option in OPTIONS)
+    """The option that was given; None: none was."""
+    return next((option for option in OPTIONS if getattr(arguments, option[2:])), None)
 
 
 def make(arguments, device):

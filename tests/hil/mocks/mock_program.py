@@ -44,7 +44,7 @@ def tell(arguments):
 
 
 async def run(name, arguments, device, execute, life):
-    """Until SIGINT or SIGTERM, or until the link has ended. `life`: what the device does by itself."""
+    """Until SIGINT or SIGTERM, or until the link has ended. `life()` is what the device does by itself."""
     link = links.make(arguments, device)
     loop = asyncio.get_running_loop()
     stopped = asyncio.Event()
@@ -61,11 +61,14 @@ async def run(name, arguments, device, execute, life):
             carry_out(command)
         else:
             loop.call_later(seconds, carry_out, command)
-    where = await link.open()
+    try:
+        where = await link.open()
+    except OSError as error:
+        raise OSError(f"{links.chosen(arguments)}: {error.strerror or error}") from None
     if arguments.control:
         await control.serve(arguments.control, execute)  # it is there: the device is, too
     print(f"{name}: {where}", file=sys.stderr, flush=True)
-    tasks = [asyncio.create_task(work) for work in (life, link.ended(), stopped.wait())]
+    tasks = [asyncio.create_task(work) for work in (life(), link.ended(), stopped.wait())]
     done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
     link.close()
     for task in done:

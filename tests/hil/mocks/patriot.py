@@ -68,7 +68,7 @@ class Patriot(Tracker):
 
     @staticmethod
     def break_bytes(data, random_):
-        """Without a checksum a host can notice a broken header alone: a bit of it flipped, or the frame cut within it."""
+        """Without a checksum a host can notice a broken header alone: a flipped bit, or the frame cut within it."""
         if random_.random() < 0.5:
             return data[:random_.randrange(1, 8)]
         broken = bytearray(data)

@@ -65,7 +65,7 @@ def from_matrix(numbers):
         for b in range(3):
             dot = sum(x * y for x, y in zip(m[a], m[b]))
             if abs(dot - (a == b)) > 1e-4:
-                raise ValueError("the 16 numbers are no rigid transform: the rotation's columns are not unit and square")
+                raise ValueError("the 16 numbers are no rigid transform: the columns are not unit and square")
     across = (m[0][1] * m[1][2] - m[0][2] * m[1][1], m[0][2] * m[1][0] - m[0][0] * m[1][2],
               m[0][0] * m[1][1] - m[0][1] * m[1][0])
     if sum(x * y for x, y in zip(across, m[2])) < 0:

@@ -115,7 +115,10 @@ class RawLink:
 
 class StdioLink(RawLink):
     async def open(self):
-        self._attach(sys.stdin.fileno(), sys.stdout.fileno())
+        try:
+            self._attach(sys.stdin.fileno(), sys.stdout.fileno())
+        except PermissionError:
+            raise OSError("both must be pipes, sockets or a terminal, not files") from None
         self._device.greet()
         return "standard input and output"
 

@@ -12,7 +12,7 @@ _LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older tha
 
 
 class Tracker(UsbDevice):
-    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as it is told."""
+    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as told."""
 
     name = "tracker"
 
@@ -78,7 +78,7 @@ class Tracker(UsbDevice):
 
     def step(self, now):
         """The frame of this instant, if it is time for any."""
-        if not self.streaming or self.hung:
+        if not self.streaming or self.hung or not self._has_host():
             return
         self.counter = (self.counter + 1) & 0xFFFFFFFF
         if self.faults.on("stall"):
@@ -87,6 +87,9 @@ class Tracker(UsbDevice):
             self.made += 1
             for sent in self._path.send(frame):
                 self._send(sent)
+
+    def _has_host(self):
+        return self.link is None or self.link.connected
 
     def poses(self, now):
         missing = self.faults.value("sensor-missing")
@@ -100,14 +103,15 @@ class Tracker(UsbDevice):
         self.answer(frame.data)
 
     def _note(self, t_ns, poses):
+        if any(self.faults.on(fault) for fault in ("nan", "slow-boot", "wrong-units")):
+            poses = dict.fromkeys(poses)  # none that a host may use
         before = self.last[2] if self.last else {}
         self.last = (t_ns, self.counter, {**before, **poses})
         if self.last[2] != before:
             self.changed = self.last
         if self._log:
-            nan = self.faults.on("nan")
             for station, pose in poses.items():
-                self._log.write(pose_file.row(t_ns // 1000, station, None if nan else pose))
+                self._log.write(pose_file.row(t_ns // 1000, station, pose))
 
     def status(self):
         def told(moment):

@@ -1,0 +1,24 @@
+/// The colour of a source mesh at a place: base colour * texture (bilinear, base level, linear light) *
+/// vertex colour.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+struct SurfaceColour {
+    glm::vec3 linear{0.0F};
+    float alpha = 1.0F;
+};
+
+/// Of triangle `triangle` at barycentric (u, v): corner weights (1 - u - v, u, v).
+[[nodiscard]] SurfaceColour surface_colour(const SourceMesh& mesh, std::uint32_t triangle, double u,
+                                           double v);
+
+} // namespace frustumscreen

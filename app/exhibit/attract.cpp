@@ -1,0 +1,37 @@
+#include "app/exhibit/attract.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+enum Shown : std::size_t { Prop, Turning };
+
+} // namespace
+
+Attract::Attract(const glm::dvec2& place_m, bool known, MonotonicTime now)
+    : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {}
+
+Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTransform& table_from_prop) {
+    const bool never = !known && age == Nanoseconds::zero();
+    if (known && fade_.goal() == Turning) {
+        fade_.change_to(Prop, now);
+    } else if (!known && (never || age >= held) && fade_.goal() == Prop) {
+        // As if a frame had been there at just that time; not before the fade that may be going on.
+        const MonotonicTime due = never ? now : now - (age - held);
+        turns_since_ = fade_.at(now).which == Prop ? due : turns_since_;
+        fade_.change_to(Turning, due);
+    }
+    const Faded faded = fade_.at(now);
+    if (faded.which == Prop) {
+        return {table_from_prop, faded.brightness, faded.changing, false};
+    }
+    const double turns = to_seconds(now - turns_since_) / to_seconds(turn);
+    const glm::dquat rotation =
+        glm::angleAxis(2.0 * std::numbers::pi * (turns - std::floor(turns)), glm::dvec3(0.0, 0.0, 1.0));
+    return {{rotation, glm::dvec3(place_m_, 0.0)}, faded.brightness, faded.changing, true};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,22 @@
+/// Triangles cut into clusters that are culled as one: the pack's levels and the bench's peers alike.
+///
+/// Frame    that of the positions, normalised to the object: what is added to spheres and cones against
+///          32-bit rounding is meant for a longest edge of 1.
+/// Threads  pure; any.
+/// Library  meshoptimizer (meshlets and their normal cones).
+#pragma once
+
+#include "app/pack/pack.h"
+
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Reorders the triangles of `indices` cluster by cluster, each in vertex-cache order, and bounds every
+/// cluster; the first one's `first_index` is `first_index`.
+[[nodiscard]] std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
+                                                         std::span<const glm::vec3> positions,
+                                                         std::uint32_t first_index = 0);
+
+} // namespace frustumscreen

@@ -1,0 +1,23 @@
+/// Keys of a keyboard in place of a panel's wires, for a bench: through the kernel's event devices (evdev).
+///
+/// Threads, errors  as ButtonLines. The keyboard is not taken from anybody else.
+#pragma once
+
+#include "firmware_host/panel/button_lines.h"
+
+namespace frustumscreen {
+
+struct KeyRequest {
+    std::string device;               ///< a path, or the keyboard's name
+    std::vector<std::uint16_t> codes; ///< of linux/input-event-codes.h, one each button
+};
+[[nodiscard]] Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request);
+
+/// The same over a file that is open already, and closed by it; `name` for messages.
+[[nodiscard]] std::unique_ptr<ButtonLines> key_lines_over(int file, std::string name,
+                                                          std::vector<std::uint16_t> codes);
+
+/// Codes of names such as KEY_LEFT. Errors: BadConfiguration, a name that there is not.
+[[nodiscard]] Result<std::vector<std::uint16_t>> key_codes(std::span<const std::string> names);
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// A length of time, longer or shorter.
+#pragma once
+
+#include "firmware_host/base/time.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+/// `length` times `factor`, at most 146 years either way, so that a recording's end can be added to its
+/// beginning.
+[[nodiscard]] inline Nanoseconds scaled(Nanoseconds length, double factor) {
+    constexpr double most = 4611686018427387904.0; // 2^62
+    return Nanoseconds(std::llround(std::clamp(static_cast<double>(length.count()) * factor, -most, most)));
+}
+
+} // namespace frustumscreen

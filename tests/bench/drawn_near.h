@@ -1,0 +1,35 @@
+/// For the bench's tests that draw: a picture of the small projector of near_stage.h.
+#pragma once
+
+#include "app/bench/measure.h"
+#include "app/bench/technique.h"
+#include "app/bench/truth.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/bench/near_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace frustumscreen {
+
+class DrawnNear : public ::testing::Test {
+protected:
+    [[nodiscard]] TruthPicture ray_cast(const Truth& truth, const BenchPose& pose) const {
+        return truth.cast(stage_.prop, view_of(stage_.settings, pose), true);
+    }
+    /// Of the picture that `technique` draws for `pose`.
+    [[nodiscard]] PictureError error_of(Technique& technique, const BenchPose& pose,
+                                        const TruthPicture& truth) const {
+        technique.draw(pose);
+        Image8 colour = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+        auto points = technique.hit_points(pose);
+        return measure(truth, {std::move(colour), std::move(points).value()});
+    }
+
+    std::unique_ptr<SurfacelessDisplay> display_ = SurfacelessDisplay::create(640, 400).value();
+    Stage stage_{near_settings(), make_prop({}), display_->framebuffer()};
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,181 @@
+// A graphics card and its memory as the kernel's KMS behaves, on a clock of its own.
+#pragma once
+
+#include "firmware_host/display/kms_device.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr Nanoseconds one_refresh{16666667};
+
+inline ModeTiming a_mode(int width, int height, double hz, bool preferred = false, std::uint32_t flags = 0) {
+    ModeTiming mode;
+    mode.width = static_cast<std::uint16_t>(width);
+    mode.height = static_cast<std::uint16_t>(height);
+    mode.htotal = static_cast<std::uint16_t>(width + 100);
+    mode.vtotal = static_cast<std::uint16_t>(height + 20);
+    const double halves = (flags & mode_interlaced) != 0 ? 2.0 : 1.0;
+    mode.clock_khz = static_cast<std::uint32_t>(hz / halves * mode.htotal * mode.vtotal / 1000.0 + 0.5);
+    mode.preferred = preferred;
+    mode.flags = flags;
+    return mode;
+}
+
+inline ConnectorSeen a_projector(std::uint32_t id = 1, std::string name = "HDMI-A-1") {
+    return {id, std::move(name), Plugged::Yes, false, false, {a_mode(1280, 800, 60.0, true)}};
+}
+
+inline CardSeen a_card(std::vector<ConnectorSeen> connectors) {
+    return {CardState::There, std::move(connectors)};
+}
+
+class FakeKms final : public KmsDevice {
+public:
+    struct Shown {
+        std::uint32_t connector = 0;
+        ModeTiming mode;
+        FramebufferId framebuffer = 0;
+    };
+
+    KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, FramebufferId shown,
+                    std::uint64_t ticket) override {
+        ++lights;
+        if (const KmsAnswer answer = answer_to_modeset(mode); answer != KmsAnswer::Done) {
+            return answer;
+        }
+        queue(Shown{connector, mode, shown}, ticket);
+        return KmsAnswer::Done;
+    }
+    KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override {
+        if (gone || !master || !screen) {
+            return gone ? KmsAnswer::Gone : !master ? KmsAnswer::NotMaster : KmsAnswer::Refused;
+        }
+        if (std::find(no_flips.begin(), no_flips.end(), screen->mode) != no_flips.end()) {
+            return KmsAnswer::Refused;
+        }
+        if (!queued_.empty() || busy > 0) {
+            busy -= busy > 0 ? 1 : 0;
+            return KmsAnswer::Busy;
+        }
+        ++flips;
+        Shown next = *screen;
+        next.framebuffer = shown;
+        queue(next, ticket);
+        return KmsAnswer::Done;
+    }
+    KmsAnswer darken() override {
+        if (const KmsAnswer answer = answer_to_modeset({}); answer != KmsAnswer::Done) {
+            return answer;
+        }
+        ++darkenings;
+        screen.reset();
+        return KmsAnswer::Done;
+    }
+    bool become_master() override {
+        master = master || !held_by_another;
+        return master;
+    }
+    std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
+        const MonotonicTime give_up = time + at_most;
+        if (hangs || queued_.empty() || queued_.front().at > give_up) {
+            time = give_up;
+            longest_wait = std::max(longest_wait, at_most);
+            return std::nullopt;
+        }
+        const Queued done = queued_.front();
+        queued_.pop_front();
+        longest_wait = std::max(longest_wait, Nanoseconds(done.at - time));
+        time = std::max(time, done.at);
+        screen = done.what;
+        flipped = done.at;
+        return Flipped{done.at, done.ticket};
+    }
+    bool flips_keep_time() const override { return keeps_time; }
+    MonotonicTime now() const override { return time; }
+
+    MonotonicTime time = from_microseconds(1'000'000);
+    std::optional<Shown> screen; ///< what the projector shows
+    std::vector<ModeTiming> refused;
+    std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
+    bool gone = false;
+    bool master = true;
+    bool held_by_another = false;
+    bool hangs = false;     ///< no flip is ever done
+    bool keeps_time = true; ///< flips are done at refreshes; else at once
+    MonotonicTime flipped;  ///< the last time
+    int busy = 0;           ///< so many calls are answered so
+    int lights = 0;
+    int flips = 0;
+    int darkenings = 0;
+    Nanoseconds longest_wait{0};
+
+private:
+    struct Queued {
+        MonotonicTime at;
+        std::uint64_t ticket = 0;
+        Shown what;
+    };
+    KmsAnswer answer_to_modeset(const ModeTiming& mode) {
+        if (gone) {
+            return KmsAnswer::Gone;
+        }
+        if (!master) {
+            return KmsAnswer::NotMaster;
+        }
+        if (busy > 0 || (hangs && !queued_.empty())) {
+            busy -= busy > 0 ? 1 : 0;
+            return KmsAnswer::Busy;
+        }
+        const bool refuses = std::find(refused.begin(), refused.end(), mode) != refused.end();
+        return refuses ? KmsAnswer::Refused : KmsAnswer::Done;
+    }
+    void queue(const Shown& what, std::uint64_t ticket) {
+        const auto refreshes = time.time_since_epoch() / one_refresh + 1;
+        queued_.push_back({keeps_time ? MonotonicTime(refreshes * one_refresh) : time, ticket, what});
+    }
+    std::deque<Queued> queued_;
+};
+
+/// Counts the pictures that are filled in; every pair has framebuffers of its own.
+struct FakeMemory {
+    int pairs = 0;
+    int alive = 0;
+    int fills = 0;
+    bool none_left = false;
+
+    class Pair final : public ScanoutPair {
+    public:
+        Pair(FakeMemory& memory, PixelSize size, int number) : memory_(memory), size_(size), number_(number) {
+            ++memory_.alive;
+        }
+        ~Pair() override { --memory_.alive; }
+        Pair(const Pair&) = delete;
+        Pair& operator=(const Pair&) = delete;
+        PixelSize size() const override { return size_; }
+        FramebufferId fill(int which) override {
+            ++memory_.fills;
+            return static_cast<FramebufferId>(10 * number_ + which);
+        }
+
+    private:
+        FakeMemory& memory_;
+        PixelSize size_;
+        int number_;
+    };
+
+    MakeScanout maker() {
+        return [this](PixelSize size) -> Result<std::unique_ptr<ScanoutPair>> {
+            if (none_left) {
+                return fail(ErrorKind::BadConfiguration, "no memory");
+            }
+            return std::make_unique<Pair>(*this, size, ++pairs);
+        };
+    }
+};
+
+} // namespace frustumscreen

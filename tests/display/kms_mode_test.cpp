@@ -1,0 +1,143 @@
+#include "firmware_host/display/kms_mode.h"
+#include "tests/display/fake_kms.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+OutputWish wish(int width = 0, int height = 0, double hz = 0.0) {
+    OutputWish made;
+    made.width = width;
+    made.height = height;
+    made.refresh_hz = hz;
+    made.picture_width = 1280;
+    made.picture_height = 800;
+    return made;
+}
+
+ConnectorSeen with(std::vector<ModeTiming> modes) {
+    ConnectorSeen connector = a_projector();
+    connector.modes = std::move(modes);
+    return connector;
+}
+
+TEST(KmsMode, RefreshIsThatOfThePicture) {
+    // CTA-861 formats 16 and 5.
+    ModeTiming hd{148500, 1920, 2008, 2052, 2200, 0, 1080, 1084, 1089, 1125, 0, 0, false};
+    EXPECT_DOUBLE_EQ(refresh_hz(hd), 60.0);
+    ModeTiming halved{74250, 1920, 2008, 2052, 2200, 0, 1080, 1084, 1094, 1125, 0, mode_interlaced, false};
+    EXPECT_DOUBLE_EQ(refresh_hz(halved), 60.0);
+    EXPECT_EQ(refresh_hz({}), 0.0);
+}
+
+TEST(KmsMode, ThePreferredOneIsFirstIfNothingIsAskedFor) {
+    const auto modes = modes_to_try(
+        with({a_mode(1280, 800, 60.0), a_mode(1920, 1080, 60.0, true), a_mode(640, 480, 60.0)}), wish());
+    ASSERT_EQ(modes.size(), 3U);
+    EXPECT_EQ(modes[0].width, 1920);
+    EXPECT_EQ(modes[1].width, 1280) << "then by nearness to the picture";
+}
+
+TEST(KmsMode, TheOneAskedForGoesBeforeThePreferredOne) {
+    const auto list =
+        with({a_mode(1920, 1080, 60.0, true), a_mode(1280, 800, 59.81), a_mode(1280, 800, 74.93)});
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800, 60.0))[0]), 59.81, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800, 75.0))[0]), 74.93, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800))[0]), 59.81, 0.01) << "60 Hz is usual";
+    EXPECT_EQ(modes_to_try(list, wish(1280, 800, 50.0))[0].width, 1920) << "not there: the preferred one";
+    EXPECT_EQ(modes_to_try(list, wish(1280, 800, 50.0))[1].width, 1280) << "then the nearest";
+}
+
+TEST(KmsMode, OfTwoThatDifferByAThousandthTheNearerOneIsTaken) {
+    const auto list = with({a_mode(1920, 1080, 59.94), a_mode(1920, 1080, 60.0)});
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1920, 1080, 60.0))[0]), 60.0, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1920, 1080, 59.94))[0]), 59.94, 0.01);
+}
+
+TEST(KmsMode, HalvesOfPicturesAreTheLastResort) {
+    const auto list = with({a_mode(1920, 1080, 60.0, false, mode_interlaced), a_mode(720, 576, 50.0)});
+    EXPECT_EQ(modes_to_try(list, wish(1920, 1080))[0].width, 720);
+    EXPECT_EQ(modes_to_try(with({list.modes[0]}), wish(1920, 1080))[0].width, 1920);
+}
+
+TEST(KmsMode, NonsenseInAListIsLeftOut) {
+    ModeTiming empty;
+    ModeTiming no_clock = a_mode(1280, 800, 60.0);
+    no_clock.clock_khz = 0;
+    const ModeTiming stereo = a_mode(1920, 1080, 60.0, true, 1U << 14U);
+    EXPECT_TRUE(modes_to_try(with({empty, no_clock, stereo}), wish()).empty());
+    EXPECT_TRUE(modes_to_try(with({}), wish()).empty());
+    EXPECT_TRUE(modes_to_try(with({}), wish(1280, 800)).empty());
+}
+
+TEST(KmsMode, AForcedModeComesFromTheListIfItIsThereAndElseFromUs) {
+    OutputWish forced = wish(1280, 800, 60.0);
+    forced.force = true;
+    const auto bad_edid = with({a_mode(1024, 768, 60.0), a_mode(800, 600, 60.0)});
+    const auto made = modes_to_try(bad_edid, forced);
+    ASSERT_EQ(made.size(), 3U);
+    EXPECT_EQ(made[0].width, 1280);
+    EXPECT_EQ(made[0].height, 800);
+    EXPECT_NEAR(refresh_hz(made[0]), 60.0, 0.5);
+    EXPECT_EQ(modes_to_try(with({}), forced).size(), 1U) << "no EDID at all";
+    const auto good = with({a_mode(1024, 768, 60.0, true), a_mode(1280, 800, 59.81)});
+    EXPECT_EQ(modes_to_try(good, forced)[0], good.modes[1]);
+    EXPECT_EQ(modes_to_try(good, forced).size(), 2U);
+}
+
+TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
+    // VESA DMT 1.13: 1280 x 800 with reduced blanking, ID 1Bh; the same by CVT.
+    const ModeTiming wide = make_mode(1280, 800, 60.0);
+    EXPECT_EQ(wide.clock_khz, 71000U);
+    EXPECT_EQ(wide.htotal, 1440);
+    EXPECT_EQ(wide.vtotal, 823);
+    EXPECT_EQ(wide.flags, mode_hsync_positive | mode_vsync_negative);
+    // CTA-861 formats 4 and 16.
+    EXPECT_EQ(make_mode(1280, 720, 60.0).clock_khz, 74250U);
+    EXPECT_EQ(make_mode(1920, 1080, 60.0).clock_khz, 148500U);
+    EXPECT_DOUBLE_EQ(refresh_hz(make_mode(1280, 720, 60.0)), 60.0);
+    for (const double hz : {24.0, 50.0, 60.0, 75.0, 120.0}) {
+        for (const auto& [width, height] : {std::pair{640, 480}, {1024, 768}, {1920, 1200}, {3840, 2160}}) {
+            const ModeTiming mode = make_mode(width, height, hz);
+            EXPECT_NEAR(refresh_hz(mode), hz, 0.02 * hz) << width; // CVT counts clocks in 250 kHz
+            EXPECT_TRUE(mode.width <= mode.hsync_start && mode.hsync_start < mode.hsync_end &&
+                        mode.hsync_end < mode.htotal);
+            EXPECT_TRUE(mode.height < mode.vsync_start && mode.vsync_start < mode.vsync_end &&
+                        mode.vsync_end < mode.vtotal);
+        }
+    }
+}
+
+TEST(KmsMode, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
+    ConnectorSeen panel = a_projector(1, "eDP-1");
+    panel.built_in = true;
+    ConnectorSeen off = a_projector(2, "HDMI-A-1");
+    off.plugged = Plugged::No;
+    ConnectorSeen unsure = a_projector(3, "VGA-1");
+    unsure.plugged = Plugged::Unknown;
+    ConnectorSeen mute = a_projector(4, "DP-1");
+    mute.modes.clear();
+    const ConnectorSeen there = a_projector(5, "DP-2");
+    const auto chosen = [](std::vector<ConnectorSeen> all, const OutputWish& asked) {
+        const CardSeen card = a_card(std::move(all));
+        const ConnectorSeen* connector = choose_connector(card, asked);
+        return connector != nullptr ? connector->name : std::string("none");
+    };
+    EXPECT_EQ(chosen({panel, off, unsure, mute, there}, wish()), "DP-2");
+    EXPECT_EQ(chosen({unsure, panel, off, mute}, wish()), "eDP-1");
+    EXPECT_EQ(chosen({off, unsure, mute}, wish()), "VGA-1");
+    EXPECT_EQ(chosen({off, mute}, wish()), "none");
+    EXPECT_EQ(chosen({}, wish()), "none");
+    OutputWish named = wish();
+    named.connector = "eDP-1";
+    EXPECT_EQ(chosen({there, panel}, named), "eDP-1");
+    named.connector = "HDMI-A-1";
+    EXPECT_EQ(chosen({there, off}, named), "none") << "the one that was named, or none";
+    OutputWish forced = wish(1280, 800);
+    forced.force = true;
+    EXPECT_EQ(chosen({off, mute}, forced), "DP-1");
+}
+
+} // namespace
+} // namespace frustumscreen

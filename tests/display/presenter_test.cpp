@@ -1,0 +1,370 @@
+#include "firmware_host/display/presenter.h"
+#include "tests/display/fake_kms.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+OutputWish wish_for_the_preferred() {
+    OutputWish wish;
+    wish.picture_width = 1280;
+    wish.picture_height = 800;
+    return wish;
+}
+
+class Exhibit {
+public:
+    explicit Exhibit(const OutputWish& wish = wish_for_the_preferred())
+        : presenter(kms, memory.maker(), wish) {}
+
+    /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.
+    MonotonicTime frame() {
+        const MonotonicTime begin = kms.time;
+        kms.time += std::chrono::milliseconds(5);
+        const MonotonicTime called = kms.time;
+        const Result<MonotonicTime> shown = presenter.present(true);
+        EXPECT_TRUE(shown) << shown.error().message;
+        EXPECT_LE(kms.time - called, flip_patience) << "present held up the exhibit";
+        kms.time = std::max(kms.time, presenter.next_frame(begin, one_refresh));
+        return shown.value_or(MonotonicTime{});
+    }
+    void frames(int count) {
+        for (int k = 0; k < count; ++k) {
+            frame();
+        }
+    }
+    bool says(const std::string& words) const {
+        return std::string(presenter.state()).find(words) != std::string::npos;
+    }
+
+    FakeKms kms;
+    FakeMemory memory;
+    Presenter presenter;
+};
+
+TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
+    Exhibit exhibit;
+    exhibit.frames(100);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_TRUE(exhibit.says("looked for"));
+    ConnectorSeen off = a_projector();
+    off.plugged = Plugged::No;
+    off.modes.clear();
+    exhibit.presenter.connected(a_card({off}));
+    exhibit.frames(100);
+    EXPECT_TRUE(exhibit.says("no projector is connected")) << exhibit.presenter.state();
+    EXPECT_EQ(exhibit.memory.pairs, 0);
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(2);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode, a_mode(1280, 800, 60.0, true));
+    EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
+}
+
+TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frame();
+    FramebufferId before = 0;
+    for (int k = 0; k < 100; ++k) {
+        exhibit.frame();
+        ASSERT_TRUE(exhibit.kms.screen);
+        EXPECT_NE(exhibit.kms.screen->framebuffer, before);
+        before = exhibit.kms.screen->framebuffer;
+    }
+    EXPECT_EQ(exhibit.kms.lights, 1);
+    EXPECT_EQ(exhibit.kms.flips, 100);
+    EXPECT_EQ(exhibit.memory.fills, 101);
+    EXPECT_EQ(exhibit.kms.longest_wait, Nanoseconds(0))
+        << "frames begin on flips: none waits for the one before";
+}
+
+TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(3);
+    for (int k = 0; k < 200; ++k) {
+        const MonotonicTime told = exhibit.frame();
+        exhibit.frame();
+        EXPECT_LT(std::chrono::abs(told - exhibit.kms.flipped), std::chrono::microseconds(200));
+    }
+}
+
+TEST(Presenter, PacesByItselfWhereFlipsComeAtOnce) {
+    Exhibit exhibit;
+    exhibit.kms.keeps_time = false;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frame();
+    const MonotonicTime begin = exhibit.kms.time;
+    exhibit.frames(60);
+    EXPECT_EQ(exhibit.kms.time - begin, 60 * one_refresh);
+    const MonotonicTime told = exhibit.frame();
+    EXPECT_EQ(told, exhibit.kms.time - one_refresh + std::chrono::milliseconds(5));
+}
+
+TEST(Presenter, GoesDarkWhenTheProjectorGoesAndSetsItsModeAnewWhenItIsBack) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(10);
+    ConnectorSeen off = a_projector();
+    off.plugged = Plugged::No;
+    exhibit.presenter.connected(a_card({off}));
+    exhibit.frames(10);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.darkenings, 1);
+    EXPECT_TRUE(exhibit.says("no projector")) << exhibit.presenter.state();
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(2);
+    EXPECT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.lights, 2);
+    EXPECT_EQ(exhibit.memory.pairs, 1) << "the same mode needs no new memory";
+}
+
+TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
+    // The projector goes before step k of a life and comes back m steps later.
+    for (int gone_at = 0; gone_at < 12; ++gone_at) {
+        for (int back_after = 0; back_after < 6; ++back_after) {
+            Exhibit exhibit;
+            exhibit.kms.busy = gone_at % 3;
+            ConnectorSeen off = a_projector();
+            off.plugged = Plugged::No;
+            exhibit.presenter.connected(a_card({a_projector()}));
+            exhibit.frames(gone_at);
+            exhibit.presenter.connected(a_card({off}));
+            exhibit.frames(back_after);
+            exhibit.presenter.connected(a_card({a_projector()}));
+            exhibit.frames(20);
+            ASSERT_TRUE(exhibit.kms.screen) << gone_at << ", " << back_after;
+            ASSERT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+            const int flips = exhibit.kms.flips;
+            exhibit.frames(10);
+            EXPECT_EQ(exhibit.kms.flips, flips + 10);
+        }
+    }
+}
+
+TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    ConnectorSeen other = a_projector();
+    other.modes = {a_mode(1920, 1080, 60.0, true)};
+    exhibit.presenter.connected(a_card({other}));
+    exhibit.frames(5);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1920);
+    EXPECT_EQ(exhibit.memory.pairs, 2);
+    EXPECT_EQ(exhibit.memory.alive, 1) << "what was shown before is given back";
+}
+
+TEST(Presenter, KeepsWhatIsLitWhenSomethingElseIsPlugged) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector(2, "HDMI-A-2")}));
+    exhibit.frames(5);
+    exhibit.presenter.connected(a_card({a_projector(1, "DP-1"), a_projector(2, "HDMI-A-2")}));
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.kms.lights, 1);
+    EXPECT_EQ(exhibit.kms.screen->connector, 2U);
+}
+
+TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
+    Exhibit exhibit;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(3840, 2160, 60.0, true), a_mode(1920, 1200, 60.0), a_mode(1280, 800, 60.0)};
+    exhibit.kms.refused = {projector.modes[0], projector.modes[2]};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(3);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1920);
+    EXPECT_EQ(exhibit.memory.alive, 1);
+    exhibit.kms.refused = projector.modes;
+    Exhibit none;
+    none.kms.refused = projector.modes;
+    none.presenter.connected(a_card({projector}));
+    none.frames(200);
+    EXPECT_TRUE(none.says("takes no mode of the projector at HDMI-A-1")) << none.presenter.state();
+    EXPECT_LE(none.kms.lights, 3 * 5) << "tried again every second, not every frame";
+}
+
+TEST(Presenter, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
+    Exhibit exhibit;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(1920, 1080, 60.0, true), a_mode(1280, 800, 60.0)};
+    exhibit.kms.no_flips = {projector.modes[0]};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(30);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1280);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.lights, 2);
+}
+
+TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    exhibit.kms.hangs = true;
+    exhibit.frame();
+    const MonotonicTime hung = exhibit.kms.time;
+    exhibit.frames(30);
+    EXPECT_TRUE(exhibit.says("does not show the last picture")) << exhibit.presenter.state();
+    EXPECT_LT(exhibit.kms.time - hung, flip_patience + 31 * one_refresh + std::chrono::milliseconds(200));
+    exhibit.frames(300);
+    EXPECT_TRUE(exhibit.says("does not answer")) << exhibit.presenter.state();
+    exhibit.kms.hangs = false;
+    exhibit.frames(100);
+    EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+    const int flips = exhibit.kms.flips;
+    exhibit.frames(10);
+    EXPECT_EQ(exhibit.kms.flips, flips + 10);
+}
+
+TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    exhibit.kms.hangs = true;
+    exhibit.frames(10);
+    exhibit.kms.hangs = false;
+    exhibit.frames(10);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.lights, 1) << "nothing was lost, so nothing is set anew";
+}
+
+TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    exhibit.kms.busy = 2;
+    exhibit.frames(3);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.flips, 4 + 1);
+    EXPECT_EQ(exhibit.kms.lights, 1);
+}
+
+TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    exhibit.kms.master = false;
+    exhibit.kms.held_by_another = true;
+    exhibit.frames(200);
+    EXPECT_TRUE(exhibit.says("another program holds the screen")) << exhibit.presenter.state();
+    EXPECT_FALSE(exhibit.presenter.lit());
+    exhibit.kms.held_by_another = false;
+    exhibit.frames(100);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.lights, 2);
+}
+
+TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    exhibit.kms.gone = true;
+    exhibit.frames(100);
+    EXPECT_TRUE(exhibit.says("graphics card is gone")) << exhibit.presenter.state();
+    exhibit.presenter.connected({CardState::Gone, {}});
+    exhibit.frames(100);
+    EXPECT_TRUE(exhibit.says("graphics card is gone"));
+    exhibit.presenter.connected({CardState::Back, {}});
+    const Result<MonotonicTime> shown = exhibit.presenter.present(true);
+    ASSERT_FALSE(shown);
+    EXPECT_EQ(shown.error().kind, ErrorKind::DeviceLost);
+}
+
+TEST(Presenter, SetsNoModeWhileTheCardIsBeingAsked) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    ASSERT_TRUE(exhibit.presenter.present(false));
+    EXPECT_EQ(exhibit.kms.lights, 0);
+    ASSERT_TRUE(exhibit.presenter.present(true));
+    EXPECT_EQ(exhibit.kms.lights, 1);
+}
+
+TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    ConnectorSeen bad = a_projector();
+    bad.link_bad = true;
+    exhibit.presenter.connected(a_card({bad}));
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.kms.lights, 2);
+    EXPECT_TRUE(exhibit.says("is lit"));
+}
+
+TEST(Presenter, SaysWhatThePersonBesideItCanDo) {
+    OutputWish wish = wish_for_the_preferred();
+    wish.connector = "DP-3";
+    Exhibit exhibit(wish);
+    exhibit.presenter.connected(a_card({a_projector(), a_projector(2, "VGA-1")}));
+    EXPECT_TRUE(exhibit.says("no connector DP-3; it has HDMI-A-1, VGA-1")) << exhibit.presenter.state();
+    ConnectorSeen mute = a_projector(3, "DP-3");
+    mute.modes.clear();
+    exhibit.presenter.connected(a_card({mute}));
+    EXPECT_TRUE(exhibit.says("names no mode; set display.mode and display.force"))
+        << exhibit.presenter.state();
+    wish = wish_for_the_preferred();
+    wish.width = 1024;
+    wish.height = 768;
+    Exhibit other(wish);
+    other.presenter.connected(a_card({a_projector()}));
+    other.frames(2);
+    EXPECT_TRUE(other.says("because it cannot do the mode in the settings")) << other.presenter.state();
+}
+
+TEST(Presenter, EndsLitAfterAnyHistoryThatEndsWell) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const auto one_of = [&random](int count) {
+            return static_cast<int>(random() % static_cast<unsigned>(count));
+        };
+        Exhibit exhibit;
+        for (int step = 0; step < 60; ++step) {
+            ConnectorSeen projector = a_projector();
+            projector.plugged = one_of(3) == 0   ? Plugged::No
+                                : one_of(5) == 0 ? Plugged::Unknown
+                                                 : Plugged::Yes;
+            projector.modes = {a_mode(640 + 160 * one_of(4), 480, 60.0, true)};
+            switch (one_of(8)) {
+            case 0:
+            case 1:
+                exhibit.presenter.connected(a_card({projector}));
+                break;
+            case 2:
+                exhibit.kms.hangs = one_of(2) == 0;
+                break;
+            case 3:
+                exhibit.kms.master = one_of(2) == 0;
+                exhibit.kms.held_by_another = one_of(2) == 0;
+                break;
+            case 4:
+                exhibit.kms.busy = one_of(4);
+                break;
+            case 5:
+                exhibit.memory.none_left = one_of(2) == 0;
+                break;
+            default:
+                break;
+            }
+            exhibit.frames(one_of(20));
+        }
+        exhibit.kms.hangs = false;
+        exhibit.kms.held_by_another = false;
+        exhibit.memory.none_left = false;
+        exhibit.presenter.connected(a_card({a_projector()}));
+        exhibit.frames(400);
+        ASSERT_TRUE(exhibit.says("is lit")) << seed << ": " << exhibit.presenter.state();
+        ASSERT_TRUE(exhibit.kms.screen);
+        EXPECT_EQ(exhibit.kms.screen->mode.width, 1280) << seed;
+        EXPECT_EQ(exhibit.memory.alive, 1) << seed;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

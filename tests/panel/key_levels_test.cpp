@@ -1,0 +1,183 @@
+#include "firmware_host/panel/button_panel.h"
+#include "firmware_host/panel/key_levels.h"
+#include "firmware_host/panel/key_lines.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <random>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// An event as a 64-bit kernel lays it out: 16 bytes of time, u16 type, u16 code, s32 value.
+std::vector<std::byte> event(unsigned type, unsigned code, int value) {
+    std::vector<std::byte> bytes(16, std::byte{0x5a}); // the time is nobody's business
+    const auto u = static_cast<unsigned>(value);
+    for (const unsigned byte : {type, type >> 8U, code, code >> 8U, u, u >> 8U, u >> 16U, u >> 24U}) {
+        bytes.push_back(static_cast<std::byte>(byte));
+    }
+    return bytes;
+}
+
+// linux/input-event-codes.h
+constexpr unsigned syn = 0;
+constexpr unsigned key = 1;
+constexpr unsigned report = 0;
+constexpr unsigned dropped = 3;
+constexpr std::uint16_t left = 105;
+constexpr std::uint16_t right = 106;
+
+class KeyLevelsTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (sizeof(void*) != 8 || std::endian::native != std::endian::little) {
+            GTEST_SKIP() << "the bytes are those of a 64-bit little-endian kernel";
+        }
+    }
+    KeyLevels levels{{left, right}};
+};
+
+TEST_F(KeyLevelsTest, FollowTheKeysThatCount) {
+    EXPECT_FALSE(levels.take(event(key, left, 1)));
+    EXPECT_TRUE(levels.down(0));
+    EXPECT_FALSE(levels.down(1));
+    EXPECT_FALSE(levels.take(event(key, left, 2))); // it repeats
+    EXPECT_TRUE(levels.down(0));
+    EXPECT_FALSE(levels.take(event(key, 30, 1))); // another key
+    EXPECT_FALSE(levels.take(event(2, left, 1))); // a movement with the same number
+    EXPECT_FALSE(levels.down(1));
+    EXPECT_FALSE(levels.take(event(key, left, 0)));
+    EXPECT_FALSE(levels.down(0));
+}
+
+TEST_F(KeyLevelsTest, DoNotMindWhereAReadCuts) {
+    std::vector<std::byte> bytes;
+    for (const auto& each : {event(key, left, 1), event(syn, report, 0), event(key, right, 1),
+                             event(syn, report, 0), event(key, left, 0), event(syn, report, 0)}) {
+        bytes.insert(bytes.end(), each.begin(), each.end());
+    }
+    for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+        KeyLevels cut_levels({left, right});
+        EXPECT_FALSE(cut_levels.take(std::span(bytes).first(cut)));
+        EXPECT_FALSE(cut_levels.take(std::span(bytes).subspan(cut)));
+        EXPECT_FALSE(cut_levels.down(0)) << cut;
+        EXPECT_TRUE(cut_levels.down(1)) << cut;
+    }
+}
+
+TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
+    EXPECT_FALSE(levels.take(event(key, left, 1)));
+    EXPECT_TRUE(levels.take(event(syn, dropped, 0)));
+    EXPECT_FALSE(levels.take(event(key, right, 1))); // of the report that is not whole
+    EXPECT_FALSE(levels.down(1));
+    EXPECT_FALSE(levels.take(event(syn, report, 0)));
+    EXPECT_FALSE(levels.take(event(key, right, 1)));
+    EXPECT_TRUE(levels.down(1));
+    std::array<std::byte, 96> bits{};
+    bits[13] = std::byte{0x04}; // bit 106: right
+    levels.set(bits);
+    EXPECT_FALSE(levels.down(0));
+    EXPECT_TRUE(levels.down(1));
+    levels.set(std::span(bits).first(13)); // an answer that is too short
+    EXPECT_FALSE(levels.down(1));
+}
+
+TEST_F(KeyLevelsTest, AnyBytesAreTaken) {
+    std::mt19937 random(5);
+    for (int k = 0; k < 20'000; ++k) {
+        std::vector<std::byte> bytes(random() % 100);
+        for (std::byte& byte : bytes) {
+            byte = static_cast<std::byte>(random() % 4); // mostly event types that there are
+        }
+        (void)levels.take(bytes);
+    }
+}
+
+TEST(KeyCodes, AreKnownByTheirNames) {
+    const std::vector<std::string> names{"KEY_LEFT", "KEY_RIGHT", "KEY_A"};
+    const auto codes = key_codes(names);
+    ASSERT_TRUE(codes);
+    EXPECT_EQ(*codes, (std::vector<std::uint16_t>{105, 106, 30}));
+    for (const char* wrong : {"KEY_NO_SUCH", "", "left", "EV_KEY"}) {
+        const auto none = key_codes(std::vector<std::string>{wrong});
+        ASSERT_FALSE(none) << wrong;
+        EXPECT_EQ(none.error().kind, ErrorKind::BadConfiguration);
+    }
+}
+
+TEST(KeyLines, AKeyboardThatIsNotThereIsSaidInOneSentence) {
+    for (const char* device : {"/dev/input/event-none", "No such keyboard"}) {
+        const auto lines = open_key_lines({device, {left}});
+        ASSERT_FALSE(lines);
+        EXPECT_EQ(lines.error().kind, ErrorKind::DeviceLost);
+        EXPECT_NE(lines.error().message.find(device), std::string::npos);
+        EXPECT_NE(lines.error().message.find("plugged in"), std::string::npos) << lines.error().message;
+    }
+    const auto no_keyboard = open_key_lines({"/dev/null", {left}});
+    ASSERT_FALSE(no_keyboard);
+    EXPECT_NE(no_keyboard.error().message.find("no event device"), std::string::npos);
+}
+
+/// A keyboard that is a pipe: what a test writes is what its kernel sends.
+struct PipeKeyboard {
+    std::array<int, 2> ends{-1, -1};
+
+    [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open() {
+        if (::pipe(ends.data()) != 0) {
+            return fail(ErrorKind::DeviceLost, "no pipe");
+        }
+        return key_lines_over(ends[0], "pipe", {left, right});
+    }
+    void send(unsigned code, int value) const {
+        std::vector<std::byte> bytes = event(key, code, value);
+        const std::vector<std::byte> end = event(syn, report, 0);
+        bytes.insert(bytes.end(), end.begin(), end.end());
+        ASSERT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    }
+    void unplug() { ::close(std::exchange(ends[1], -1)); }
+};
+
+TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged) {
+    PipeKeyboard keyboard;
+    std::atomic<int> opened{0};
+    ButtonTimes times;
+    times.debounce = milliseconds(5);
+    ButtonPanel panel(
+        [&] {
+            auto lines = keyboard.open();
+            ++opened;
+            return lines;
+        },
+        2, times);
+    std::vector<PanelEvent> events;
+    const auto until = [&](const auto& done) {
+        const auto give_up = monotonic_now() + seconds(10);
+        while (!done() && monotonic_now() < give_up) {
+            EXPECT_TRUE(panel.poll(monotonic_now(), events));
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return done();
+    };
+    for (int plugged = 1; plugged <= 2; ++plugged) {
+        ASSERT_TRUE(until([&] { return opened == plugged; }));
+        std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+        events.clear();
+        keyboard.send(right, 1);
+        ASSERT_TRUE(until([&] { return !events.empty(); }));
+        EXPECT_EQ(events[0].button, 1);
+        EXPECT_EQ(events[0].kind, PressKind::Press);
+        keyboard.send(right, 0);
+        keyboard.unplug();
+        ASSERT_TRUE(until([&] { return panel.state().find("keyboard pipe: it is not there") == 0; }));
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,136 @@
+// `frustumscreen record` and `frustumscreen-poses convert`, without a device: a recording is made in memory.
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/tracker/packet_replay.h"
+#include "firmware_host/tracker/pose_file.h"
+#include "tests/tracker/wire_bytes.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A HID tracker for one second at 100 Hz, moving along x by 1 mm a sample.
+Bytes recording() {
+    Bytes file;
+    append_packet_header(file);
+    const auto put = [&](PacketKind kind, int ms, std::span<const std::byte> payload) {
+        append_packet(file, {kind, from_microseconds(1000 * (90'000 + ms)), payload});
+    };
+    put(PacketKind::Opened, 0, OpenedDevice{UsbTrackerModel::Hid, {}}.bytes());
+    put(PacketKind::Received, 1, wire::hid_info());
+    for (int k = 0; k < 100; ++k) {
+        wire::HidPose pose;
+        pose.counter = static_cast<std::uint32_t>(k);
+        pose.time_us = static_cast<std::uint32_t>(10'000 * k);
+        pose.position = {100 * k, 0, 0};
+        pose.quaternion = {32767, 0, 0, 0};
+        put(PacketKind::Received, 10 + 10 * k, wire::hid_pose(pose));
+    }
+    return file;
+}
+
+class RecordCommand : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() / ("frustumscreen_record_test" + std::to_string(::getpid()));
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    void settings(const std::string& tracker) const {
+        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[tracker]\n" + tracker)));
+    }
+    /// The exit status; what it printed is in out.txt and err.txt.
+    [[nodiscard]] int run(const std::string& command) const {
+        const int status =
+            std::system(fmt::format("cd '{}' && ASAN_OPTIONS=detect_leaks=0 '{}'/{} >out.txt 2>err.txt",
+                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
+                            .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    [[nodiscard]] std::string text(const std::string& file) const {
+        const Result<Bytes> bytes = read_file(folder / file);
+        return bytes ? std::string(as_text(*bytes)) : std::string();
+    }
+    [[nodiscard]] std::vector<PoseSample> poses(const std::string& file) const {
+        const auto parsed = parse_poses(text(file), file, PoseOrder::PropAscends);
+        EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
+        return parsed ? *parsed : std::vector<PoseSample>();
+    }
+    fs::path folder;
+};
+
+TEST_F(RecordCommand, WritesWhatTheTrackerGaveAsAPoseFile) {
+    settings("kind = \"simulated\"\n");
+    ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.3 -o poses.csv"), 0)
+        << text("err.txt");
+    EXPECT_GT(poses("poses.csv").size(), 20U);
+    EXPECT_NE(text("out.txt").find("poses.csv: "), std::string::npos);
+}
+
+TEST_F(RecordCommand, ARecordingPlaysInPlaceOfTheDeviceAndIsPlacedOnTheTable) {
+    ASSERT_TRUE(write_file(folder / "fault.rec", recording()));
+    settings("kind = \"replay\"\nposes = \"fault.rec\"\nreplay_speed = 10.0\n"
+             "table_from_tracker = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0.25,0,0.125,1]\n");
+    ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.5 -o poses.csv"), 0)
+        << text("err.txt");
+    const std::vector<PoseSample> found = poses("poses.csv");
+    ASSERT_EQ(found.size(), 100U);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_LT(
+            glm::distance(found[k].position_m, glm::dvec3(0.25 + 0.001 * static_cast<double>(k), 0, 0.125)),
+            1e-12);
+        EXPECT_NEAR(std::abs(found[k].rotation.x), 1.0, 1e-12);
+    }
+    EXPECT_NEAR(to_seconds(found.back().time - found.front().time), 0.099, 2e-6);
+    EXPECT_NE(text("poses.csv").find("# table_from_tracker = [1, 0, 0, 0, 0, -1"), std::string::npos);
+}
+
+TEST_F(RecordCommand, ARecordingIsConvertedUpToItsCut) {
+    const Bytes whole = recording();
+    const std::span<const std::byte> cut(whole.data(), whole.size() - 1);
+    ASSERT_TRUE(write_file(folder / "fault.rec", cut));
+    ASSERT_EQ(run("frustumscreen-poses convert fault.rec -o poses.csv"), 0) << text("err.txt");
+    const std::vector<PoseSample> found = poses("poses.csv");
+    ASSERT_EQ(found.size(), 99U);
+    EXPECT_EQ(to_microseconds(found.front().time), 10'000);
+    EXPECT_EQ(to_microseconds(found.back().time), 990'000);
+    EXPECT_LT(glm::distance(found.back().position_m, glm::dvec3(0.098, 0, 0)), 1e-12);
+    EXPECT_NE(text("out.txt").find("53 bytes behind a cut"), std::string::npos) << text("out.txt");
+}
+
+TEST_F(RecordCommand, WhatHasNoPacketsIsRefusedInPlainWords) {
+    settings("kind = \"simulated\"\n");
+    for (const std::string command :
+         {"record --seconds 1 --raw -o raw", "run --headless --seconds 1 --pattern --record raw"}) {
+        EXPECT_EQ(run("frustumscreen " + command + " --config kiosk.toml"), 1);
+        EXPECT_EQ(text("err.txt"),
+                  "frustumscreen: tracker.kind is \"simulated\", which has no packets to record; "
+                  "allowed are \"usb\" and \"spacemouse\"\n");
+    }
+    EXPECT_FALSE(fs::exists(folder / "raw"));
+}
+
+TEST_F(RecordCommand, WithoutADeviceThePacketsAreStillARecordingThatSaysSo) {
+    settings("kind = \"spacemouse\"\n");
+    ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.3 --raw -o raw"), 0)
+        << text("err.txt");
+    const Bytes file = *read_file(folder / "raw");
+    EXPECT_TRUE(is_packet_recording(file));
+    EXPECT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.1 -o none.csv"), 1);
+    EXPECT_NE(text("err.txt").find("no pose came"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "none.csv"));
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,37 @@
+/// The byte dumps in docs/, so that the documents' examples are tests.
+#pragma once
+
+#include "firmware_host/base/file.h"
+#include "tests/tracker/wire_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+namespace frustumscreen::wire {
+
+/// The bytes in the block of docs/`document` that begins with `start`, whatever text follows them in a line.
+inline Wire bytes_in_document(const std::string& document, const std::string& start) {
+    const Result<Bytes> file = read_file(std::string(FRUSTUMSCREEN_SOURCE_DIR "/docs/") + document);
+    const std::string text = file ? std::string(as_text(*file)) : std::string();
+    const std::size_t begin = text.find("```\n" + start);
+    const std::size_t end = text.find("```", begin + 3);
+    if (begin == std::string::npos || end == std::string::npos) {
+        ADD_FAILURE() << document << " has no block that begins with " << start;
+        return {};
+    }
+    std::istringstream lines(text.substr(begin + 4, end - begin - 4));
+    Wire bytes;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string word;
+        while (words >> word && word.size() == 2 &&
+               word.find_first_not_of("0123456789ABCDEF") == std::string::npos) {
+            bytes.push_back(from_hex(word)[0]);
+        }
+    }
+    return bytes;
+}
+
+} // namespace frustumscreen::wire

@@ -1,0 +1,44 @@
+/// What a codec makes of a whole stream of bytes: for the codecs' tests.
+#pragma once
+
+#include "firmware_host/tracker/viper_codec.h" // NeedMore
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ParsedStream {
+    std::vector<DeviceFrame> frames;
+    int others = 0; ///< messages that are no frames
+    int refusals = 0;
+    std::size_t left = 0; ///< bytes that wait for more
+};
+
+/// All that the bytes give, each step of `parse` checked for what every step must keep.
+template <typename Parse> ParsedStream parsed_stream(std::span<const std::byte> stream, Parse parse) {
+    ParsedStream parsed;
+    while (true) {
+        const auto step = parse(stream);
+        const bool waits = std::holds_alternative<NeedMore>(step.message);
+        EXPECT_EQ(step.consumed == 0, waits);
+        EXPECT_LE(step.consumed, stream.size());
+        if (step.consumed == 0 || step.consumed > stream.size()) {
+            parsed.left = stream.size();
+            return parsed;
+        }
+        if (const auto* frame = std::get_if<DeviceFrame>(&step.message)) {
+            parsed.frames.push_back(*frame);
+        } else if (std::holds_alternative<Refusal>(step.message)) {
+            ++parsed.refusals;
+        } else {
+            ++parsed.others;
+        }
+        stream = stream.subspan(step.consumed);
+    }
+}
+
+} // namespace frustumscreen
