@@ -181,6 +181,7 @@ private:
         }
         Still& still = result_.stills[stills_taken_++];
         still.situation = situation;
+        still.situation.table_from_prop = state.stands.value_or(situation.table_from_prop);
         still.time = MonotonicTime(now - start_);
         read_colour_into(display_.framebuffer(), still.picture);
         erase_probe(still.picture); // a watchdog's, not the picture's
