@@ -23,6 +23,7 @@ public:
         glBindRenderbuffer(GL_RENDERBUFFER, colour_);
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+        glDisable(GL_SCISSOR_TEST);
         glClearColor(1.0F, 0.0F, 1.0F, 1.0F); // whatever was there before
         glClear(GL_COLOR_BUFFER_BIT);
     }
