@@ -94,6 +94,9 @@ private:
         bool coded = false;
         if (drawn.drawn) {
             coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+            for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
+                display_.changed({part.x, part.y, part.width, part.height});
+            }
             const Result<MonotonicTime> shown = display_.present(now);
             if (!shown) {
                 return tl::unexpected<Error>(shown.error());
