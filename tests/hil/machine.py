@@ -177,7 +177,7 @@ class Machine:
             if time.monotonic() > deadline:
                 raise MachineError(f"in the guest, after {timeout_s:.0f} s still running: {command}")
             time.sleep(pause_s)
-            pause_s = min(2 * pause_s, 0.2)
+            pause_s = min(2 * pause_s, 0.5)
         output = b"".join(base64.b64decode(state.get(key, "")) for key in ("out-data", "err-data"))
         return Ran(state.get("exitcode", -1), output.decode(errors="replace"))
 
