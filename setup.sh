@@ -22,6 +22,8 @@ packages=(
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev umockdev libumockdev-dev libevdev-dev libsystemd-dev
     # projectors
     libdrm-dev libgbm-dev libudev-dev libxcvt-dev
+    # a window on a desktop
+    libsdl2-dev
     # OpenGL ES without a screen
     libegl-dev libgles-dev libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )

@@ -227,11 +227,9 @@ Situation ArtifactShow::stand(MonotonicTime now, Situation situation, Shown& sho
     if (!attract_) {
         attract_.emplace(attract_place_m_, situation.prop_known, now);
     }
-    const Stand stand =
-        attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
-    situation.table_from_prop = stand.table_from_prop;
-    shown.brightness *= stand.brightness;
-    attract_changing_ = stand.changing;
+    stand_ = attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
+    situation.table_from_prop = stand_.table_from_prop;
+    shown.brightness *= stand_.brightness;
     return situation;
 }
 
@@ -291,7 +289,8 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.ignored_times += each.levels.state().ignored_times;
     }
     return {artifact.title, exhibit_.language(), levels,
-            !shown.changing && !attract_changing_ && (opacity <= 0.0 || opacity >= 1.0)};
+            !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
+            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt};
 }
 
 } // namespace frustumscreen

@@ -92,8 +92,8 @@ private:
     Exhibit exhibit_;
     glm::dvec2 attract_place_m_;
     std::optional<Attract> attract_; ///< from the first picture on
-    bool attract_changing_ = false;
-    std::size_t on_ = 0; ///< the artifact that is on
+    Stand stand_;                    ///< of the latest picture
+    std::size_t on_ = 0;             ///< the artifact that is on
     CaptionPlacer placer_;
     const std::vector<CaptionPicture>* placed_caption_ = nullptr;
 };

@@ -94,6 +94,9 @@ private:
         bool coded = false;
         if (drawn.drawn) {
             coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+            for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
+                display_.changed({part.x, part.y, part.width, part.height});
+            }
             const Result<MonotonicTime> shown = display_.present(now);
             if (!shown) {
                 return tl::unexpected<Error>(shown.error());
@@ -181,6 +184,7 @@ private:
         }
         Still& still = result_.stills[stills_taken_++];
         still.situation = situation;
+        still.situation.table_from_prop = state.stands.value_or(situation.table_from_prop);
         still.time = MonotonicTime(now - start_);
         read_colour_into(display_.framebuffer(), still.picture);
         erase_probe(still.picture); // a watchdog's, not the picture's

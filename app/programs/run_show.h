@@ -10,6 +10,7 @@
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
 
+#include <optional>
 #include <string_view>
 
 namespace frustumscreen {
@@ -20,6 +21,8 @@ struct ShowState {
     std::string_view language;
     LevelState levels;
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
+    /// The prop's pose that was drawn for, where it is not the one that is known.
+    std::optional<RigidTransform> stands = {};
 };
 
 class Show {

@@ -17,11 +17,6 @@ template <typename... Values> Sentence sentence(fmt::format_string<Values...> fo
     return Sentence({text.data(), static_cast<std::size_t>(end - text.data())});
 }
 
-std::optional<std::uint8_t> code_shown(const Display& display) {
-    std::array<std::byte, 4 * probe_pixels> corner{};
-    return display.read_shown(corner) ? read_probe(corner) : read_probe(display.framebuffer());
-}
-
 } // namespace
 
 void RunWatch::begin(MonotonicTime now, bool simulated_time) {
@@ -40,8 +35,21 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
     }
     watchdog_->presented(now);
     if (watchdog_->wants_code(now)) {
-        watchdog_->read_back(now, {!has_code, has_code ? code_shown(display) : std::nullopt});
+        watchdog_->read_back(now, {!has_code, has_code ? code_of(display) : std::nullopt});
     }
+}
+
+/// A driver that never gave a code back cannot read what it shows: no reason to end the exhibit.
+std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
+    std::array<std::byte, 4 * probe_pixels> corner{};
+    if (display.read_shown(corner)) {
+        const std::optional<std::uint8_t> code = read_probe(corner);
+        shown_is_readable_ = shown_is_readable_ || code;
+        if (shown_is_readable_) {
+            return code;
+        }
+    }
+    return read_probe(display.framebuffer());
 }
 
 void RunWatch::look(MonotonicTime now, const Inputs& inputs) {

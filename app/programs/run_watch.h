@@ -31,6 +31,7 @@ public:
     void note(const RunStatus& status);
 
 private:
+    [[nodiscard]] std::optional<std::uint8_t> code_of(const Display& display);
     void note_health(Health health);
     void note_device(std::string_view device, const Sentence& state, Sentence& noted);
     void note_state(Weight weight, std::string_view device, std::string_view state,
@@ -40,6 +41,7 @@ private:
     const Journal& journal_;
     std::optional<WatchdogPolicy> watchdog_;
     bool ready_ = false;
+    bool shown_is_readable_ = false; ///< a code was read of what the projector shows
     Health health_ = Health::Well;
     Sentence display_, tracker_, panel_, recording_, artifact_, language_, level_;
 };

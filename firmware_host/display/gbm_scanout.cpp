@@ -47,7 +47,7 @@ public:
     /// What is missing; nullptr = nothing.
     [[nodiscard]] const char* make();
     [[nodiscard]] PixelSize size() const override { return size_; }
-    [[nodiscard]] FramebufferId fill(int which) override;
+    [[nodiscard]] FramebufferId fill(int which, const PixelPlace& part) override;
     [[nodiscard]] bool read(int which, std::span<std::byte> rgba) const override;
 
 private:
@@ -145,13 +145,13 @@ GbmScanoutPair::~GbmScanoutPair() {
 }
 
 /// The kernel shows it only when it is drawn, on a card that draws itself and on one that does not.
-FramebufferId GbmScanoutPair::fill(int which) {
+FramebufferId GbmScanoutPair::fill(int which, const PixelPlace& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     glFinish();
     const Copying copying(screen_.copying_, screen_.context_);
     if (copying.current()) {
         glBindFramebuffer(GL_FRAMEBUFFER, buffer.framebuffer);
-        screen_.copy_.draw(screen_.picture_, size_, TopRow::First);
+        screen_.copy_.draw(screen_.picture_, size_, TopRow::First, part);
         glFinish();
     }
     return buffer.shown;

@@ -2,6 +2,8 @@
 
 #include <GLES3/gl31.h>
 
+#include <utility>
+
 namespace frustumscreen {
 
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name, const OutputWish& wish) {
@@ -29,8 +31,10 @@ Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
     if (std::optional<CardSeen> seen = watch_.news()) {
         presenter_.connected(std::move(*seen));
     }
+    const PixelPlace told = std::exchange(changed_, {});
     const std::unique_lock quiet = watch_.quiet();
-    Result<MonotonicTime> shown = presenter_.present(quiet.owns_lock());
+    Result<MonotonicTime> shown =
+        presenter_.present(told.empty() ? PixelPlace{0, 0, width(), height()} : told, quiet.owns_lock());
     watch_.set_lit(presenter_.lit());
     return shown;
 }

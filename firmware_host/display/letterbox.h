@@ -1,4 +1,5 @@
-/// Where a picture goes on a screen of another size: as large as it fits, centred, nothing distorted.
+/// Rectangles of pixels, and where a picture goes on a screen of another size: as large as it fits, centred,
+/// nothing distorted.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +18,19 @@ struct PixelPlace {
     int y = 0; ///< of the first row
     int width = 0;
     int height = 0;
+    [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
     [[nodiscard]] bool operator==(const PixelPlace&) const = default;
 };
+
+/// The smallest one around both; an empty one adds nothing.
+[[nodiscard]] inline PixelPlace around(const PixelPlace& a, const PixelPlace& b) {
+    if (a.empty() || b.empty()) {
+        return a.empty() ? b : a;
+    }
+    const int x = std::min(a.x, b.x);
+    const int y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
 
 /// Both sizes at least 1 x 1.
 [[nodiscard]] inline PixelPlace letterbox(PixelSize picture, PixelSize screen) {
@@ -35,6 +47,25 @@ struct PixelPlace {
     place.x = (screen.width - place.width) / 2;
     place.y = (screen.height - place.height) / 2;
     return place;
+}
+
+/// The pixels of the screen on which `part` of the picture can be seen, if the picture is at `place`; one
+/// that lies between two pixels of the picture is of both.
+[[nodiscard]] inline PixelPlace part_on_screen(const PixelPlace& part, PixelSize picture,
+                                               const PixelPlace& place) {
+    const auto from = [](int at, int screen, int whole) {
+        return static_cast<int>((std::int64_t{at} * screen) / whole);
+    };
+    const auto to = [](int at, int screen, int whole) {
+        return static_cast<int>((std::int64_t{at} * screen + whole - 1) / whole);
+    };
+    const int margin = picture.width == place.width && picture.height == place.height ? 0 : 1;
+    const int left = from(std::max(part.x - margin, 0), place.width, picture.width);
+    const int top = from(std::max(part.y - margin, 0), place.height, picture.height);
+    const int right = to(std::min(part.x + part.width + margin, picture.width), place.width, picture.width);
+    const int bottom =
+        to(std::min(part.y + part.height + margin, picture.height), place.height, picture.height);
+    return {place.x + left, place.y + top, std::max(right - left, 0), std::max(bottom - top, 0)};
 }
 
 } // namespace frustumscreen

@@ -142,17 +142,24 @@ PictureCopy& PictureCopy::operator=(PictureCopy&& other) noexcept {
     return *this;
 }
 
-void PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top) const {
+void PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
+                       const PixelPlace& part) const {
     const PixelSize size{picture.width(), picture.height()};
     const PixelPlace place = letterbox(size, target);
     const bool same = size == target;
-    if (!(place == PixelPlace{0, 0, target.width, target.height})) {
+    if (part == PixelPlace{0, 0, size.width, size.height} &&
+        !(place == PixelPlace{0, 0, target.width, target.height})) {
+        glDisable(GL_SCISSOR_TEST);
         glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         glClear(GL_COLOR_BUFFER_BIT);
     }
-    // What is left over of an odd gap lies below and right of the picture.
-    const int y = top == TopRow::First ? place.y : target.height - place.y - place.height;
-    glViewport(place.x, y, place.width, place.height);
+    const auto first_row = [&](const PixelPlace& of) {
+        return top == TopRow::First ? of.y : target.height - of.y - of.height;
+    };
+    const PixelPlace changed = part_on_screen(part, size, place);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(changed.x, first_row(changed), changed.width, changed.height);
+    glViewport(place.x, first_row(place), place.width, place.height);
     const unsigned program = same ? exact_ : scaled_;
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "picture"), 0);

@@ -28,7 +28,9 @@ public:
     PictureCopy& operator=(const PictureCopy&) = delete;
 
     /// Into the framebuffer bound, whose colour is 8 bits a channel and holds codes as they are written.
-    void draw(const PictureFramebuffer& picture, PixelSize target, TopRow top) const;
+    /// `part`: of the picture, what the framebuffer has not yet; all of it: what lies around it is blackened
+    /// too.
+    void draw(const PictureFramebuffer& picture, PixelSize target, TopRow top, const PixelPlace& part) const;
 
 private:
     PictureCopy() = default;

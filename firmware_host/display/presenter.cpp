@@ -37,11 +37,14 @@ void Presenter::connected(CardSeen seen) {
     }
 }
 
-Result<MonotonicTime> Presenter::present(bool may_set) {
+Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set) {
     if (seen_.state == CardState::Back) {
         return fail(ErrorKind::DeviceLost,
                     "display: the graphics card is there again; the exhibit must be started anew "
                     "to take it up");
+    }
+    for (PixelPlace& stale : stale_) {
+        stale = around(stale, changed);
     }
     while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
         take(*flipped);
@@ -171,7 +174,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     if (!make_scanout({mode.width, mode.height})) {
         return false;
     }
-    const KmsAnswer answer = device_.light(connector.id, mode, scanout_->fill(free_), ++ticket_);
+    const KmsAnswer answer = device_.light(connector.id, mode, fill(), ++ticket_);
     if (answer == KmsAnswer::Done) {
         const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
                             (wish_.force && mode == modes_to_try(connector, wish_).front());
@@ -189,7 +192,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
 }
 
 void Presenter::flip() {
-    const KmsAnswer answer = device_.flip(scanout_->fill(free_), ++ticket_);
+    const KmsAnswer answer = device_.flip(fill(), ++ticket_);
     if (answer == KmsAnswer::Done) {
         queued_ = Queued{device_.now(), ticket_, free_};
         lit_->flips = true;
@@ -213,7 +216,13 @@ bool Presenter::make_scanout(PixelSize size) {
         shown_before_ = std::move(scanout_);
     }
     scanout_ = std::move(*made);
+    stale_.fill({0, 0, wish_.picture_width, wish_.picture_height});
     return true;
+}
+
+FramebufferId Presenter::fill() {
+    PixelPlace& stale = stale_.at(static_cast<std::size_t>(free_));
+    return scanout_->fill(free_, std::exchange(stale, {}));
 }
 
 void Presenter::went_wrong(KmsAnswer answer) {

@@ -11,6 +11,7 @@
 #include "firmware_host/display/flip_clock.h"
 #include "firmware_host/display/kms_device.h"
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -29,9 +30,10 @@ public:
 
     /// What is connected, whenever it was looked at anew.
     void connected(CardSeen seen);
-    /// Shows the picture, where there is a projector: the time at which it flips, else now. `may_set`: this
-    /// is a good moment to set a mode, because nobody else is asking the card.
-    [[nodiscard]] Result<MonotonicTime> present(bool may_set);
+    /// Shows the picture, where there is a projector: the time at which it flips, else now. `changed`: of the
+    /// picture, since the call before. `may_set`: this is a good moment to set a mode, because nobody else is
+    /// asking the card.
+    [[nodiscard]] Result<MonotonicTime> present(const PixelPlace& changed, bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
     /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
@@ -65,6 +67,8 @@ private:
     [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode);
     void flip();
     [[nodiscard]] bool make_scanout(PixelSize size);
+    /// Brings the framebuffer that is not shown up to date.
+    [[nodiscard]] FramebufferId fill();
     /// What an answer other than Done means.
     void went_wrong(KmsAnswer answer);
     void lose(std::string_view why);
@@ -77,6 +81,7 @@ private:
     CardSeen seen_;
     std::unique_ptr<ScanoutPair> scanout_;
     std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown
+    std::array<PixelPlace, 2> stale_{};         ///< of the picture, what each framebuffer has not yet
     std::optional<Lit> lit_;
     std::optional<Queued> queued_;
     FlipClock clock_;

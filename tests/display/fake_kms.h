@@ -146,6 +146,7 @@ struct FakeMemory {
     int pairs = 0;
     int alive = 0;
     int fills = 0;
+    PixelPlace filled; ///< the last time
     bool none_left = false;
 
     class Pair final : public ScanoutPair {
@@ -157,8 +158,9 @@ struct FakeMemory {
         Pair(const Pair&) = delete;
         Pair& operator=(const Pair&) = delete;
         PixelSize size() const override { return size_; }
-        FramebufferId fill(int which) override {
+        FramebufferId fill(int which, const PixelPlace& part) override {
             ++memory_.fills;
+            memory_.filled = part;
             return static_cast<FramebufferId>(10 * number_ + which);
         }
 

@@ -23,6 +23,7 @@ public:
         glBindRenderbuffer(GL_RENDERBUFFER, colour_);
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+        glDisable(GL_SCISSOR_TEST);
         glClearColor(1.0F, 0.0F, 1.0F, 1.0F); // whatever was there before
         glClear(GL_COLOR_BUFFER_BIT);
     }
@@ -78,12 +79,14 @@ protected:
         glFinish();
         return picture;
     }
-    std::vector<Texel> copied(const PictureFramebuffer& picture, PixelSize size, TopRow top) {
+    std::vector<Texel> copied(const PictureFramebuffer& picture, PixelSize size, TopRow top,
+                              std::optional<PixelPlace> part = std::nullopt) {
         EXPECT_TRUE(copying_->make_current());
         std::vector<Texel> texels;
         {
             const Screen screen(size);
-            copy_->draw(picture, size, top);
+            copy_->draw(picture, size, top,
+                        part.value_or(PixelPlace{0, 0, picture.width(), picture.height()}));
             EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
             texels = screen.read();
         }
@@ -129,6 +132,31 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
                 EXPECT_NEAR(texel[1], inside ? 100 : 0, 1);
                 EXPECT_NEAR(texel[2], inside ? 50 : 0, 1);
             }
+        }
+    }
+}
+
+TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
+    const PictureFramebuffer picture = picture_of(64, 40);
+    for (const PixelSize size : {PixelSize{64, 40}, {128, 100}, {50, 30}}) {
+        for (const TopRow top : {TopRow::First, TopRow::Last}) {
+            const std::vector<Texel> whole = copied(picture, size, top);
+            const PixelPlace part{10, 4, 20, 16};
+            const std::vector<Texel> some = copied(picture, size, top, part);
+            const PixelPlace place = letterbox({64, 40}, size);
+            const PixelPlace there = part_on_screen(part, {64, 40}, place);
+            int inside = 0;
+            for (int row = 0; row < size.height; ++row) {
+                const int y = top == TopRow::First ? row : size.height - 1 - row;
+                for (int x = 0; x < size.width; ++x) {
+                    const bool in = x >= there.x && x < there.x + there.width && y >= there.y &&
+                                    y < there.y + there.height;
+                    const auto at = static_cast<std::size_t>(size.width * row + x);
+                    ASSERT_EQ(some[at], in ? whole[at] : (Texel{255, 0, 255, 255})) << x << ", " << y;
+                    inside += in ? 1 : 0;
+                }
+            }
+            EXPECT_GE(inside * 64 * 40, 20 * 16 * place.width * place.height);
         }
     }
 }

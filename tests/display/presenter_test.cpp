@@ -22,11 +22,11 @@ public:
         : presenter(kms, memory.maker(), wish) {}
 
     /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.
-    MonotonicTime frame() {
+    MonotonicTime frame(const PixelPlace& changed = {0, 0, 1280, 800}) {
         const MonotonicTime begin = kms.time;
         kms.time += std::chrono::milliseconds(5);
         const MonotonicTime called = kms.time;
-        const Result<MonotonicTime> shown = presenter.present(true);
+        const Result<MonotonicTime> shown = presenter.present(changed, true);
         EXPECT_TRUE(shown) << shown.error().message;
         EXPECT_LE(kms.time - called, flip_patience) << "present held up the exhibit";
         kms.time = std::max(kms.time, presenter.next_frame(begin, one_refresh));
@@ -81,6 +81,30 @@ TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
     EXPECT_EQ(exhibit.memory.fills, 101);
     EXPECT_EQ(exhibit.kms.longest_wait, Nanoseconds(0))
         << "frames begin on flips: none waits for the one before";
+}
+
+TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
+    Exhibit exhibit;
+    const PixelPlace whole{0, 0, 1280, 800};
+    exhibit.frame({5, 5, 1, 1}); // in the dark
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frame({10, 10, 1, 1});
+    EXPECT_EQ(exhibit.memory.filled, whole) << "new memory";
+    exhibit.frame({20, 20, 1, 1});
+    EXPECT_EQ(exhibit.memory.filled, whole) << "the other one is new too";
+    exhibit.frame({30, 40, 5, 6});
+    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{20, 20, 15, 26}))
+        << "what changed for the one before and now";
+    exhibit.frame({100, 100, 1, 1});
+    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{30, 40, 71, 61}));
+    exhibit.frame({});
+    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{100, 100, 1, 1}));
+    ConnectorSeen other = a_projector();
+    other.modes = {a_mode(1920, 1080, 60.0, true)};
+    exhibit.presenter.connected(a_card({other}));
+    exhibit.frames(1);
+    exhibit.frame({1, 1, 1, 1});
+    EXPECT_EQ(exhibit.memory.filled, whole);
 }
 
 TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
@@ -272,7 +296,7 @@ TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
     exhibit.frames(100);
     EXPECT_TRUE(exhibit.says("graphics card is gone"));
     exhibit.presenter.connected({CardState::Back, {}});
-    const Result<MonotonicTime> shown = exhibit.presenter.present(true);
+    const Result<MonotonicTime> shown = exhibit.presenter.present({}, true);
     ASSERT_FALSE(shown);
     EXPECT_EQ(shown.error().kind, ErrorKind::DeviceLost);
 }
@@ -280,9 +304,9 @@ TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
 TEST(Presenter, SetsNoModeWhileTheCardIsBeingAsked) {
     Exhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
-    ASSERT_TRUE(exhibit.presenter.present(false));
+    ASSERT_TRUE(exhibit.presenter.present({}, false));
     EXPECT_EQ(exhibit.kms.lights, 0);
-    ASSERT_TRUE(exhibit.presenter.present(true));
+    ASSERT_TRUE(exhibit.presenter.present({}, true));
     EXPECT_EQ(exhibit.kms.lights, 1);
 }
 

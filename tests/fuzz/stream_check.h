@@ -6,7 +6,8 @@
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
 #include <variant>
 #include <vector>
 
@@ -25,9 +26,10 @@ inline void require_sound(const DeviceFrame& frame) {
 
 /// All of a frame, NaN equal to NaN.
 inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
-    const auto numbers = [](const SensorPose& p) {
-        return std::array{p.position_m.x, p.position_m.y, p.position_m.z, p.rotation.w,
-                          p.rotation.x,   p.rotation.y,   p.rotation.z};
+    const auto bits = [](const SensorPose& p) {
+        return std::bit_cast<std::array<std::uint64_t, 7>>(
+            std::array{p.position_m.x, p.position_m.y, p.position_m.z, p.rotation.w, p.rotation.x,
+                       p.rotation.y, p.rotation.z});
     };
     bool same =
         a.counter == b.counter && a.tick == b.tick && a.count == b.count && a.units_as_set == b.units_as_set;
@@ -35,7 +37,7 @@ inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
         const SensorPose& p = a.sensors[k];
         const SensorPose& q = b.sensors[k];
         same = p.sensor == q.sensor && p.distortion == q.distortion && p.usable == q.usable &&
-               std::memcmp(numbers(p).data(), numbers(q).data(), sizeof(numbers(p))) == 0;
+               bits(p) == bits(q);
     }
     return same;
 }

@@ -128,9 +128,10 @@ void meshes(const Seeds& seeds) {
         const bool gltf = model.name.ends_with(".glb") || model.name.ends_with(".gltf");
         seeds.add(gltf ? "gltf" : "mesh", model.name, model.bytes);
     }
+    int number = 0;
     for (const std::string name :
          {"a.png", "b/../a.png", "../a.png", "/etc/a", "C:\\a", "b%20c", "%2e%2e/a", "http://a"}) {
-        seeds.add("sidecar", std::to_string(std::hash<std::string>{}(name)), name);
+        seeds.add("sidecar", "name" + std::to_string(++number), name);
     }
 }
 

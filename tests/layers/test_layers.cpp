@@ -121,11 +121,14 @@ struct Guard {
 };
 
 const std::vector<Guard> guards = {
-    {"GLES", {"app/render/", "app/bench/", "firmware_host/display/"}},
+    {"GLES", {"app/render/", "app/bench/", "firmware_host/display/", "firmware_host/window/"}},
     {"EGL/", {"firmware_host/display/"}},
     {"GL/", {}},
     {"gbm.h", {"firmware_host/display/"}},
     {"xf86drm", {"firmware_host/display/"}},
+    {"libudev", {"firmware_host/display/"}},
+    {"libxcvt/", {"firmware_host/display/"}},
+    {"SDL", {"firmware_host/window/"}},
     {"libusb", {"firmware_host/tracker/"}},
     {"hidapi", {"firmware_host/tracker/"}},
     {"gpiod", {"firmware_host/panel/"}},
@@ -210,7 +213,7 @@ TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
     }
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     for (const std::string library :
-         {"libembree3.so", "libdraco.so", "libmeshoptimizer.so", "libturbojpeg.so"}) {
+         {"libembree3.so", "libdraco.so", "libmeshoptimizer.so", "libturbojpeg.so", "libSDL2"}) {
         EXPECT_EQ(bytes.find(library), std::string::npos) << library;
     }
 }

@@ -1,0 +1,37 @@
+#include "firmware_host/window/mouse_hand.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+TEST(MouseHand, SlidesThePropWithoutAJumpWhereverItIsHeld) {
+    MouseHand hand({0.3, 0.2});
+    hand.move({0.2, 0.1});
+    EXPECT_EQ(hand.prop({}).position_m, glm::dvec3(0.0)) << "not held";
+    hand.take({0.05, 0.02});
+    EXPECT_EQ(hand.prop({}).position_m, glm::dvec3(0.0));
+    hand.move({0.15, 0.02});
+    EXPECT_NEAR(hand.prop({}).position_m.x, 0.10, 1e-12);
+    EXPECT_NEAR(hand.prop({}).position_m.y, 0.0, 1e-12);
+    hand.let_go();
+    hand.move({0.0, 0.0});
+    EXPECT_NEAR(hand.prop({}).position_m.x, 0.10, 1e-12);
+}
+
+TEST(MouseHand, StaysOnTheTable) {
+    MouseHand hand({0.3, 0.2});
+    hand.take({0.0, 0.0});
+    hand.move({5.0, -5.0});
+    EXPECT_EQ(hand.prop({}).position_m, glm::dvec3(0.3, -0.2, 0.0));
+}
+
+TEST(MouseHand, TurnsAboutTheVertical) {
+    MouseHand hand({0.3, 0.2});
+    hand.turn(glm::half_pi<double>());
+    const glm::dvec3 front = hand.prop({}).rotation * glm::dvec3(1.0, 0.0, 0.0);
+    EXPECT_NEAR(front.y, 1.0, 1e-12);
+}
+
+} // namespace
+} // namespace frustumscreen
