@@ -175,9 +175,12 @@ class Bench:
 
     # Evidence.
 
+    def evidence_of(self, test):
+        """The folder for what a test that fails has seen."""
+        return self.out / test.id().split(".")[-1]
+
     def keep_evidence(self, folder):
         """What the machine shows and says now, as far as it still answers."""
-        folder.mkdir(parents=True, exist_ok=True)
         shutil.copy(self.out / "serial.log", folder)
         try:
             for number in range(3):
