@@ -22,6 +22,7 @@ CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
+CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
 
