@@ -25,7 +25,7 @@ LEAST_FREEZE_S = 0.25
 FREEZE_FRAMES = 3
 RESTING_S = 1.0  # where no poses come, the picture rests: a new code each second
 BUSY_HOST_TRIES = 3  # a freeze of ours is there every time; one of a busy host's is not
-FAULT_S = 5.0
+FAULT_S = 4.0
 
 RUNNING = "is running"
 # what the tracker does, what the status says of it (nothing: it does not matter), and whether poses still come
