@@ -25,6 +25,7 @@ UNIT = "frustumscreen.service"
 CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
+OTHER_TRACKERS = ("patriot", "hid")  # beside the VIPER that most tests use; unplugged until a test wants them
 
 
 class Mock:
@@ -80,9 +81,14 @@ class Bench:
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
         self.tracker = Mock("mock_tracker", "tracker", self._sockets, out, "--loop", "--log", out / "poses_sent.csv")
+        self.other_trackers = {device: Mock("mock_tracker", device, self._sockets, out, "--device", device,
+                                            "--at", "0s unplug") for device in OTHER_TRACKERS}
         self.buttons = Mock("mock_buttons", "buttons", self._sockets, out)
         self.machine = Machine(root, payload, self._sockets, out, WIDTH, HEIGHT,
-                               {"tracker": self.tracker.usb, "buttons": self.buttons.usb})
+                               {mock.usb.name: mock.usb for mock in self._mocks()})
+
+    def _mocks(self):
+        return (self.tracker, self.buttons, *self.other_trackers.values())
 
     def start(self):
         begun = time.monotonic()
@@ -93,7 +99,7 @@ class Bench:
 
     def stop(self):
         self.machine.stop()
-        for mock in (self.tracker, self.buttons):
+        for mock in self._mocks():
             mock.stop()
         shutil.rmtree(self._sockets)
 
@@ -101,7 +107,7 @@ class Bench:
         return (f"the machine stays up: process {self.machine.pid}; a shell on its serial line:\n"
                 f"    {HERE / 'shell'} {self._sockets / 'serial'}\n"
                 f"the devices: {HERE / 'mock_tracker'} --tell {self._sockets / 'tracker.control'} help\n"
-                f"to end it: kill {self.machine.pid} {self.tracker.process.pid} {self.buttons.process.pid}")
+                f"to end it: kill {self.machine.pid} {' '.join(str(mock.process.pid) for mock in self._mocks())}")
 
     # The exhibit's own words.
 
@@ -192,7 +198,7 @@ class Bench:
                                   ("status.json", f"cat {STATUS_FILE}"),
                                   ("dmesg.txt", "dmesg")):
                 (folder / name).write_text(self.machine.run(command).output, encoding="utf-8")
-            for name, mock in (("tracker.json", self.tracker), ("buttons.json", self.buttons)):
-                (folder / name).write_text(json.dumps(mock.tell("status"), indent=1), encoding="utf-8")
+            for mock in self._mocks():
+                (folder / f"{mock.usb.name}.json").write_text(json.dumps(mock.tell("status"), indent=1), encoding="utf-8")
         except (MachineError, OSError, EOFError) as error:
             print(f"hil: not all evidence could be kept: {error}", file=sys.stderr)

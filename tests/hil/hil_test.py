@@ -1,10 +1,13 @@
 """What every test in the emulated machine begins and ends with."""
 
+import math
 import unittest
 
+import screen
 from bench import CONNECTOR, UNIT, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
+PIXELS = 2.0  # between what is shown and what is rendered offline
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
 
 
@@ -33,3 +36,16 @@ class HilTest(unittest.TestCase):
         if self.bench.status()["artifact"] != artifact:
             self.bench.buttons.tell("press", 1, "300ms")
             self.bench.status_says("artifact", artifact)
+
+    def assert_same_place(self, picture, truth):
+        """What is lit in both lies within PIXELS: centroid, box and outline."""
+        self.assertEqual((picture.width, picture.height), (truth.width, truth.height))
+        seen, meant = screen.lit(picture), screen.lit(truth)
+        self.assertGreater(screen.count(meant), 300, "the offline picture is dark: this pose proves nothing")
+        for k, (a, b) in enumerate(zip(screen.centroid(seen, picture.width), screen.centroid(meant, truth.width))):
+            self.assertAlmostEqual(a, b, delta=PIXELS, msg=f"centroid, {'xy'[k]}")
+        for k, (a, b) in enumerate(zip(screen.box(seen, picture.width), screen.box(meant, truth.width))):
+            self.assertAlmostEqual(a, b, delta=PIXELS, msg=("left", "top", "right", "bottom")[k])
+        reach = math.ceil(PIXELS)
+        self.assertLess(screen.share_outside(seen, screen.grown(meant, reach, truth.width)), 0.002)
+        self.assertLess(screen.share_outside(meant, screen.grown(seen, reach, truth.width)), 0.002)

@@ -15,7 +15,7 @@ from hil_test import HilTest
 
 HERE = pathlib.Path(__file__).resolve().parent
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "buttons", "unplug", "misbehaviour", "latency", "restart")
+MODULES = ("boot", "pose", "trackers", "buttons", "unplug", "misbehaviour", "latency", "restart")
 
 
 def say(text):

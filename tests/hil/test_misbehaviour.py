@@ -6,6 +6,7 @@ exhibit fades to an artifact that turns at the table's centre: inside the band t
 """
 
 import functools
+import math
 import operator
 
 import screen
@@ -19,7 +20,8 @@ STROKE_S = 3.0
 PLAYED_HZ = 240
 STEPS = 14
 OVERSHOOT_M = 0.02  # of the prediction, where the prop turns back
-BESIDE_PX = 6  # the artifact that turns is wider than the one that stands
+TURNS = 24
+BESIDE_PX = 6  # what is rendered is a sample of what may be shown
 BESIDE_SHARE = 0.01  # of the lit pixels
 LEAST_FREEZE_S = 0.25
 FREEZE_FRAMES = 3
@@ -65,7 +67,7 @@ def write_strokes(path):
 
 
 class Misbehaviour(HilTest):
-    band = None  # the pixels that the artifact lights while the prop goes along the line
+    band = None  # the pixels that the artifact lights while the prop goes along the line, and where it turns
 
     def setUp(self):
         super().setUp()
@@ -73,6 +75,8 @@ class Misbehaviour(HilTest):
         if Misbehaviour.band is None:
             reach_m = REACH_M + OVERSHOOT_M
             poses = [((2.0 * k / STEPS - 1.0) * reach_m, 0.0, 0.0, *UPRIGHT) for k in range(STEPS + 1)]
+            poses += [(0.0, 0.0, 0.0, math.cos(0.5 * angle), 0.0, 0.0, math.sin(0.5 * angle))
+                      for angle in (2.0 * math.pi * k / TURNS for k in range(TURNS))]
             pictures = self.bench.rendered(poses, ARTIFACT)
             swept = [functools.reduce(operator.or_, rows) for rows in zip(*map(screen.lit, pictures))]
             Misbehaviour.band = screen.grown(swept, BESIDE_PX, pictures[0].width)

@@ -1,0 +1,29 @@
+"""The other trackers that a museum may have, through their own kernel drivers: plugged in in place of the VIPER."""
+
+from bench import EYE_M, UPRIGHT
+from hil_test import HilTest
+
+ARTIFACT = "amphora"
+PLACE_M = (0.1, -0.05, 0.0)
+FOUND_S = 20.0  # it is to be found within 2 s; the kernel's own enumeration is slow here
+
+
+class Trackers(HilTest):
+    def take(self, device):
+        tracker = self.bench.other_trackers[device]
+        self.addCleanup(tracker.tell, "unplug")
+        self.show(ARTIFACT)
+        truth = self.bench.rendered([(*PLACE_M, *UPRIGHT)], ARTIFACT)[0]
+        self.bench.tracker.tell("unplug")
+        self.bench.status_says("tracker", "no tracker is connected", FOUND_S)
+        tracker.tell("pose", *PLACE_M, *UPRIGHT, 1)
+        tracker.tell("pose", *EYE_M, *UPRIGHT, 2)
+        tracker.tell("unplug", "off")
+        self.bench.status_says("tracker", "is running", FOUND_S)
+        self.assert_same_place(self.bench.steady_picture(), truth)
+
+    def test_patriot(self):
+        self.take("patriot")
+
+    def test_hid_tracker(self):
+        self.take("hid")
