@@ -88,13 +88,13 @@ public:
         : chip_(std::move(chip)), name_(std::move(name)), lines_(lines), lamps_(lamps) {}
 
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
-        for (std::size_t k = 0; k < down.size(); ++k) {
-            const int level = ::gpiod_line_get_value(lines_.lines[k]);
-            if (level < 0) {
-                return lost(fmt::format("{}: {}", name_, reason(errno)));
-            }
-            down[k] = level == 1;
+        std::array<int, GPIOD_LINE_BULK_MAX_LINES>
+            levels{}; // requested together, they are only read together
+        if (::gpiod_line_get_value_bulk(&lines_, levels.data()) < 0) {
+            return lost(fmt::format("{}: {}", name_, reason(errno)));
         }
+        std::transform(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(down.size()),
+                       down.begin(), [](int level) { return level == 1; });
         return {};
     }
 

@@ -22,6 +22,7 @@ CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
+CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
 
@@ -175,9 +176,12 @@ class Bench:
 
     # Evidence.
 
+    def evidence_of(self, test):
+        """The folder for what a test that fails has seen."""
+        return self.out / test.id().split(".")[-1]
+
     def keep_evidence(self, folder):
         """What the machine shows and says now, as far as it still answers."""
-        folder.mkdir(parents=True, exist_ok=True)
         shutil.copy(self.out / "serial.log", folder)
         try:
             for number in range(3):

@@ -2,7 +2,7 @@
 
 import unittest
 
-from bench import UNIT, Bench
+from bench import CONNECTOR, UNIT, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
@@ -21,7 +21,7 @@ class HilTest(unittest.TestCase):
             bench.buttons.tell("release", pin)
         bench.place(CENTRE_M)
         bench.place_head()
-        bench.machine.run("rm -rf /run/hil; echo detect > /sys/class/drm/card0-Virtual-1/status")
+        bench.machine.run(f"rm -rf /run/hil; echo detect > {CONNECTOR}")
         if bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
             bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start --no-block {UNIT}")
         bench.status_says("tracker", "is running", START_S)

@@ -15,7 +15,7 @@ from hil_test import HilTest
 
 HERE = pathlib.Path(__file__).resolve().parent
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "buttons", "unplug", "misbehaviour", "restart", "latency")
+MODULES = ("boot", "pose", "buttons", "unplug", "misbehaviour", "latency", "restart")
 
 
 def say(text):
@@ -38,18 +38,25 @@ def flat(suite):
 class Verdicts(unittest.TextTestResult):
     """Keeps what the machine shows when a test has failed, before the next one begins."""
 
-    def _keep(self, test):
-        folder = HilTest.bench.out / test.id().split(".")[-1]
-        say(f"{test.id()} failed; what the machine shows and says is in {folder}")
+    def _keep(self, test, error):
+        folder = HilTest.bench.evidence_of(test)
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "failure.txt").write_text(self._exc_info_to_string(error, test), encoding="utf-8")
+        say(f"{error[1]}\n   what the machine shows and says is in {folder}")
         HilTest.bench.keep_evidence(folder)
 
     def addFailure(self, test, err):
         super().addFailure(test, err)
-        self._keep(test)
+        self._keep(test, err)
 
     def addError(self, test, err):
         super().addError(test, err)
-        self._keep(test)
+        self._keep(test, err)
+
+    def addSubTest(self, test, subtest, err):
+        super().addSubTest(test, subtest, err)
+        if err is not None:
+            self._keep(test, err)
 
 
 def parse_arguments():

@@ -1,7 +1,7 @@
 """Whatever stops the exhibit, systemd brings it back: killed, stopped, a device's thread or the renderer hung."""
 
 import screen
-from bench import eventually
+from bench import CONNECTOR, UNIT, eventually
 from hil_test import HilTest
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
@@ -35,6 +35,14 @@ class Restart(HilTest):
 
     def test_stopped(self):
         self.bench.machine.check(f"kill -STOP {self.process}")
+        self.assert_restarted()
+
+    def test_started_without_projector(self):
+        self.bench.machine.check(f"echo off > {CONNECTOR}; systemctl restart --no-block {UNIT}")
+        eventually(lambda: self.bench.main_process() not in (0, self.process), BACK_S, "systemd does not restart it")
+        self.bench.status_says("display", "no projector is connected", BACK_S)
+        self.bench.machine.check(f"echo detect > {CONNECTOR}")
+        self.bench.status_says("display", "is lit", BACK_S)
         self.assert_restarted()
 
     def hang(self, what):

@@ -3,12 +3,11 @@
 import time
 
 import screen
-from bench import eventually
+from bench import CONNECTOR, eventually
 from hil_test import HilTest
 from watch import watch
 
 ARTIFACT = "amphora"
-CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"
 BACK_S = 15.0  # a device is to be back within 2 s; the kernel's own enumeration is slow here
 RESTING_S = 2.5  # a resting picture's code changes every second
 
