@@ -71,13 +71,12 @@ Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set
     return expected;
 }
 
-/// Once for each flip: a card that hangs must not hold up every frame.
 bool Presenter::read_shown(std::span<std::byte> rgba) const {
-    const bool exact =
-        lit_ && scanout_ && scanout_->size() == PixelSize{wish_.picture_width, wish_.picture_height};
-    return exact && scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
+    const bool exact = scanout_ && scanout_->size() == PixelSize{wish_.picture_width, wish_.picture_height};
+    return lit_ && lit_->shown && exact && scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
 }
 
+/// Once for each flip: a card that hangs must not hold up every frame.
 void Presenter::wait_for_flip() {
     if (!queued_) {
         return;
@@ -110,7 +109,8 @@ void Presenter::take(const Flipped& flipped) {
     free_ = 1 - queued_->framebuffer;
     queued_.reset();
     shown_before_.reset();
-    if (std::exchange(late_, false)) {
+    const bool first = lit_ && !std::exchange(lit_->shown, true);
+    if (std::exchange(late_, false) || first) {
         say_lit();
     }
 }
@@ -178,10 +178,10 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     if (answer == KmsAnswer::Done) {
         const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
                             (wish_.force && mode == modes_to_try(connector, wish_).front());
-        lit_ = Lit{connector.id, connector.name, mode, wished, false};
+        lit_ = Lit{connector.id, connector.name, mode, wished};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
-        say_lit();
+        state_ = sentence("the projector at {} is about to be lit", connector.name);
         return true;
     }
     if (answer == KmsAnswer::Refused) {

@@ -50,6 +50,7 @@ private:
         std::string name;
         ModeTiming mode;
         bool wished = true; ///< it is the mode that the settings ask for
+        bool shown = false; ///< its first picture was flipped to
         bool flips = false; ///< it has shown more than its first picture
     };
     struct Queued {

@@ -33,8 +33,8 @@ struct ReadBack {
 
 class WatchdogPolicy {
 public:
-    /// Twice the rest between two probes.
-    static constexpr Nanoseconds picture_within = std::chrono::seconds(2);
+    /// Three rests between probes, and a half: a flip that comes late shows the same code once more.
+    static constexpr Nanoseconds picture_within = std::chrono::milliseconds(3500);
 
     /// `interval`: the service manager's; it is fed three times in it, once a second if that is more often.
     WatchdogPolicy(Nanoseconds interval, MonotonicTime start);

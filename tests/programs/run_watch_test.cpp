@@ -79,7 +79,7 @@ TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
     EXPECT_LE(meals, 11);
     EXPECT_EQ(ready, 1);
     ::testing::internal::CaptureStderr();
-    (void)meals_in(seconds(3), false); // drawn and presented, but the projector stays at one picture
+    (void)meals_in(seconds(4), false); // drawn and presented, but the projector stays at one picture
     EXPECT_EQ(meals_in(seconds(10), false), 0);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(),
               "frustumscreen: watchdog: not fed: the picture that is presented is not the one that was "

@@ -165,6 +165,27 @@ TEST(Settings, TheScriptIsReadInOrder) {
     EXPECT_EQ(settings.panel.repeat_s, 4.0);
 }
 
+TEST(Settings, TheProjectorsModeIsReadAsAPersonWritesIt) {
+    const Settings settings = parsed(
+        "[display]\ncard = \"card1\"\nconnector = \"HDMI-A-2\"\nmode = \"1920x1200@59.95\"\nforce = true\n");
+    EXPECT_EQ(settings.display.kind, DisplayKind::Kms);
+    EXPECT_EQ(settings.display.card, "card1");
+    EXPECT_EQ(settings.display.connector, "HDMI-A-2");
+    EXPECT_EQ(settings.display.mode.width, 1920);
+    EXPECT_EQ(settings.display.mode.height, 1200);
+    EXPECT_EQ(settings.display.mode.refresh_hz, 59.95);
+    EXPECT_TRUE(settings.display.force);
+    for (const char* text : {"preferred", "1280x800", "1280x800@60", "1920x1200@59.95"}) {
+        const auto mode = parse_display_mode(text);
+        ASSERT_TRUE(mode) << text;
+        EXPECT_EQ(text_of(*mode), text);
+    }
+    for (const char* text : {"", "x", "1280", "1280x", "x800", "1280x800@", "1280x800@nan", "1280x800@inf",
+                             "-1280x800", "1280x800x60", "99999999999x800", "1280x800@60Hz", "Preferred"}) {
+        EXPECT_FALSE(parse_display_mode(text)) << text;
+    }
+}
+
 TEST(Settings, TakesButtonsOnAGpioChip) {
     const Settings settings =
         parsed("[panel]\nkind = \"gpio\"\nchip = \"cp2112_gpio\"\nlines = [\"PREVIOUS\", \"5\"]\n"
