@@ -44,7 +44,7 @@ class HidTracker(Tracker):
     vendor_id, product_id = 0x1209, 0x0001  # pid.codes' id for trials
     interface_class = (3, 0, 0)
     endpoints = (Endpoint(IN | 1, INTERRUPT, 64, 1),)
-    strings = ("", "FrustumScreen", "HID tracker (mock)", "mock")
+    strings = ("", "FrustumScreen", "HID tracker for FrustumScreen (mock)", "mock")
     report_descriptor = _REPORT_DESCRIPTOR
     most_waiting = 8
     rate_hz = 120.0
