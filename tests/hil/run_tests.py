@@ -4,6 +4,7 @@
 import argparse
 import pathlib
 import shutil
+import signal
 import sys
 import time
 import unittest
@@ -95,6 +96,7 @@ def main():
     payload = image.payload(build, packs)
     HilTest.bench = Bench(root, payload, build, packs, out)
     passed = False
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the machine does not outlive its tests
     try:
         say("starting the machine")
         say(f"it is up after {HilTest.bench.start():.0f} s")
