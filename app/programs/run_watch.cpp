@@ -1,23 +1,12 @@
 #include "app/programs/run_watch.h"
 
 #include "app/render/probe.h"
-
-#include <fmt/format.h>
+#include "firmware_host/base/format_sentence.h"
 
 #include <array>
 #include <span>
 
 namespace frustumscreen {
-
-namespace {
-
-template <typename... Values> Sentence sentence(fmt::format_string<Values...> format, Values&&... values) {
-    std::array<char, 240> text{};
-    const auto end = fmt::format_to_n(text.data(), text.size(), format, std::forward<Values>(values)...).out;
-    return Sentence({text.data(), static_cast<std::size_t>(end - text.data())});
-}
-
-} // namespace
 
 void RunWatch::begin(MonotonicTime now, bool simulated_time) {
     if (const auto interval = manager_.watchdog_interval(); interval && !simulated_time) {
@@ -79,11 +68,12 @@ void RunWatch::note_health(Health health) {
     health_ = health;
     const bool well = health == Health::Well;
     note_state(well ? Weight::Notice : Weight::Error, "watchdog", sentence_of(health),
-               sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
+               format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
 }
 
 void RunWatch::note(const RunStatus& status) {
-    const Sentence shows = sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
+    const Sentence shows =
+        format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
     const bool other = Sentence(status.artifact) != artifact_ || Sentence(status.language) != language_;
     artifact_ = Sentence(status.artifact);
     language_ = Sentence(status.language);
@@ -97,14 +87,14 @@ void RunWatch::note(const RunStatus& status) {
     note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
-    manager_.status(sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
-                             comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+    manager_.status(format_sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
+                                    comma(tracker_), panel_.view(), comma(panel_), shows.view()));
 }
 
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {
     if (state != noted) {
         noted = state;
-        note_state(Weight::Notice, device, state.view(), sentence("{}: {}", device, state.view()));
+        note_state(Weight::Notice, device, state.view(), format_sentence("{}: {}", device, state.view()));
     }
 }
 

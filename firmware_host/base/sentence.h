@@ -14,6 +14,8 @@ namespace frustumscreen {
 
 class Sentence {
 public:
+    static constexpr std::size_t longest = 240; ///< characters
+
     Sentence() = default;
     explicit Sentence(std::string_view text) : length_(std::min(text.size(), text_.size())) {
         text.copy(text_.data(), length_);
@@ -22,7 +24,7 @@ public:
     [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
 
 private:
-    std::array<char, 240> text_{};
+    std::array<char, longest> text_{};
     std::size_t length_ = 0;
 };
 

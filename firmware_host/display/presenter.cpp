@@ -1,6 +1,6 @@
 #include "firmware_host/display/presenter.h"
 
-#include <fmt/format.h>
+#include "firmware_host/base/format_sentence.h"
 
 #include <algorithm>
 #include <iterator>
@@ -11,12 +11,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
-
-template <typename... Parts> Sentence sentence(fmt::format_string<Parts...> text, Parts&&... parts) {
-    std::array<char, 240> line{};
-    const auto end = fmt::format_to_n(line.data(), line.size(), text, std::forward<Parts>(parts)...).out;
-    return Sentence(std::string_view(line.data(), static_cast<std::size_t>(end - line.data())));
-}
 
 } // namespace
 
@@ -90,7 +84,8 @@ void Presenter::wait_for_flip() {
         }
         late_ = queued_.has_value();
         if (late_) {
-            state_ = sentence("the graphics card does not show the last picture; the exhibit waits for it");
+            state_ =
+                format_sentence("the graphics card does not show the last picture; the exhibit waits for it");
         }
     }
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
@@ -164,9 +159,9 @@ void Presenter::light() {
         }
     }
     unfit_.clear();
-    state_ =
-        sentence("the graphics card takes no mode of the projector at {}; the exhibit goes on in the dark",
-                 connector->name);
+    state_ = format_sentence(
+        "the graphics card takes no mode of the projector at {}; the exhibit goes on in the dark",
+        connector->name);
 }
 
 /// False: another mode may work.
@@ -181,7 +176,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
         lit_ = Lit{connector.id, connector.name, mode, wished};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
-        state_ = sentence("the projector at {} is about to be lit", connector.name);
+        state_ = format_sentence("the projector at {} is about to be lit", connector.name);
         return true;
     }
     if (answer == KmsAnswer::Refused) {
@@ -257,9 +252,9 @@ void Presenter::lose(std::string_view why) {
 }
 
 void Presenter::say_lit() {
-    state_ = sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}", lit_->name, lit_->mode.width,
-                      lit_->mode.height, refresh_hz(lit_->mode),
-                      lit_->wished ? "" : ", because it cannot do the mode in the settings");
+    state_ = format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}", lit_->name,
+                             lit_->mode.width, lit_->mode.height, refresh_hz(lit_->mode),
+                             lit_->wished ? "" : ", because it cannot do the mode in the settings");
 }
 
 void Presenter::say_why_dark() {
@@ -270,19 +265,19 @@ void Presenter::say_why_dark() {
     };
     const auto mute = std::find_if(all.begin(), all.end(), plugged);
     if (choose_connector(seen_, wish_) != nullptr) {
-        state_ = sentence("the projector is about to be lit");
+        state_ = format_sentence("the projector is about to be lit");
     } else if (mute != all.end()) {
-        state_ =
-            sentence("the projector at {} names no mode; set display.mode and display.force", mute->name);
+        state_ = format_sentence("the projector at {} names no mode; set display.mode and display.force",
+                                 mute->name);
     } else if (!wish_.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
         std::string names;
         for (const ConnectorSeen& seen : all) {
             names += (names.empty() ? "" : ", ") + seen.name;
         }
-        state_ = sentence("the graphics card has no connector {}; it has {}", wish_.connector, names);
+        state_ = format_sentence("the graphics card has no connector {}; it has {}", wish_.connector, names);
     } else {
-        state_ = sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes",
-                          wish_.connector.empty() ? "" : " to ", wish_.connector);
+        state_ = format_sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes",
+                                 wish_.connector.empty() ? "" : " to ", wish_.connector);
     }
 }
 
