@@ -80,13 +80,17 @@ protected:
         ::waitpid(std::exchange(process, 0), &status, 0);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
+    /// Waited for: a thread names itself when it first runs.
     std::optional<pid_t> thread_named(const std::string& wanted) const {
-        for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
-            std::string name;
-            std::getline(std::ifstream(entry.path() / "comm"), name);
-            if (name == wanted) {
-                return std::stoi(entry.path().filename());
+        for (const auto end = Clock::now() + seconds(10); Clock::now() < end;) {
+            for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
+                std::string name;
+                std::getline(std::ifstream(entry.path() / "comm"), name);
+                if (name == wanted) {
+                    return std::stoi(entry.path().filename());
+                }
             }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
         return std::nullopt;
     }
