@@ -1,6 +1,11 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
 #include "app/programs/guarded_main.h"
+#include "app/programs/plan_command.h"
+#include "app/programs/record_command.h"
 #include "app/programs/render_command.h"
+#include "app/programs/run_command.h"
+#include "app/settings/config_json.h"
+#include "app/settings/settings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -8,13 +13,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
-#ifdef FRUSTUMSCREEN_HAS_RUN
-#include "app/programs/plan_command.h"
-#include "app/programs/record_command.h"
-#include "app/programs/run_command.h"
-#endif
-#include "app/settings/config_json.h"
-#include "app/settings/settings.h"
 
 namespace frustumscreen {
 namespace {
@@ -57,7 +55,6 @@ int dispatch(int argc, char** argv) {
     if (command == "config") {
         return config_command(argc - 1, argv + 1);
     }
-#ifdef FRUSTUMSCREEN_HAS_RUN
     if (command == "run") {
         return run_command(argc - 1, argv + 1);
     }
@@ -67,7 +64,6 @@ int dispatch(int argc, char** argv) {
     if (command == "plan") {
         return plan_command(argc - 1, argv + 1);
     }
-#endif
     if (command == "--help" || command == "-h") {
         print_usage(stdout);
         return 0;
