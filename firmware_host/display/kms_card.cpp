@@ -83,8 +83,9 @@ Result<KmsCard> KmsCard::open(std::string_view name) {
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
-    Result<KmsCard> best = fail(ErrorKind::DeviceLost,
-                                fmt::format("display: no graphics card in {}; a driver is missing", folder));
+    Result<KmsCard> best =
+        fail(ErrorKind::DeviceLost,
+             fmt::format("display: no graphics card in {}; load its driver, or run with --headless", folder));
     for (const std::string& path : card_paths()) {
         Result<KmsCard> card = open_path(path);
         if (card) {
