@@ -52,6 +52,7 @@ void FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
         }
         if (pose.sensor == prop_station && pose.present) {
             prop_seen_ = arrival;
+            prop_usable_ = pose.usable ? arrival : prop_usable_;
         }
         if (pose.distortion >= metal_near_distortion) {
             distorted_ = arrival;
@@ -75,9 +76,15 @@ void FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
 }
 
 UsbTrackerState FrameIntake::state(MonotonicTime now) const {
-    const std::optional<MonotonicTime> since = prop_seen_ ? prop_seen_ : began_;
-    if (since && now - *since > settling) {
+    const auto long_since = [&](const std::optional<MonotonicTime>& last) {
+        const std::optional<MonotonicTime> since = last ? last : began_;
+        return since && now - *since > settling;
+    };
+    if (long_since(prop_seen_)) {
         return UsbTrackerState::SensorMissing;
+    }
+    if (long_since(prop_usable_)) {
+        return UsbTrackerState::PosesUnusable;
     }
     if (distorted_ && now - *distorted_ < settling) {
         return UsbTrackerState::MetalNear;

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] const DeviceClock& clock() const { return clock_; }
     /// When a frame was taken last.
     [[nodiscard]] std::optional<MonotonicTime> latest() const { return latest_; }
-    /// Streaming, SensorMissing or MetalNear.
+    /// Streaming, SensorMissing, PosesUnusable or MetalNear.
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const;
 
 private:
@@ -51,6 +51,7 @@ private:
     std::optional<MonotonicTime> latest_;
     std::optional<MonotonicTime> began_;
     std::optional<MonotonicTime> prop_seen_;
+    std::optional<MonotonicTime> prop_usable_;
     std::optional<MonotonicTime> distorted_;
 };
 

@@ -21,6 +21,7 @@ enum class UsbTrackerState {
     DeviceFault,
     Streaming,
     SensorMissing,
+    PosesUnusable,
     MetalNear,
 };
 
@@ -55,6 +56,10 @@ enum class UsbTrackerState {
         return "the tracker is running";
     case UsbTrackerState::SensorMissing:
         return "the tracker runs, but the prop's sensor is missing; plug it into connector 1";
+    case UsbTrackerState::PosesUnusable:
+        return "the tracker sends no pose of the prop that can be used; switch it off and on, and look at "
+               "the "
+               "sensor's cable if it stays so";
     case UsbTrackerState::MetalNear:
         return "the tracker's field is distorted; take metal away from its source and sensors";
     }
@@ -64,7 +69,7 @@ enum class UsbTrackerState {
 /// Poses come in, good or less good.
 [[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
     return state == UsbTrackerState::Streaming || state == UsbTrackerState::SensorMissing ||
-           state == UsbTrackerState::MetalNear;
+           state == UsbTrackerState::PosesUnusable || state == UsbTrackerState::MetalNear;
 }
 
 } // namespace frustumscreen

@@ -221,6 +221,8 @@ TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
             {"stall", UsbTrackerState::Silent},
             {"hang", UsbTrackerState::Silent},
             {"unplug", UsbTrackerState::NotConnected},
+            // A PATRIOT has no checksum: such a frame is taken for a broken one.
+            {"nan", says_that_it_boots ? UsbTrackerState::PosesUnusable : UsbTrackerState::Silent},
             {"sensor-missing", UsbTrackerState::SensorMissing},
             {"distortion 200", UsbTrackerState::MetalNear},
             {"wrong-units", UsbTrackerState::WrongUnits},

@@ -41,7 +41,7 @@ FAULTS = {
     "distortion": (("distortion 200",), "metal", True),
     "stall": (("stall",), "stopped sending", False),
     "hang": (("hang",), "", False),
-    "nan": (("nan",), "", False),
+    "nan": (("nan",), "can be used", False),
     "wrong_units": (("wrong-units",), "metric units", False),
     "nak": (("nak", "unplug 1s"), "refuses its set-up", False),
     "slow_boot": (("slow-boot",), "booting", False),
