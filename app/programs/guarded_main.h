@@ -3,11 +3,21 @@
 /// Threads  the main one.
 #pragma once
 
+#include "firmware_host/base/result.h"
+
 #include <cstdio>
 #include <exception>
 #include <new>
 
 namespace frustumscreen {
+
+/// 0; or 1 and the error in one line on standard error.
+[[nodiscard]] inline int exit_status(const char* program, const Result<void>& result) {
+    if (!result) {
+        std::fprintf(stderr, "%s: %s\n", program, result.error().message.c_str());
+    }
+    return result ? 0 : 1;
+}
 
 inline int guarded_main(const char* program, int (*run)(int, char**), int argc, char** argv) noexcept {
     try {

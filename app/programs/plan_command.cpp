@@ -1,5 +1,6 @@
 #include "app/programs/plan_command.h"
 
+#include "app/programs/guarded_main.h"
 #include "app/programs/plan_report.h"
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
@@ -67,11 +68,7 @@ int plan_command(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    if (const Result<void> planned = plan(request); !planned) {
-        fmt::print(stderr, "frustumscreen: {}\n", planned.error().message);
-        return 1;
-    }
-    return 0;
+    return exit_status("frustumscreen", plan(request));
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "app/programs/record_command.h"
 
+#include "app/programs/guarded_main.h"
 #include "app/programs/placed_pose.h"
 #include "app/programs/progress_line.h"
 #include "app/programs/wiring.h"
@@ -184,11 +185,7 @@ int record_command(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    if (const Result<void> recorded = record(request); !recorded) {
-        fmt::print(stderr, "frustumscreen: {}\n", recorded.error().message);
-        return 1;
-    }
-    return 0;
+    return exit_status("frustumscreen", record(request));
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "app/programs/run_command.h"
 
+#include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
 #include "app/programs/run_pattern.h"
@@ -226,11 +227,7 @@ int run_command(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    if (const Result<void> ran = run(request); !ran) {
-        fmt::print(stderr, "frustumscreen: {}\n", ran.error().message);
-        return 1;
-    }
-    return 0;
+    return exit_status("frustumscreen", run(request));
 }
 
 } // namespace frustumscreen

@@ -121,11 +121,7 @@ int window_main(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    if (const Result<void> ran = run(request); !ran) {
-        fmt::print(stderr, "frustumscreen-window: {}\n", ran.error().message);
-        return 1;
-    }
-    return 0;
+    return exit_status("frustumscreen-window", run(request));
 }
 
 } // namespace

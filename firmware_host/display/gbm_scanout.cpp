@@ -144,10 +144,10 @@ GbmScanoutPair::~GbmScanoutPair() {
     }
 }
 
-/// The kernel shows it only when it is drawn, on a card that draws itself and on one that does not.
+/// The picture is drawn to its end (KmsDisplay::present). The kernel shows the copy only when it is drawn
+/// too, on a card that draws itself and on one that does not.
 FramebufferId GbmScanoutPair::fill(int which, const PixelPlace& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
-    glFinish();
     const Copying copying(screen_.copying_, screen_.context_);
     if (copying.current()) {
         glBindFramebuffer(GL_FRAMEBUFFER, buffer.framebuffer);

@@ -3,10 +3,8 @@
 #include <GLES2/gl2.h>
 #include <GLES2/gl2ext.h>
 #include <GLES3/gl31.h>
-#include <fmt/format.h>
 
 #include <array>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -162,7 +160,6 @@ void PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopR
     glViewport(place.x, first_row(place), place.width, place.height);
     const unsigned program = same ? exact_ : scaled_;
     glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "picture"), 0);
     glUniform1i(glGetUniformLocation(program, "top_is_last"), top == TopRow::Last ? 1 : 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, picture.texture());
