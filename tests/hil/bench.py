@@ -7,6 +7,7 @@ Threads  one caller.
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -119,15 +120,15 @@ class Bench:
         except ValueError:
             return None
 
-    def status_says(self, key, text, timeout_s=20.0):
-        """Waits for a sentence in the status file."""
+    def status_says(self, key, pattern, timeout_s=20.0):
+        """Waits for a sentence in the status file in which this regular expression is found."""
         found = [None]
 
         def said():
             found[0] = self.status()
-            return found[0] is not None and text in str(found[0].get(key))
+            return found[0] is not None and re.search(pattern, str(found[0].get(key)))
 
-        eventually(said, timeout_s, lambda: f"'{key}' never says '{text}', at last "
+        eventually(said, timeout_s, lambda: f"'{key}' never says '{pattern}', at last "
                                             f"'{found[0] and found[0].get(key)}'")
         return found[0]
 

@@ -102,6 +102,7 @@ class Machine:
             self._monitor = JsonLines(self.sockets / "monitor", 30.0)
             self._monitor.receive()
             self.monitor("qmp_capabilities")
+            self._threads = [processor["thread-id"] for processor in self.monitor("query-cpus-fast")]
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
             self.stop()
@@ -157,8 +158,11 @@ class Machine:
     def monitor(self, command, **arguments):
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
-    def alive(self):
-        return self._process.poll() is None
+    def waited_s(self):
+        """For each of the guest's processors, how long it has been ready to run while the host's were all busy (Linux,
+        Documentation/scheduler/sched-stats.rst: run_delay)."""
+        files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
+        return [int(file.read_text(encoding="ascii").split()[1]) * 1e-9 for file in files]
 
     def spawn(self, command):
         """Starts a shell command in the guest and returns its process number."""

@@ -3,7 +3,8 @@
 A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
 different codes are two pictures, even where nothing moves.
 
-Time     seconds of the host's monotonic clock; a screendump is as old as the time it took.
+Time     seconds of the host's monotonic clock; a screendump is as old as the time it took. A gap is without what the
+         guest's processors waited for the host's meanwhile (Machine.waited_s): nothing in the guest could end it sooner.
 """
 
 import time
@@ -23,7 +24,7 @@ class Look:
 
 @dataclass
 class Watch:
-    longest_gap_s: float  # between two new pictures, or from the last one to the end
+    longest_gap_s: float  # between two new pictures, or from the last one to the end; see above
     pictures: int  # how many new ones were seen
     looks: list
 
@@ -31,17 +32,21 @@ class Watch:
 def watch(bench, seconds):
     """The exhibit is left alone meanwhile."""
     begin = now = time.monotonic()
-    changed, measured = begin, begin - MEASURE_S
+    changed, measured = (begin, bench.machine.waited_s()), begin - MEASURE_S
     code, gap, pictures, looks = None, 0.0, 0, []
+
+    def gap_until_now():
+        return now - changed[0] - max(b - a for a, b in zip(changed[1], bench.machine.waited_s()))
+
     while now - begin < seconds:
         picture = bench.screendump()
         now = time.monotonic()
         seen = screen.probe(picture)
         if seen is not None and seen != code:
-            code, pictures = seen, pictures + 1
-            gap, changed = max(gap, now - changed), now
+            gap = max(gap, gap_until_now())
+            code, pictures, changed = seen, pictures + 1, (now, bench.machine.waited_s())
         if now - measured >= MEASURE_S:
             measured = now
             looks.append(Look(picture, screen.lit(picture)))
         time.sleep(LOOK_S)
-    return Watch(max(gap, now - changed), pictures, looks)
+    return Watch(max(gap, gap_until_now()), pictures, looks)
