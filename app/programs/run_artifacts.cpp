@@ -2,6 +2,7 @@
 
 #include "app/exhibit/caption_image.h"
 #include "app/pack/pack_file.h"
+#include "app/render/read_back.h"
 #include "app/settings/lit_zone.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace {
 
 /// Widths that a caption is wrapped to, in falling preference.
 constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
+constexpr double warm_up_step_m = 0.01;
 
 /// Languages of all artifacts, in the order of their first appearance.
 template <typename Artifacts> std::vector<std::string> all_languages(const Artifacts& artifacts) {
@@ -181,7 +183,25 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
     const PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
     for (Artifact& artifact : artifacts_) {
         artifact.levels.measure(prop_, view, renderer_, target);
+        warm_up(artifact, view, target);
     }
+}
+
+/// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame does,
+/// and are to be done with it before the first one.
+void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
+    const CaptionPicture* caption = artifact.captions.empty() ? nullptr : &artifact.captions.front().front();
+    if (caption != nullptr) {
+        view.caption = TablePicture{picture_corners({attract_place_m_, caption->size_m}), 1.0, caption->id};
+    }
+    RenderTarget drawn = target;
+    for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
+        static_cast<void>(artifact.levels.draw({}, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
+                                               renderer_, drawn, redraw));
+        drawn.buffer_age = 1;
+        view.table_from_prop.translation.x += warm_up_step_m;
+    }
+    wait_until_drawn();
 }
 
 ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,

@@ -78,6 +78,7 @@ private:
     ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
                  std::vector<Artifact> artifacts, MonotonicTime now);
     void measure(const Settings& settings, const RenderTarget& target);
+    void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
     [[nodiscard]] Situation stand(MonotonicTime now, Situation situation, Shown& shown);
     /// Chooses the caption; its brightness includes the fades.
     [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,

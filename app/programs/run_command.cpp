@@ -9,6 +9,7 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
 #include "firmware_host/tracker/pose_file.h"
 
@@ -19,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen {
@@ -82,9 +84,30 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
 
 /// From the end of the loop: a device's thread that does not come back is not waited for.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
+constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
 
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
+}
+
+/// As a service, a graphics card whose driver comes late is waited for; a person is told at once.
+Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
+                                                  ServiceManager& manager, const Journal& journal) {
+    const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
+    bool said = false;
+    while (true) {
+        Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
+        if (display || display.error().kind != ErrorKind::DeviceLost || !manager.listens()) {
+            return display;
+        }
+        const Sentence why(display.error().message);
+        if (!std::exchange(said, true)) {
+            journal.note(Weight::Warning, why.view(), {{"DEVICE", "display"}});
+        }
+        manager.status(why);
+        manager.still_starting(10 * between_looks_for_card);
+        static_cast<void>(hotplug->wait(between_looks_for_card));
+    }
 }
 
 Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
@@ -167,7 +190,10 @@ Result<void> run(const Request& request) {
                 fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
         }
     }
-    const Result<std::unique_ptr<Display>> display = make_display(**settings, request.headless);
+    const Result<std::unique_ptr<Display>> display = [&] {
+        const StopSignals::AtOnce at_once(stop_signals); // nothing to put away yet
+        return wait_for_display(request, **settings, manager, journal);
+    }();
     if (!display) {
         return tl::unexpected<Error>(display.error());
     }

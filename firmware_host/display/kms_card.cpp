@@ -108,8 +108,9 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
     if (file < 0) {
         const bool refused = errno == EACCES || errno == EPERM;
         return fail(refused ? ErrorKind::BadConfiguration : ErrorKind::DeviceLost,
-                    fmt::format("display: {} cannot be opened: {}{}", path, std::strerror(errno),
-                                refused ? "; the exhibit's user must be in the group video" : ""));
+                    fmt::format("display: {} cannot be opened: {}; {}", path, std::strerror(errno),
+                                refused ? "the exhibit's user must be in the group video"
+                                        : "is it the card's name, and is its driver loaded?"));
     }
     KmsCard card(file, path);
     const Resources resources(drmModeGetResources(file), drmModeFreeResources);

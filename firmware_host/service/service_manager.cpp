@@ -3,13 +3,20 @@
 #include <fmt/format.h>
 #include <systemd/sd-daemon.h>
 
+#include <cstdlib>
+
 namespace frustumscreen {
 
-ServiceManager::ServiceManager() {
+ServiceManager::ServiceManager() : listens_(std::getenv("NOTIFY_SOCKET") != nullptr) {
     std::uint64_t interval_us = 0;
     if (::sd_watchdog_enabled(0, &interval_us) > 0) {
         watchdog_interval_ = std::chrono::microseconds(interval_us);
     }
+}
+
+void ServiceManager::still_starting(Nanoseconds at_most) const {
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(at_most).count();
+    ::sd_notify(0, fmt::format("EXTEND_TIMEOUT_USEC={}", us).c_str());
 }
 
 void ServiceManager::ready() const {

@@ -19,6 +19,10 @@ public:
     /// How often its watchdog wants to be fed at least; nothing = it has none for this process.
     [[nodiscard]] std::optional<Nanoseconds> watchdog_interval() const { return watchdog_interval_; }
 
+    /// There is one.
+    [[nodiscard]] bool listens() const { return listens_; }
+    /// Not ready yet, and not to be given up for so much longer.
+    void still_starting(Nanoseconds at_most) const;
     void ready() const;
     void feed_watchdog() const;
     void stopping() const;
@@ -26,6 +30,7 @@ public:
     void status(const Sentence& sentence);
 
 private:
+    bool listens_;
     std::optional<Nanoseconds> watchdog_interval_;
     Sentence status_;
 };

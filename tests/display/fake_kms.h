@@ -161,10 +161,18 @@ struct FakeMemory {
         FramebufferId fill(int which, const PixelPlace& part) override {
             ++memory_.fills;
             memory_.filled = part;
-            return static_cast<FramebufferId>(10 * number_ + which);
+            return name(which);
+        }
+        /// Its pixels are its name.
+        bool read(int which, std::span<std::byte> rgba) const override {
+            std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(name(which)));
+            return true;
         }
 
     private:
+        [[nodiscard]] FramebufferId name(int which) const {
+            return static_cast<FramebufferId>(10 * number_ + which);
+        }
         FakeMemory& memory_;
         PixelSize size_;
         int number_;

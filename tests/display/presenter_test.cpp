@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <string>
 
@@ -105,6 +106,29 @@ TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
     exhibit.frames(1);
     exhibit.frame({1, 1, 1, 1});
     EXPECT_EQ(exhibit.memory.filled, whole);
+}
+
+TEST(Presenter, ReadsTheFramebufferThatTheProjectorShows) {
+    Exhibit exhibit;
+    std::array<std::byte, 4> pixel{};
+    exhibit.frame();
+    EXPECT_FALSE(exhibit.presenter.read_shown(pixel)) << "nothing is shown";
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frame();
+    for (int k = 0; k < 100; ++k) {
+        exhibit.kms.hangs = k % 7 == 3; // the flip before is not done, so the one on show stays
+        exhibit.kms.busy = k % 5 == 2 ? 1 : 0;
+        exhibit.frame();
+        ASSERT_TRUE(exhibit.kms.screen);
+        ASSERT_TRUE(exhibit.presenter.read_shown(pixel));
+        EXPECT_EQ(static_cast<FramebufferId>(pixel[0]), exhibit.kms.screen->framebuffer) << k;
+    }
+    ConnectorSeen larger = a_projector();
+    larger.modes = {a_mode(1920, 1080, 60.0, true)};
+    exhibit.kms.hangs = false;
+    exhibit.presenter.connected(a_card({larger}));
+    exhibit.frames(10);
+    EXPECT_FALSE(exhibit.presenter.read_shown(pixel)) << "the picture is scaled";
 }
 
 TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {

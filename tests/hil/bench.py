@@ -17,6 +17,7 @@ import time
 import screen
 from machine import Machine, MachineError
 from mocks import control
+from vnc_viewer import VncViewer
 
 HERE = pathlib.Path(__file__).resolve().parent
 CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
@@ -81,6 +82,7 @@ class Bench:
         self._packs = packs
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
+        self.looked_at = "screen"  # or "second"
         self.tracker = Mock("mock_tracker", "tracker", self._sockets, out, "--loop", "--log", out / "poses_sent.csv")
         self.other_trackers = {device: Mock("mock_tracker", device, self._sockets, out, "--device", device,
                                             "--at", "0s unplug") for device in OTHER_TRACKERS}
@@ -139,8 +141,11 @@ class Bench:
     # What is on the screen.
 
     def screendump(self):
-        self.machine.screendump(self._shot)
+        self.machine.screendump(self._shot, self.looked_at)
         return screen.read_ppm(self._shot)
+
+    def second_viewer(self):
+        return VncViewer(self._sockets / "second")
 
     def probe(self):
         return screen.probe(self.screendump())

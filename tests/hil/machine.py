@@ -16,6 +16,7 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
+SECOND_SLOT = 0x10  # of the second graphics card, on the PCI bus
 START_S = 180.0  # until the agent answers; 13 to 30 s on an idle machine of two cores
 
 
@@ -124,6 +125,8 @@ class Machine:
             "-device", "virtio-rng-pci",
             "-vga", "none",
             "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
+            "-device", f"virtio-gpu-pci,id=second,edid=on,xres={self.width},yres={self.height},addr={SECOND_SLOT:#x}",
+            "-vnc", f"unix:{self.sockets}/second,display=second",
             "-device", "qemu-xhci,id=usb",
         ]
         for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
@@ -197,9 +200,9 @@ class Machine:
         encoded = base64.b64encode(text.encode()).decode()
         self.check(f"echo {encoded} | base64 -d > {shlex.quote(path)}")
 
-    def screendump(self, path):
-        """What the screen shows now, as a PPM file on the host."""
-        self.monitor("screendump", device="screen", filename=os.fspath(path))
+    def screendump(self, path, screen="screen"):
+        """What a screen shows now, as a PPM file on the host."""
+        self.monitor("screendump", device=screen, filename=os.fspath(path))
 
     def stop(self):
         if self._process.poll() is None:

@@ -16,7 +16,7 @@ from hil_test import HilTest
 
 HERE = pathlib.Path(__file__).resolve().parent
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "trackers", "buttons", "unplug", "misbehaviour", "latency", "restart", "kernel")
+MODULES = ("boot", "pose", "trackers", "buttons", "unplug", "misbehaviour", "latency", "display", "restart", "kernel")
 
 
 def say(text):

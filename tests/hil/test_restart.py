@@ -1,10 +1,16 @@
-"""Whatever stops the exhibit, systemd brings it back: killed, stopped, a device's thread or the renderer hung."""
+"""Whatever stops the exhibit, systemd brings it back: told to stop, killed, stopped, a device's thread or the renderer hung."""
 
 import screen
 from bench import CONNECTOR, UNIT, eventually
 from hil_test import HilTest
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
+STOPPED_S = 0.5
+STOP = """begin=$(date +%s%N)
+kill -TERM "$1"
+tail --pid="$1" -f /dev/null -s 0.02
+echo $(($(date +%s%N) - begin))
+"""
 
 
 class Restart(HilTest):
@@ -28,6 +34,17 @@ class Restart(HilTest):
 
         self.bench.status_says("tracker", "is running", BACK_S)
         eventually(lit_anew, BACK_S, "it runs again, but no new picture comes")
+
+    def test_told_to_stop(self):
+        """Clean, and within STOPPED_S."""
+        self.bench.machine.write("/tmp/stop.sh", STOP)
+        before = self.bench.machine.waited_s()
+        took_s = float(self.bench.machine.check(f"sh /tmp/stop.sh {self.process}")) * 1e-9
+        took_s -= max(b - a for a, b in zip(before, self.bench.machine.waited_s()))
+        print(f"  stopped after {1e3 * took_s:.0f} ms", flush=True)
+        self.assertLessEqual(took_s, STOPPED_S)
+        self.assertEqual(self.bench.machine.check(f"systemctl show --value -p Result {UNIT}").strip(), "success")
+        self.assert_restarted()
 
     def test_killed(self):
         self.bench.machine.check(f"kill -KILL {self.process}")

@@ -31,7 +31,8 @@ protected:
             ::waitpid(process, nullptr, 0);
         }
     }
-    void start(const std::string& more = {}, const std::string& tracker = "replay") {
+    void start(const std::string& more = {}, const std::string& tracker = "replay",
+               const char* screen = "--headless") {
         write_settings(tracker, more);
         process = ::fork();
         ASSERT_GE(process, 0);
@@ -44,8 +45,8 @@ protected:
             const std::string config = folder / "kiosk.toml";
             std::freopen(errors.c_str(), "w", stderr);
             std::freopen("/dev/null", "w", stdout);
-            ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", "frustumscreen", "run", "--headless", "--config",
-                    config.c_str(), nullptr);
+            ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", "frustumscreen", "run", "--config",
+                    config.c_str(), screen, nullptr);
             ::_exit(127);
         }
     }
@@ -154,6 +155,17 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     ::waitpid(*tracker, &status, __WALL); // the tracer sees each thread's end first
     EXPECT_EQ(ending(), 0);               // though the thread could not be joined
     EXPECT_NE(errors().find("a device did not let go"), std::string::npos) << errors();
+}
+
+TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
+    start("[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n", "replay", nullptr);
+    for (int look = 0; look < 2; ++look) { // it goes on asking for time
+        ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
+    }
+    EXPECT_EQ(errors(), "frustumscreen: display: /dev/dri/no-such-card cannot be opened: No such file or "
+                        "directory; is it the card's name, and is its driver loaded?\n");
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), -1);
 }
 
 TEST_F(RunService, StopsInTheMiddleOfLoading) {

@@ -20,6 +20,9 @@ protected:
 
 TEST_F(ServiceManagerTest, IsToldInItsOwnWords) {
     const ServiceManager manager;
+    EXPECT_TRUE(manager.listens());
+    manager.still_starting(std::chrono::milliseconds(1500));
+    EXPECT_EQ(socket.receive(), "EXTEND_TIMEOUT_USEC=1500000");
     manager.ready();
     EXPECT_EQ(socket.receive(), "READY=1");
     manager.feed_watchdog();
@@ -51,6 +54,7 @@ TEST_F(ServiceManagerTest, AsksForTheWatchdogOfThisProcessAlone) {
 TEST(ServiceManager, IsNotMissed) {
     ::unsetenv("NOTIFY_SOCKET");
     ServiceManager manager;
+    EXPECT_FALSE(manager.listens());
     manager.ready();
     manager.status(Sentence("nobody hears this"));
     ::setenv("NOTIFY_SOCKET", "/nowhere/at/all", 1);

@@ -1,0 +1,93 @@
+"""Another graphics card, whose driver comes late and whose projector comes, goes and wants another mode: virtio-gpu, at
+which the window of a viewer is the projector. The kernel tells of it by uevent."""
+
+import time
+
+import screen
+from bench import CONFIG, HEIGHT, UNIT, UPRIGHT, WIDTH, eventually
+from hil_test import PIXELS, START_S, HilTest
+from machine import SECOND_SLOT
+
+ARTIFACT = "amphora"
+PLACE_M = (0.1, -0.05, 0.0)
+SETTINGS = "/etc/frustumscreen/kiosk.toml"
+CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
+WAITED_S = 4.0  # for a driver, without giving up
+BACK_S = 15.0
+LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # the picture as large as it fits
+
+
+class Display(HilTest):
+    @classmethod
+    def setUpClass(cls):
+        machine = cls.bench.machine
+        cls.settings = CONFIG.read_text(encoding="utf-8")
+        machine.write(SETTINGS, f'{cls.settings}\n[display]\ncard = "{CARD}"\n')
+        machine.check(f"systemctl restart --no-block {UNIT}")
+        cls.bench.looked_at = "second"
+        cls.viewer = cls.bench.second_viewer()
+
+    @classmethod
+    def tearDownClass(cls):
+        machine = cls.bench.machine
+        cls.viewer.close()
+        machine.write(SETTINGS, cls.settings)
+        machine.run(f"systemctl stop {UNIT}; modprobe -r virtio_gpu; systemctl start --no-block {UNIT}")
+        cls.bench.looked_at = "screen"
+
+    def setUp(self):
+        if self.bench.machine.run("test -e " + CARD).status != 0:
+            self.wait_without_driver()
+            self.bench.machine.check("modprobe virtio_gpu")
+            eventually(lambda: self.bench.machine.run(f"systemctl is-active {UNIT}").status == 0, START_S,
+                       "it is not ready once its card is there")
+        super().setUp()
+        self.show(ARTIFACT)
+        self.bench.place(PLACE_M)
+        self.truth = self.bench.rendered([(*PLACE_M, *UPRIGHT)], ARTIFACT)[0]
+        self.process = self.bench.main_process()
+
+    def tearDown(self):
+        self.assertEqual(self.bench.main_process(), self.process, "the exhibit was restarted")
+
+    def wait_without_driver(self):
+        shown = f"systemctl show --value -p StatusText {UNIT}"
+        eventually(lambda: "its driver loaded?" in self.bench.machine.run(shown).output, 20.0,
+                   "it does not say that it waits for its card")
+        process = self.bench.main_process()
+        time.sleep(WAITED_S)
+        self.assertEqual(self.bench.main_process(), process, "it gave up waiting for its card")
+        self.assertNotEqual(process, 0)
+
+    def test_driver_that_comes_late(self):
+        self.assert_same_place(self.bench.steady_picture(), self.truth)
+
+    def test_mode_change(self):
+        for _ in range(2):
+            self.resize(*LARGER)
+            picture = self.bench.steady_picture()
+            seen = screen.centroid(screen.lit(picture), picture.width)
+            x, y = screen.centroid(screen.lit(self.truth), self.truth.width)
+            self.assertAlmostEqual(seen[0], SCALE * x, delta=PIXELS)
+            self.assertAlmostEqual(seen[1], SCALE * y + ABOVE, delta=PIXELS)
+            self.resize(WIDTH, HEIGHT)
+            self.assert_same_place(self.bench.steady_picture(), self.truth)
+
+    def resize(self, width, height):
+        self.viewer.resize(width, height)
+
+        def lit():
+            picture = self.bench.screendump()
+            return (picture.width, picture.height) == (width, height) and any(screen.lit(picture))
+
+        eventually(lit, BACK_S, f"no picture of {width} x {height}")
+        self.bench.status_says("display", f"is lit, {width} x {height}")
+
+    def test_unplugged_and_back(self):
+        for x in (-PLACE_M[0], PLACE_M[0]):
+            place = (x, *PLACE_M[1:])
+            self.viewer.resize(0, 0)
+            self.bench.status_says("display", "no projector is connected", BACK_S)
+            self.bench.place(place)
+            self.resize(WIDTH, HEIGHT)
+            self.assert_same_place(self.bench.steady_picture(), self.bench.rendered([(*place, *UPRIGHT)], ARTIFACT)[0])
