@@ -13,9 +13,9 @@ constexpr int centimetres = 1;
 
 } // namespace
 
-PatriotSession::PatriotSession(const UsbTrackerSetUp& set_up) : intake_(tick_ns) {
+std::vector<PatriotSession::Step> PatriotSession::steps(const UsbTrackerSetUp& set_up) {
     const glm::dvec3 half = glm::normalize(set_up.hemisphere);
-    steps_ = {
+    return {
         {"P", Need::Nothing}, // whatever an earlier program left running
         {"F0\r", Need::Nothing},
         {"\x16\r", Need::AnyText}, // ^V: who are you
@@ -31,63 +31,45 @@ PatriotSession::PatriotSession(const UsbTrackerSetUp& set_up) : intake_(tick_ns)
     };
 }
 
+PatriotSession::PatriotSession(const UsbTrackerSetUp& set_up)
+    : steps_(steps(set_up)), progress_(steps_.size()), intake_(tick_ns) {}
+
 std::span<const std::byte> PatriotSession::due(MonotonicTime now) {
-    if (streaming()) {
-        const MonotonicTime heard = std::max(intake_.latest().value_or(*awake_), *awake_);
-        if (now - heard <= SessionTimes::quiet) {
-            return {};
-        }
-        try_again(UsbTrackerState::Silent, now);
+    if (progress_.silent(now, intake_)) {
+        progress_.try_again(0, UsbTrackerState::Silent);
     }
-    if (sent_ && now - *sent_ > SessionTimes::reply) {
-        try_again(trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_, now);
+    if (progress_.unanswered(now)) {
+        progress_.try_again(0, progress_.trouble_without_answer());
     }
-    if (failed_ || sent_ || (pause_ && now < *pause_)) {
+    if (!progress_.may_send(now)) {
         return {};
     }
-    const Step& step = steps_[at_];
+    const Step& step = steps_[progress_.step()];
     const auto bytes = std::as_bytes(std::span(step.command.data(), step.command.size()));
     stream_.clear();
     if (step.need == Need::Nothing) {
-        next(now);
+        progress_.next(now, between_commands);
     } else {
-        sent_ = now;
+        progress_.sent(now);
     }
     return bytes;
 }
 
-void PatriotSession::next(MonotonicTime now) {
-    ++at_;
-    sent_.reset();
-    pause_ = now + between_commands;
-    if (streaming()) {
-        awake_ = now;
-    }
-}
-
-void PatriotSession::try_again(UsbTrackerState trouble, MonotonicTime now) {
-    at_ = 0;
-    sent_.reset();
-    pause_ = now;
-    trouble_ = trouble;
-    failed_ = ++tries_ >= SessionTimes::tries;
-}
-
 void PatriotSession::read_answer(MonotonicTime now) {
-    if (!sent_) {
+    if (!progress_.waits_for_answer()) {
         return; // the rest of an earlier stream
     }
     const auto bytes = stream_.bytes();
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (steps_[at_].need == Need::AnyText) {
+    if (steps_[progress_.step()].need == Need::AnyText) {
         if (text.find('\n') != std::string_view::npos) {
-            next(now);
+            progress_.next(now, between_commands);
         }
     } else if (const std::optional<int> units = patriot_units_answer(text)) {
         if (*units == centimetres) {
-            next(now);
+            progress_.next(now, between_commands);
         } else {
-            try_again(UsbTrackerState::WrongUnits, now);
+            progress_.try_again(0, UsbTrackerState::WrongUnits);
         }
     }
 }
@@ -100,8 +82,7 @@ void PatriotSession::read_frames(MonotonicTime arrival, std::vector<PoseSample>&
         }
         if (const auto* frame = std::get_if<DeviceFrame>(&step.message)) {
             intake_.take(*frame, arrival, samples);
-            tries_ = 0;
-            trouble_ = UsbTrackerState::SettingUp;
+            progress_.well();
         } else {
             intake_.count_refusal();
         }
@@ -114,7 +95,7 @@ void PatriotSession::receive(std::span<const std::byte> bytes, MonotonicTime arr
     while (!bytes.empty()) {
         const std::size_t taken = stream_.append(bytes);
         bytes = bytes.subspan(taken);
-        if (streaming()) {
+        if (progress_.streaming()) {
             read_frames(arrival, samples);
         } else {
             read_answer(arrival);
@@ -123,11 +104,6 @@ void PatriotSession::receive(std::span<const std::byte> bytes, MonotonicTime arr
             stream_.clear(); // an answer without an end
         }
     }
-}
-
-UsbTrackerState PatriotSession::state(MonotonicTime now) const {
-    const bool heard = streaming() && intake_.latest() && *intake_.latest() >= *awake_;
-    return heard ? intake_.state(now) : trouble_;
 }
 
 } // namespace frustumscreen

@@ -7,6 +7,7 @@
 
 #include "firmware_host/tracker/device_session.h"
 #include "firmware_host/tracker/patriot_codec.h"
+#include "firmware_host/tracker/set_up_progress.h"
 #include "firmware_host/tracker/stream_buffer.h"
 
 #include <string>
@@ -20,8 +21,10 @@ public:
     [[nodiscard]] std::span<const std::byte> due(MonotonicTime now) override;
     void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
                  std::vector<PoseSample>& samples) override;
-    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
-    [[nodiscard]] bool failed() const override { return failed_; }
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override {
+        return progress_.state(now, intake_);
+    }
+    [[nodiscard]] bool failed() const override { return progress_.failed(); }
     [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
 
 private:
@@ -31,20 +34,12 @@ private:
         Need need = Need::Nothing;
     };
 
+    [[nodiscard]] static std::vector<Step> steps(const UsbTrackerSetUp& set_up);
     void read_answer(MonotonicTime now);
     void read_frames(MonotonicTime arrival, std::vector<PoseSample>& samples);
-    void next(MonotonicTime now);
-    void try_again(UsbTrackerState trouble, MonotonicTime now);
-    [[nodiscard]] bool streaming() const { return at_ == steps_.size(); }
 
     std::vector<Step> steps_;
-    std::size_t at_ = 0;
-    int tries_ = 0;
-    std::optional<MonotonicTime> sent_;
-    std::optional<MonotonicTime> pause_;
-    std::optional<MonotonicTime> awake_;
-    UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
-    bool failed_ = false;
+    SetUpProgress progress_;
     StreamBuffer stream_;
     FrameIntake intake_;
 };

@@ -31,73 +31,65 @@ using UnitsPayload = std::array<std::uint32_t, 2>;
 
 } // namespace
 
-ViperSession::ViperSession(const UsbTrackerSetUp& set_up)
-    : hemisphere_(direction(set_up.hemisphere)), intake_(1e9 / rate_hz) {
+std::vector<ViperSession::Step> ViperSession::steps(const std::array<float, 3>& hemisphere) {
     using C = ViperCommand;
     using A = ViperAction;
     const UnitsPayload units{viper_metres, viper_quaternion};
-    const HemispherePayload half{0, hemisphere_};
-    const auto add = [this](C name, A action, Need need, std::span<const std::byte> payload = {},
-                            std::size_t set_by = 0, std::uint32_t arg2 = 0) {
-        steps_.push_back(
+    const HemispherePayload half{0, hemisphere};
+    std::vector<Step> steps;
+    const auto add = [&steps](C name, A action, Need need, std::span<const std::byte> payload = {},
+                              std::size_t set_by = 0, std::uint32_t arg2 = 0) {
+        steps.push_back(
             {ViperCommandBytes(name, action, payload, viper_all_sensors, arg2), name, need, set_by});
     };
     add(C::Continuous, A::Reset, Need::Try); // whatever an earlier program left running
     add(C::WhoAmI, A::Get, Need::Ack);
     add(C::Units, A::Set, Need::Ack, bytes_of(units));
-    add(C::Units, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::Units, A::Get, Need::Same, {}, steps.size() - 1);
     add(C::Hemisphere, A::Set, Need::Ack, bytes_of(half));
-    add(C::Hemisphere, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::Hemisphere, A::Get, Need::Same, {}, steps.size() - 1);
     add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 0);
     add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 1);
     add(C::FrameRate, A::Set, Need::Ack, bytes_of(rate_120_hz));
-    add(C::FrameRate, A::Get, Need::Same, {}, steps_.size() - 1);
+    add(C::FrameRate, A::Get, Need::Same, {}, steps.size() - 1);
     add(C::Continuous, A::Set, Need::Ack);
+    return steps;
 }
 
+ViperSession::ViperSession(const UsbTrackerSetUp& set_up)
+    : hemisphere_(direction(set_up.hemisphere)), steps_(steps(hemisphere_)), progress_(steps_.size()),
+      intake_(1e9 / rate_hz) {}
+
 std::span<const std::byte> ViperSession::due(MonotonicTime now) {
-    if (streaming()) {
-        const MonotonicTime heard = std::max(intake_.latest().value_or(*awake_), *awake_);
-        if (now - heard <= SessionTimes::quiet) {
-            return {};
-        }
+    if (progress_.silent(now, intake_)) {
         try_again(steps_.size() - 1, UsbTrackerState::Silent);
     }
-    if (sent_ && now - *sent_ > SessionTimes::reply) {
-        if (steps_[at_].need == Need::Try) {
-            next();
+    if (progress_.unanswered(now)) {
+        if (steps_[progress_.step()].need == Need::Try) {
+            progress_.next(now);
         } else {
-            try_again(at_, trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_);
+            try_again(progress_.step(), progress_.trouble_without_answer());
         }
     }
-    if (failed_ || sent_ || streaming() || (pause_ && now < *pause_)) {
+    if (!progress_.may_send(now)) {
         return {};
     }
     if (stream_stale_) {
         stream_.clear(); // half a frame would swallow the answer
         stream_stale_ = false;
     }
-    pause_.reset();
-    sent_ = now;
-    return steps_[at_].command.bytes();
-}
-
-void ViperSession::next() {
-    ++at_;
-    sent_.reset();
+    progress_.sent(now);
+    return steps_[progress_.step()].command.bytes();
 }
 
 void ViperSession::try_again(std::size_t from, UsbTrackerState trouble) {
-    at_ = from;
-    sent_.reset();
+    progress_.try_again(from, trouble);
     stream_stale_ = true;
-    trouble_ = trouble;
-    failed_ = ++tries_ >= SessionTimes::tries;
 }
 
 bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
     ByteReader reader(reply.payload);
-    switch (steps_[at_].name) {
+    switch (steps_[progress_.step()].name) {
     case ViperCommand::Units: {
         const auto units = reader.read<UnitsPayload>();
         return reader.ok() && units == UnitsPayload{viper_metres, viper_quaternion};
@@ -121,31 +113,27 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
 }
 
 void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
-    if (streaming() || !sent_ || reply.command != static_cast<std::uint32_t>(steps_[at_].name)) {
+    if (!progress_.waits_for_answer() ||
+        reply.command != static_cast<std::uint32_t>(steps_[progress_.step()].name)) {
         return; // late, or not asked for
     }
-    const Step& step = steps_[at_];
+    const Step& step = steps_[progress_.step()];
     if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
         if (step.need == Need::Same && !repeats_what_was_set(reply)) {
             const bool units = step.name == ViperCommand::Units;
             try_again(step.set_by, units ? UsbTrackerState::WrongUnits : UsbTrackerState::SetUpRefused);
             return;
         }
-        next();
-        if (streaming()) {
-            awake_ = now;
-        }
+        progress_.next(now);
         return;
     }
     const auto nak = ByteReader(reply.payload).read<std::uint32_t>();
     if (reply.payload.size() >= 4 && nak == static_cast<std::uint32_t>(ViperNak::Booting)) {
-        trouble_ = UsbTrackerState::Booting; // no try is spent: it may take as long as it takes
-        sent_.reset();
-        pause_ = now + SessionTimes::booting;
+        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
     } else if (step.need == Need::Try) {
-        next();
+        progress_.next(now);
     } else {
-        try_again(at_, UsbTrackerState::SetUpRefused);
+        try_again(progress_.step(), UsbTrackerState::SetUpRefused);
     }
 }
 
@@ -162,23 +150,18 @@ void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arriv
                 answer(*reply, arrival);
             } else if (std::holds_alternative<Refusal>(step.message)) {
                 intake_.count_refusal();
-            } else if (const auto* frame = std::get_if<DeviceFrame>(&step.message); frame && streaming()) {
+            } else if (const auto* frame = std::get_if<DeviceFrame>(&step.message);
+                       frame && progress_.streaming()) {
                 if (!frame->units_as_set) {
                     try_again(0, UsbTrackerState::WrongUnits);
                 } else {
                     intake_.take(*frame, arrival, samples);
-                    tries_ = 0;
-                    trouble_ = UsbTrackerState::SettingUp;
+                    progress_.well();
                 }
             }
             stream_.drop(step.consumed);
         }
     }
-}
-
-UsbTrackerState ViperSession::state(MonotonicTime now) const {
-    const bool heard = streaming() && intake_.latest() && *intake_.latest() >= *awake_;
-    return heard ? intake_.state(now) : trouble_;
 }
 
 } // namespace frustumscreen

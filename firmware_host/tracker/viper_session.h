@@ -3,7 +3,7 @@
 /// Frame, units, time, threads: see device_session.h.
 #pragma once
 
-#include "firmware_host/tracker/device_session.h"
+#include "firmware_host/tracker/set_up_progress.h"
 #include "firmware_host/tracker/stream_buffer.h"
 #include "firmware_host/tracker/viper_codec.h"
 
@@ -16,8 +16,10 @@ public:
     [[nodiscard]] std::span<const std::byte> due(MonotonicTime now) override;
     void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
                  std::vector<PoseSample>& samples) override;
-    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
-    [[nodiscard]] bool failed() const override { return failed_; }
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override {
+        return progress_.state(now, intake_);
+    }
+    [[nodiscard]] bool failed() const override { return progress_.failed(); }
     [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
 
 private:
@@ -33,21 +35,14 @@ private:
         std::size_t set_by = 0; ///< Same: the step that set it, to go back to
     };
 
+    [[nodiscard]] static std::vector<Step> steps(const std::array<float, 3>& hemisphere);
     void answer(const ViperReply& reply, MonotonicTime now);
     [[nodiscard]] bool repeats_what_was_set(const ViperReply& reply) const;
-    void next();
     void try_again(std::size_t from, UsbTrackerState trouble);
-    [[nodiscard]] bool streaming() const { return at_ == steps_.size(); }
 
     std::array<float, 3> hemisphere_;
     std::vector<Step> steps_;
-    std::size_t at_ = 0;
-    int tries_ = 0;
-    std::optional<MonotonicTime> sent_;  ///< the step's command; waiting for its answer
-    std::optional<MonotonicTime> pause_; ///< nothing is sent before
-    std::optional<MonotonicTime> awake_; ///< streaming was asked for
-    UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
-    bool failed_ = false;
+    SetUpProgress progress_;
     bool stream_stale_ = false; ///< what came before is worth nothing; cleared with the next command
     StreamBuffer stream_;
     FrameIntake intake_;
