@@ -1,7 +1,7 @@
 #include "app/bench/floor.h"
 
 #include "app/image/image.h"
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -8,9 +8,9 @@
 /// Errors   at creation only: the driver refuses a shader or has no memory.
 #pragma once
 
-#include "app/render/gl_handle.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 

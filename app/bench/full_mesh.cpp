@@ -1,5 +1,5 @@
 #include "app/bench/peers.h"
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,5 +1,6 @@
 #include "app/bench/latency.h"
 
+#include "app/bench/measure.h"
 #include "app/bench/one_euro.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
@@ -72,15 +73,6 @@ std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMo
     }
 }
 
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) {
-        return 0.0;
-    }
-    const auto k = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-    return values[k];
-}
-
 double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) /
            static_cast<double>(std::max<std::size_t>(values.size(), 1));
@@ -118,7 +110,9 @@ std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, 
     Noise noise(tracker.noise, seed);
     std::vector<RecordedPose> samples;
     const double step_s = 1.0 / (tracker.rate_hz * clock_drift);
-    for (double t_s = 0.0; t_s < length_s; t_s = step_s * static_cast<double>(samples.size())) {
+    const auto count = static_cast<std::size_t>(std::ceil(length_s / step_s));
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t_s = step_s * static_cast<double>(k);
         samples.push_back({t_s, noise.on(motion(t_s))});
     }
     return play(samples, motion, length_s, tracker, setting, contestant);
@@ -185,7 +179,8 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
         one.rest = slip(rest(), setting);
         one.stop = overshoot_of(tracker, setting, contestant, options.seed);
         const HandMotion motion = strokes(latency_speed_m_s, options.length_s, options.seed);
-        for (double display_ms = 0.0; display_ms <= 80.0; display_ms += 10.0) {
+        for (int tens = 0; tens <= 8; ++tens) {
+            const double display_ms = 10.0 * tens;
             LatencySetting later = setting;
             later.display_latency_ms = display_ms;
             one.latencies.push_back({tracker.latency_ms + display_ms, slip(motion, later)});

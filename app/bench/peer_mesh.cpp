@@ -1,7 +1,7 @@
 #include "app/bench/peer_mesh.h"
 
 #include "app/bench/closed_mesh.h"
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,6 +1,6 @@
 #include "app/bench/relief_technique.h"
 
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,7 +1,7 @@
 #include "app/bench/timing.h"
 
 #include "app/bench/measure.h"
-#include "app/render/gl_handle.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <chrono>
 #include <ctime>

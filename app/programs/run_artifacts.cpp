@@ -187,8 +187,8 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
     }
 }
 
-/// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame does,
-/// and are to be done with it before the first one.
+/// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame
+/// does, and are to be done with it before the first one.
 void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
     const CaptionPicture* caption = artifact.captions.empty() ? nullptr : &artifact.captions.front().front();
     if (caption != nullptr) {

@@ -30,7 +30,7 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
 
 /// A driver that never gave a code back cannot read what it shows: no reason to end the exhibit.
 std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
-    std::array<std::byte, 4 * probe_pixels> corner{};
+    std::array<std::byte, probe_bytes> corner{};
     if (display.read_shown(corner)) {
         const std::optional<std::uint8_t> code = read_probe(corner);
         shown_is_readable_ = shown_is_readable_ || code;

@@ -8,9 +8,9 @@
 #pragma once
 
 #include "app/pack/pack.h"
-#include "app/render/gl_handle.h"
 #include "app/scene/scene_level.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 

@@ -1,7 +1,7 @@
 #include "app/render/caption_pass.h"
 
 #include "app/render/gl_memory.h"
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "app/image/image.h"
-#include "app/render/gl_handle.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <cstdint>
 

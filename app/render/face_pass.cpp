@@ -1,6 +1,6 @@
 #include "app/render/face_pass.h"
 
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -13,11 +13,11 @@
 #pragma once
 
 #include "app/render/artifact_gpu.h"
-#include "app/render/gl_handle.h"
 #include "app/render/raster.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/scene_plan.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <array>
 #include <optional>

@@ -5,7 +5,7 @@
 /// Threads  the render thread.
 #pragma once
 
-#include "app/render/gl_handle.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <cstdint>
 #include <string>

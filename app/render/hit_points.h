@@ -5,7 +5,7 @@
 
 #include "app/image/image.h"
 #include "app/render/face_pass.h"
-#include "app/render/gl_handle.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "app/image/image.h"
-#include "app/render/gl_handle.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 

@@ -61,17 +61,16 @@ std::optional<std::uint8_t> read_probe(const Image8& picture) {
     return code_in([&picture](int k) { return picture.at(k, 0); });
 }
 
-std::optional<std::uint8_t> read_probe(std::span<const std::byte, 4 * probe_pixels> corner) {
+std::optional<std::uint8_t> read_probe(std::span<const std::byte, probe_bytes> corner) {
     return code_in([corner](int k) {
-        const auto at = [&](int channel) {
-            return static_cast<std::uint8_t>(corner[static_cast<std::size_t>(4 * k + channel)]);
-        };
+        const auto rgba = corner.subspan(4 * static_cast<std::size_t>(k), 4);
+        const auto at = [rgba](std::size_t channel) { return static_cast<std::uint8_t>(rgba[channel]); };
         return glm::u8vec4(at(0), at(1), at(2), at(3));
     });
 }
 
 std::optional<std::uint8_t> read_probe(unsigned framebuffer) {
-    std::array<std::byte, 4 * probe_pixels> corner{};
+    std::array<std::byte, probe_bytes> corner{};
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, probe_pixels, 1, GL_RGBA, GL_UNSIGNED_BYTE, corner.data());

@@ -22,6 +22,7 @@
 namespace frustumscreen {
 
 inline constexpr int probe_pixels = 8;
+inline constexpr std::size_t probe_bytes = 4 * std::size_t{probe_pixels}; ///< of RGBA
 
 /// Into the framebuffer, inside the picture's corner alone. False: `lit` covers the corner; nothing is
 /// written.
@@ -30,7 +31,7 @@ bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& 
 /// The code in a picture's corner; nothing if there is none.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(const Image8& picture);
 /// The same of the corner's pixels alone, RGBA codes.
-[[nodiscard]] std::optional<std::uint8_t> read_probe(std::span<const std::byte, 4 * probe_pixels> corner);
+[[nodiscard]] std::optional<std::uint8_t> read_probe(std::span<const std::byte, probe_bytes> corner);
 /// The same of a framebuffer, once everything in it is drawn: waits for the GPU, so not for every frame.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(unsigned framebuffer);
 

@@ -1,7 +1,7 @@
 #include "app/render/sample_grid.h"
 
 #include "app/render/gl_memory.h"
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 

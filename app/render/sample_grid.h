@@ -8,10 +8,10 @@
 /// Errors   a number of samples that has no grid; a picture larger than the driver draws.
 #pragma once
 
-#include "app/render/gl_handle.h"
 #include "app/render/raster.h"
 #include "app/scene/lit_tiles.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <glm/glm.hpp>
 

@@ -11,6 +11,7 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/display/letterbox.h"
 #include "firmware_host/display/picture_framebuffer.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 
@@ -21,11 +22,6 @@ enum class TopRow { First, Last };
 class PictureCopy {
 public:
     [[nodiscard]] static Result<PictureCopy> create();
-    ~PictureCopy();
-    PictureCopy(PictureCopy&& other) noexcept;
-    PictureCopy& operator=(PictureCopy&& other) noexcept;
-    PictureCopy(const PictureCopy&) = delete;
-    PictureCopy& operator=(const PictureCopy&) = delete;
 
     /// Into the framebuffer bound, whose colour is 8 bits a channel and holds codes as they are written.
     /// `part`: of the picture, what the framebuffer has not yet; all of it: what lies around it is blackened
@@ -33,13 +29,13 @@ public:
     void draw(const PictureFramebuffer& picture, PixelSize target, TopRow top, const PixelPlace& part) const;
 
 private:
-    PictureCopy() = default;
+    PictureCopy(GlProgram exact, GlProgram scaled, GlSampler codes, GlSampler light);
 
-    unsigned exact_ = 0;  ///< program: codes to codes
-    unsigned scaled_ = 0; ///< program: light to codes
-    unsigned vertices_ = 0;
-    unsigned codes_ = 0; ///< sampler: nearest, codes not decoded
-    unsigned light_ = 0; ///< sampler: linear light, interpolated
+    GlProgram exact_;  ///< codes to codes
+    GlProgram scaled_; ///< light to codes
+    GlSampler codes_;  ///< nearest, codes not decoded
+    GlSampler light_;  ///< linear light, interpolated
+    GlVertexArray vertices_ = GlVertexArray::generate();
 };
 
 } // namespace frustumscreen

@@ -8,31 +8,27 @@
 #pragma once
 
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 namespace frustumscreen {
 
 class PictureFramebuffer {
 public:
     [[nodiscard]] static Result<PictureFramebuffer> create(int width, int height);
-    ~PictureFramebuffer();
-    PictureFramebuffer(PictureFramebuffer&& other) noexcept;
-    PictureFramebuffer& operator=(PictureFramebuffer&& other) noexcept;
-    PictureFramebuffer(const PictureFramebuffer&) = delete;
-    PictureFramebuffer& operator=(const PictureFramebuffer&) = delete;
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    [[nodiscard]] unsigned name() const { return framebuffer_; }
-    [[nodiscard]] unsigned texture() const { return colour_; }
+    [[nodiscard]] unsigned name() const { return framebuffer_.get(); }
+    [[nodiscard]] unsigned texture() const { return colour_.get(); }
 
 private:
-    PictureFramebuffer() = default;
+    PictureFramebuffer(int width, int height);
 
-    int width_ = 0;
-    int height_ = 0;
-    unsigned framebuffer_ = 0;
-    unsigned colour_ = 0;
-    unsigned depth_stencil_ = 0;
+    int width_;
+    int height_;
+    GlFramebuffer framebuffer_ = GlFramebuffer::generate();
+    GlTexture colour_ = GlTexture::generate();
+    GlRenderbuffer depth_stencil_ = GlRenderbuffer::generate();
 };
 
 } // namespace frustumscreen

@@ -121,7 +121,8 @@ struct Guard {
 };
 
 const std::vector<Guard> guards = {
-    {"GLES", {"app/render/", "app/bench/", "firmware_host/display/", "firmware_host/window/"}},
+    {"GLES",
+     {"app/render/", "app/bench/", "firmware_host/display/", "firmware_host/gl/", "firmware_host/window/"}},
     {"EGL/", {"firmware_host/display/"}},
     {"GL/", {}},
     {"gbm.h", {"firmware_host/display/"}},

@@ -4,8 +4,8 @@
 /// Errors   Internal: the driver refused one of our own shaders, with the first line of what it said.
 #pragma once
 
-#include "app/render/gl_handle.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "app/render/gl_program.h"
+#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ constexpr std::string_view prologue = "#version 300 es\n"
 
 tl::unexpected<Error> refused(std::string_view what, std::string_view log) {
     return fail(ErrorKind::Internal,
-                fmt::format("render: the driver refuses the {}: {}", what, log.substr(0, log.find('\n'))));
+                fmt::format("OpenGL: the driver refuses the {}: {}", what, log.substr(0, log.find('\n'))));
 }
 
 Result<void> attach(GLuint program, GLenum stage, std::string_view defines, std::string_view body) {

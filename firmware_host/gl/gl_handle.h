@@ -54,6 +54,7 @@ using GlTexture = GlHandle<gl_kind::Counted<glGenTextures, glDeleteTextures>>;
 using GlVertexArray = GlHandle<gl_kind::Counted<glGenVertexArrays, glDeleteVertexArrays>>;
 using GlFramebuffer = GlHandle<gl_kind::Counted<glGenFramebuffers, glDeleteFramebuffers>>;
 using GlRenderbuffer = GlHandle<gl_kind::Counted<glGenRenderbuffers, glDeleteRenderbuffers>>;
+using GlSampler = GlHandle<gl_kind::Counted<glGenSamplers, glDeleteSamplers>>;
 using GlProgram = GlHandle<gl_kind::Program>;
 
 } // namespace frustumscreen
