@@ -1,6 +1,6 @@
 // `frustumscreen render` end to end, on a pack made in memory.
 
-#include "app/pack/pack_file.h"
+#include "tests/programs/kiosk_folder.h"
 #include "tests/render/rig.h"
 
 #include <fmt/format.h>
@@ -14,28 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RenderCommand : public ::testing::Test {
+class RenderCommand : public KioskFolder {
 protected:
     void SetUp() override {
-        folder = fs::temp_directory_path() / "frustumscreen_render_command_test";
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-        Pack pack = rings();
-        pack.title = "Rings";
-        pack.languages = {"en"};
-        pack.captions = {{"en", "Rings", ""}};
-        pack.provenance.source_name = "rings.glb";
-        pack.provenance.source_sha256 = std::string(64, 'a');
-        pack.relief_size = 512;
-        pack.levels[0].error.mean_box = 0.001F;
-        for (unsigned k = 0; k < 8; ++k) {
-            pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
-                                       ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
-                                       (k & 4U) != 0 ? pack.box_size.z : 0.0);
-        }
-        const Result<Bytes> bytes = write_pack(pack);
-        ASSERT_TRUE(bytes) << bytes.error().message;
-        ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
+        KioskFolder::SetUp();
         ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
                                                               "3000,1,0.02,0,0,1,0,0,0,1\n"
                                                               "1000,1,0,0,0,1,0,0,0,1\n"
@@ -61,7 +43,6 @@ protected:
             "render --config '{}/config/near.toml' --pack rings.fspack --poses poses.csv --out {} ",
             FRUSTUMSCREEN_SOURCE_DIR, out);
     }
-    fs::path folder;
 };
 
 TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
