@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -67,8 +68,11 @@ public:
         drmModeAtomicAddProperty(request_.get(), object, property, value);
     }
     [[nodiscard]] KmsAnswer send(std::uint32_t flags, std::uint64_t ticket) const {
-        return answer_of(drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK,
-                                             reinterpret_cast<void*>(ticket)));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): no address; the kernel gives these bits back with the
+        // flip
+        void* const given_back = reinterpret_cast<void*>(ticket);
+        return answer_of(
+            drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK, given_back));
     }
 
 private:
@@ -117,7 +121,7 @@ drmModeModeInfo mode_info(const ModeTiming& timing) {
     mode.vtotal = timing.vtotal;
     mode.vscan = timing.vscan;
     mode.flags = timing.flags;
-    mode.vrefresh = static_cast<std::uint32_t>(refresh_hz(timing) + 0.5);
+    mode.vrefresh = static_cast<std::uint32_t>(std::lround(refresh_hz(timing)));
     mode.type = DRM_MODE_TYPE_USERDEF;
     return mode;
 }
