@@ -4,11 +4,11 @@
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
 #include "app/settings/lit_zone.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace frustumscreen {
 
@@ -158,7 +158,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             needs = united(needs, artifact->plan.passes);
             artifacts.push_back(std::move(*artifact));
         } else {
-            fmt::print(stderr, "frustumscreen: left out: {}\n", artifact.error().message);
+            say_line("frustumscreen", fmt::format("left out: {}", artifact.error().message));
         }
     }
     if (artifacts.empty()) {

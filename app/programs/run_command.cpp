@@ -92,7 +92,8 @@ Nanoseconds nanoseconds(double seconds) {
 
 /// As a service, a graphics card whose driver comes late is waited for; a person is told at once.
 Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
-                                                  ServiceManager& manager, const Journal& journal) {
+                                                  const StopSignals& stop_signals, ServiceManager& manager,
+                                                  const Journal& journal) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     bool said = false;
     while (true) {
@@ -106,6 +107,7 @@ Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const 
         }
         manager.status(why);
         manager.still_starting(10 * between_looks_for_card);
+        const StopSignals::AtOnce at_once(stop_signals); // nothing to put away yet
         static_cast<void>(hotplug->wait(between_looks_for_card));
     }
 }
@@ -190,10 +192,8 @@ Result<void> run(const Request& request) {
                 fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
         }
     }
-    const Result<std::unique_ptr<Display>> display = [&] {
-        const StopSignals::AtOnce at_once(stop_signals); // nothing to put away yet
-        return wait_for_display(request, **settings, manager, journal);
-    }();
+    const Result<std::unique_ptr<Display>> display =
+        wait_for_display(request, **settings, stop_signals, manager, journal);
     if (!display) {
         return tl::unexpected<Error>(display.error());
     }

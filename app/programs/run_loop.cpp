@@ -89,7 +89,8 @@ private:
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
-        const bool probe = options_.redraw == Redraw::Changes && now - presented_ >= between_probes;
+        const bool probe =
+            options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
         const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
         bool coded = false;
         if (drawn.drawn) {
@@ -108,7 +109,7 @@ private:
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }
-        watch_.look(now, inputs_);
+        watch_.look(now, display_, inputs_);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
         result_.status.prop_known = situation.prop_known;

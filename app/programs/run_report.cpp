@@ -1,6 +1,8 @@
 #include "app/programs/run_report.h"
 
+#include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -128,6 +130,7 @@ void StatusFile::post(const RunStatus& status) {
 }
 
 void StatusFile::work() {
+    begin_device_thread("status");
     bool complained = false;
     std::unique_lock lock(mutex_);
     while (true) {
@@ -141,7 +144,7 @@ void StatusFile::work() {
         status.resident_mib = resident_mib();
         const Result<void> written = write_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {
-            fmt::print(stderr, "frustumscreen: {}\n", written.error().message);
+            say_line("frustumscreen", written.error().message);
             complained = true;
         }
         lock.lock();

@@ -1,8 +1,8 @@
 #include "app/programs/run_staff.h"
 
-#include <fmt/format.h>
+#include "firmware_host/base/standard_error.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace frustumscreen {
 
@@ -45,7 +45,7 @@ void StaffShow::chord(MonotonicTime now, const RunStatus& status) {
     }
     Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings_);
     if (!pattern) {
-        fmt::print(stderr, "frustumscreen: no pattern for the staff: {}\n", pattern.error().message);
+        say_line("frustumscreen", fmt::format("no pattern for the staff: {}", pattern.error().message));
         return;
     }
     pattern_ = std::move(*pattern);

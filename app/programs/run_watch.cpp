@@ -15,7 +15,7 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time) {
 }
 
 void RunWatch::presented(MonotonicTime now, const Display& display, bool has_code) {
-    if (!ready_) {
+    if (!ready_ && display.settled()) {
         ready_ = true;
         manager_.ready();
     }
@@ -41,19 +41,22 @@ std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
     return read_probe(display.framebuffer());
 }
 
-void RunWatch::look(MonotonicTime now, const Inputs& inputs) {
+void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs) {
     if (!watchdog_) {
         return;
     }
-    std::array<MonotonicTime, 2> promises{};
+    std::array<MonotonicTime, 3> promises{};
     std::size_t count = 0;
-    const auto add = [&](const auto& device) {
-        if (const std::optional<MonotonicTime> until = device ? device->alive_until() : std::nullopt; until) {
+    const auto add = [&](const auto* device) {
+        if (const std::optional<MonotonicTime> until =
+                device != nullptr ? device->alive_until() : std::nullopt;
+            until) {
             promises.at(count++) = *until;
         }
     };
-    add(inputs.tracker);
-    add(inputs.panel);
+    add(&display);
+    add(inputs.tracker.get());
+    add(inputs.panel.get());
     const Health health = watchdog_->health(now, std::span(promises).first(count));
     note_health(health);
     if (watchdog_->feed(now, health)) {

@@ -26,7 +26,9 @@ public:
     /// projector shows, where it can be read, else the display's framebuffer.
     void presented(MonotonicTime now, const Display& display, bool has_code);
     /// In every frame.
-    void look(MonotonicTime now, const Inputs& inputs);
+    void look(MonotonicTime now, const Display& display, const Inputs& inputs);
+    /// The service manager was told: until then every frame is presented.
+    [[nodiscard]] bool ready() const { return ready_; }
     /// Once a second.
     void note(const RunStatus& status);
 

@@ -288,7 +288,7 @@ KmsAnswer AtomicKms::darken() {
 }
 
 bool AtomicKms::become_master() {
-    return drmIsMaster(file_) != 0 || drmSetMaster(file_) == 0;
+    return take_screen(file_);
 }
 
 std::optional<Flipped> AtomicKms::wait_flip(Nanoseconds at_most) {

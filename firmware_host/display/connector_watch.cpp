@@ -1,5 +1,7 @@
 #include "firmware_host/display/connector_watch.h"
 
+#include "firmware_host/base/device_thread.h"
+
 #include <utility>
 
 namespace frustumscreen {
@@ -8,11 +10,15 @@ namespace {
 
 constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
 constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< at what the kernel knows: cheap
+/// The kernel reads a projector's EDID again and again where the cable is bad, each try with a limit of its
+/// own.
+constexpr Nanoseconds longest_look = std::chrono::seconds(20);
 
 } // namespace
 
 ConnectorWatch::ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug)
-    : look_(std::move(look)), hotplug_(std::move(hotplug)), thread_([this] { run(); }) {}
+    : look_(std::move(look)), hotplug_(std::move(hotplug)), heartbeat_(monotonic_now() + longest_look),
+      thread_([this] { run(); }) {}
 
 ConnectorWatch::~ConnectorWatch() {
     stop_ = true;
@@ -26,9 +32,11 @@ std::optional<CardSeen> ConnectorWatch::news() {
 }
 
 void ConnectorWatch::run() {
+    begin_device_thread("connectors");
     std::optional<CardSeen> last;
     bool plugged = true; // what was before the start is news
     while (!stop_) {
+        heartbeat_.promise(monotonic_now() + between_looks_in_the_dark + longest_look);
         CardSeen seen;
         {
             const std::lock_guard asking(asking_);

@@ -4,9 +4,10 @@
 /// in without a word; while one is lit, only what the kernel knows is looked at, because asking disturbs
 /// some.
 ///
-/// Threads  `news`, `quiet`, `expect_light`: the render thread, never blocked.
+/// Threads  `news`, `quiet`, `set_lit`: the render thread, never blocked.
 #pragma once
 
+#include "firmware_host/base/heartbeat.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/display/kms_mode.h"
 
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] std::optional<CardSeen> news();
     /// While it is held nobody asks the card; not held: the card is just being asked.
     [[nodiscard]] std::unique_lock<std::mutex> quiet() { return std::unique_lock(asking_, std::try_to_lock); }
+    /// Until when its thread promises to be heard of again.
+    [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
     /// Is a projector lit?
     void set_lit(bool lit) { lit_ = lit; }
 
@@ -41,6 +44,7 @@ private:
 
     LookAtCard look_;
     std::unique_ptr<Hotplug> hotplug_;
+    Heartbeat heartbeat_;
     std::atomic<bool> lit_{false};
     std::atomic<bool> stop_{false};
     std::mutex asking_;

@@ -8,6 +8,7 @@
 #include "firmware_host/display/letterbox.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,10 @@ public:
     /// The first pixels of the top row as the projector shows them now, RGBA codes. False: nothing is shown,
     /// or not pixel for pixel; then the framebuffer has what was presented.
     [[nodiscard]] virtual bool read_shown(std::span<std::byte> /*rgba*/) const { return false; }
+    /// What was presented is on, or there is nothing that it could be on.
+    [[nodiscard]] virtual bool settled() const { return true; }
+    /// Until when the device's thread promises to be heard of again; nothing: it has none.
+    [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return std::nullopt; }
     [[nodiscard]] virtual std::string name() const = 0;
     /// How the device is, in one plain sentence; empty: there is nothing that could fail. Good until the next
     /// call.

@@ -115,7 +115,8 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
     KmsCard card(file, path);
     const Resources resources(drmModeGetResources(file), drmModeFreeResources);
     if (!resources || resources->count_crtcs == 0 || resources->count_connectors == 0) {
-        return fail(ErrorKind::BadConfiguration, fmt::format("display: {} has no connectors", path));
+        return fail(ErrorKind::DeviceLost, // the one that has may come later
+                    fmt::format("display: the graphics card {} has no connectors; name another one", path));
     }
     if (drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
         drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) != 0) {
@@ -172,6 +173,10 @@ CardSeen KmsCard::look(bool thoroughly) const {
         seen.connectors.push_back(std::move(one));
     }
     return seen;
+}
+
+bool take_screen(int card) {
+    return drmIsMaster(card) != 0 || drmSetMaster(card) == 0;
 }
 
 /// Of a card that does not answer: it, or another one, may be there anew.

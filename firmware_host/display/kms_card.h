@@ -39,4 +39,8 @@ private:
     std::string wanted_; ///< as asked for
 };
 
+/// Makes this process the one that may set modes on an open card: true if no other one is. The kernel lets
+/// only the first who opened the card do so, and whoever once was it (drm_auth.c, drm_master_check_perm).
+[[nodiscard]] bool take_screen(int card);
+
 } // namespace frustumscreen

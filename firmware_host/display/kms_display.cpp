@@ -1,6 +1,7 @@
 #include "firmware_host/display/kms_display.h"
 
 #include <GLES3/gl31.h>
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -10,6 +11,12 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
     Result<KmsCard> card = KmsCard::open(card_name);
     if (!card) {
         return tl::unexpected<Error>(card.error());
+    }
+    if (!take_screen(card->file())) {
+        return fail(
+            ErrorKind::DeviceLost, // opened anew later, it may be had
+            fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
+                        card->path()));
     }
     Result<std::unique_ptr<GbmScreen>> screen =
         GbmScreen::create(card->file(), {wish.picture_width, wish.picture_height});

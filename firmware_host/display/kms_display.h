@@ -42,6 +42,8 @@ public:
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const override {
         return presenter_.read_shown(rgba);
     }
+    [[nodiscard]] bool settled() const override { return presenter_.settled(); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return watch_.alive_until(); }
     [[nodiscard]] std::string name() const override { return card_.path() + ", " + gl_driver_name(); }
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 

@@ -2,6 +2,8 @@
 
 #include "firmware_host/base/format_sentence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -20,6 +22,7 @@ Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wis
 
 void Presenter::connected(CardSeen seen) {
     seen_ = std::move(seen);
+    looked_ = true;
     try_again_.reset();
     unfit_.clear();
     if (seen_.state != CardState::There) {
@@ -36,6 +39,15 @@ Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set
         return fail(ErrorKind::DeviceLost,
                     "display: the graphics card is there again; the exhibit must be started anew "
                     "to take it up");
+    }
+    if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
+        stuck_since_.reset();
+        if (choose_connector(seen_, wish_) != nullptr) {
+            return fail(ErrorKind::DeviceLost,
+                        fmt::format("display: the graphics card has taken no picture for {} s; the exhibit "
+                                    "must be started anew",
+                                    stuck_given_up / std::chrono::seconds(1)));
+        }
     }
     for (PixelPlace& stale : stale_) {
         stale = around(stale, changed);
@@ -89,8 +101,10 @@ void Presenter::wait_for_flip() {
         }
     }
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
+        const MonotonicTime since = stuck_since_.value_or(queued_->at);
         lose("the graphics card does not answer; the projector will be lit anew");
         try_again_ = device_.now();
+        stuck_since_ = since;
     }
 }
 
@@ -103,6 +117,7 @@ void Presenter::take(const Flipped& flipped) {
     }
     free_ = 1 - queued_->framebuffer;
     queued_.reset();
+    stuck_since_.reset();
     shown_before_.reset();
     const bool first = lit_ && !std::exchange(lit_->shown, true);
     if (std::exchange(late_, false) || first) {
@@ -130,8 +145,10 @@ bool Presenter::still_right() const {
 void Presenter::darken() {
     const KmsAnswer answer = device_.darken();
     if (answer == KmsAnswer::Busy) {
+        went_wrong(answer);
         return; // next time
     }
+    stuck_since_.reset();
     lit_.reset();
     darken_ = false;
     clock_ = {};
@@ -226,6 +243,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Busy: // the picture is left out; the next one comes
         try_again_ = device_.now() + soon;
+        stuck_since_ = stuck_since_.value_or(device_.now());
         break;
     case KmsAnswer::Refused:
         lose("the graphics card refused a picture; the projector will be lit anew");
@@ -247,6 +265,7 @@ void Presenter::lose(std::string_view why) {
     late_ = false;
     darken_ = false;
     clock_ = {};
+    stuck_since_.reset();
     try_again_ = device_.now() + between_tries;
     state_ = Sentence(why);
 }

@@ -4,7 +4,8 @@
 ///
 /// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
 /// Threads  the render thread.
-/// Errors   none but a card that is back after it was gone: only a new start can take it up.
+/// Errors   a card that is back after it was gone, or that takes no picture for `stuck_given_up`: only a new
+///          start can take it up.
 #pragma once
 
 #include "firmware_host/base/sentence.h"
@@ -21,6 +22,8 @@ namespace frustumscreen {
 inline constexpr Nanoseconds flip_patience = std::chrono::milliseconds(250);
 /// A flip that does not come for so long is given up and the projector lit anew.
 inline constexpr Nanoseconds flip_given_up = std::chrono::seconds(2);
+/// A card that takes no picture for so long, though a projector is there, hangs.
+inline constexpr Nanoseconds stuck_given_up = std::chrono::seconds(10);
 /// Between tries to light a projector that could not be lit.
 inline constexpr Nanoseconds between_tries = std::chrono::seconds(1);
 
@@ -36,6 +39,8 @@ public:
     [[nodiscard]] Result<MonotonicTime> present(const PixelPlace& changed, bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
+    /// The first picture is shown, or it is known that no projector takes one now.
+    [[nodiscard]] bool settled() const { return lit_ ? lit_->shown : looked_ && !about_to_light(); }
     /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
     /// false: none is lit, or with a picture scaled.
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
@@ -59,6 +64,9 @@ private:
         int framebuffer = 0;
     };
 
+    [[nodiscard]] bool about_to_light() const {
+        return !try_again_ && choose_connector(seen_, wish_) != nullptr;
+    }
     void wait_for_flip();
     void take(const Flipped& flipped);
     /// Is what is lit still what should be?
@@ -86,7 +94,9 @@ private:
     std::optional<Lit> lit_;
     std::optional<Queued> queued_;
     FlipClock clock_;
-    std::optional<MonotonicTime> try_again_; ///< not before
+    std::optional<MonotonicTime> try_again_;   ///< not before
+    std::optional<MonotonicTime> stuck_since_; ///< the card took no picture since
+    bool looked_ = false;                      ///< what is connected is known
     std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown

@@ -1,6 +1,6 @@
 #include "firmware_host/panel/button_panel.h"
 
-#include "firmware_host/base/thread_name.h"
+#include "firmware_host/base/device_thread.h"
 
 #include <algorithm>
 
@@ -47,7 +47,7 @@ Result<void> ButtonPanel::poll(MonotonicTime now, std::vector<PanelEvent>& event
 }
 
 void ButtonPanel::watch(const std::stop_token& stop) {
-    name_this_thread("panel");
+    begin_device_thread("panel");
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + longest_round);
         Result<std::unique_ptr<ButtonLines>> lines = open_();

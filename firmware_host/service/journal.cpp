@@ -3,6 +3,8 @@
 
 #include "firmware_host/service/journal.h"
 
+#include "firmware_host/base/standard_error.h"
+
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
@@ -58,7 +60,7 @@ Journal::Journal(std::string_view program) : program_(program), in_journal_(fals
 void Journal::note(Weight weight, std::string_view message,
                    std::initializer_list<JournalField> fields) const {
     if (!in_journal_) {
-        fmt::print(stderr, "{}: {}\n", program_, message);
+        say_line(program_, message);
         return;
     }
     Entry entry;

@@ -1,6 +1,6 @@
 #include "firmware_host/tracker/usb_tracker.h"
 
-#include "firmware_host/base/thread_name.h"
+#include "firmware_host/base/device_thread.h"
 
 namespace frustumscreen {
 
@@ -9,7 +9,7 @@ UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_u
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void UsbTracker::run(const std::stop_token& stop) {
-    name_this_thread("tracker");
+    begin_device_thread("tracker");
     std::vector<PoseSample> samples;
     samples.reserve(most_waiting);
     while (!stop.stop_requested()) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -344,6 +345,74 @@ TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
     exhibit.frames(5);
     EXPECT_EQ(exhibit.kms.lights, 2);
     EXPECT_TRUE(exhibit.says("is lit"));
+}
+
+/// How long it bears with the card before it asks for a new start; nothing: for a minute.
+std::optional<Nanoseconds> patience(Exhibit& exhibit) {
+    const MonotonicTime begin = exhibit.kms.time;
+    while (exhibit.kms.time - begin < std::chrono::minutes(1)) {
+        exhibit.kms.time += std::chrono::milliseconds(16);
+        if (!exhibit.presenter.present({0, 0, 1280, 800}, true)) {
+            return exhibit.kms.time - begin;
+        }
+    }
+    return std::nullopt;
+}
+
+TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
+    for (const bool flips_stop : {false, true}) {
+        for (const int width : {1280, 1920}) { // as it is, and scaled
+            Exhibit exhibit;
+            ConnectorSeen projector = a_projector();
+            projector.modes = {a_mode(width, 800, 60.0, true)};
+            exhibit.presenter.connected(a_card({projector}));
+            exhibit.frames(5);
+            exhibit.kms.hangs = flips_stop; // then all calls answer that the flip before is not done
+            exhibit.kms.busy = flips_stop ? 0 : 1'000'000;
+            const std::optional<Nanoseconds> patient = patience(exhibit);
+            ASSERT_TRUE(patient);
+            EXPECT_GE(*patient, stuck_given_up - one_refresh);
+            EXPECT_LE(*patient, stuck_given_up + flip_given_up);
+        }
+    }
+}
+
+TEST(Presenter, BearsWithACardThatIsBusyNowAndThenOrHasNothingToLight) {
+    Exhibit busy;
+    busy.presenter.connected(a_card({a_projector()}));
+    busy.frames(5);
+    for (int k = 0; k < 20; ++k) {
+        busy.kms.busy = 100;
+        busy.frames(110);
+    }
+    EXPECT_TRUE(busy.says("is lit"));
+    Exhibit dark;
+    dark.presenter.connected(a_card({a_projector()}));
+    dark.frames(5);
+    dark.kms.hangs = true;
+    dark.frames(60);
+    dark.presenter.connected(a_card({}));
+    EXPECT_EQ(patience(dark), std::nullopt);
+}
+
+TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
+    Exhibit exhibit;
+    exhibit.frame();
+    EXPECT_FALSE(exhibit.presenter.settled()) << "what is connected is not known yet";
+    exhibit.presenter.connected(a_card({a_projector()}));
+    EXPECT_FALSE(exhibit.presenter.settled());
+    exhibit.frame();
+    EXPECT_EQ(exhibit.presenter.settled(), exhibit.says("is lit")) << "its flip is on the way";
+    exhibit.frame();
+    EXPECT_TRUE(exhibit.presenter.settled());
+    Exhibit dark;
+    dark.presenter.connected(a_card({}));
+    EXPECT_TRUE(dark.presenter.settled());
+    Exhibit refused;
+    refused.kms.refused = a_projector().modes;
+    refused.presenter.connected(a_card({a_projector()}));
+    refused.frame();
+    EXPECT_TRUE(refused.presenter.settled());
 }
 
 TEST(Presenter, SaysWhatThePersonBesideItCanDo) {

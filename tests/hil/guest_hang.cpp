@@ -3,6 +3,7 @@
 ///
 /// /run/hil/hang-gl    the next glClear, on the render thread
 /// /run/hil/hang-usb   the next bulk transfer, on the tracker's thread
+/// /run/hil/hang-connector   the next look at what is connected, on the connectors' thread
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -28,6 +29,12 @@ void glClear(unsigned mask) {
     static auto* const clear = real<void(unsigned)>("glClear");
     wait_while_there("/run/hil/hang-gl");
     clear(mask);
+}
+
+void* drmModeGetConnectorCurrent(int card, unsigned connector) {
+    static auto* const get = real<void*(int, unsigned)>("drmModeGetConnectorCurrent");
+    wait_while_there("/run/hil/hang-connector");
+    return get(card, connector);
 }
 
 int libusb_bulk_transfer(void* handle, unsigned char endpoint, unsigned char* data, int length, int* done,

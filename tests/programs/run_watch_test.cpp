@@ -16,7 +16,11 @@ using std::chrono::seconds;
 class FakeProjector final : public Display {
 public:
     std::uint8_t code = 0;
+    bool is_settled = true;
+    std::optional<MonotonicTime> promise;
 
+    [[nodiscard]] bool settled() const override { return is_settled; }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return promise; }
     [[nodiscard]] int width() const override { return 320; }
     [[nodiscard]] int height() const override { return 200; }
     [[nodiscard]] unsigned framebuffer() const override { return 0; }
@@ -54,7 +58,7 @@ protected:
         for (const MonotonicTime end = now + length; now < end; now += milliseconds(16)) {
             projector.code = static_cast<std::uint8_t>(projector.code + (shows_another ? 1 : 0));
             watch->presented(now, projector, true);
-            watch->look(now, inputs);
+            watch->look(now, projector, inputs);
             while (const std::optional<std::string> message = socket.receive()) {
                 meals += *message == "WATCHDOG=1" ? 1 : 0;
                 ready += *message == "READY=1" ? 1 : 0;
@@ -72,6 +76,21 @@ protected:
     MonotonicTime now{seconds(100)};
     int ready = 0;
 };
+
+TEST_F(RunWatchTest, IsReadyOnlyWhenThePictureIsOn) {
+    projector.is_settled = false;
+    meals_in(seconds(1), true);
+    EXPECT_EQ(ready, 0);
+    projector.is_settled = true;
+    meals_in(seconds(1), true);
+    EXPECT_EQ(ready, 1);
+}
+
+TEST_F(RunWatchTest, StarvesWhenTheDisplaysThreadHangs) {
+    projector.promise = now + seconds(5);
+    EXPECT_GE(meals_in(seconds(5), true), 4);
+    EXPECT_LE(meals_in(seconds(5), true), 1);
+}
 
 TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
     const int meals = meals_in(seconds(10), true);

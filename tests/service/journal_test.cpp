@@ -1,5 +1,6 @@
 #include "firmware_host/service/journal.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -33,6 +34,18 @@ TEST(Journal, GoesToStandardErrorAsOneLineWhereThereIsNone) {
     ::testing::internal::CaptureStderr();
     Journal("frustumscreen").note(Weight::Info, "tracker: it runs", {{"DEVICE", "tracker"}});
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "frustumscreen: tracker: it runs\n");
+}
+
+TEST(Journal, OutlivesAStandardErrorThatTakesNothing) {
+    ::unsetenv("JOURNAL_STREAM");
+    const int before = ::dup(STDERR_FILENO);
+    const int full = ::open("/dev/full", O_WRONLY);
+    ASSERT_GE(full, 0);
+    ::dup2(full, STDERR_FILENO);
+    EXPECT_NO_THROW(Journal("frustumscreen").note(Weight::Info, "nobody reads this"));
+    ::dup2(before, STDERR_FILENO);
+    ::close(full);
+    ::close(before);
 }
 
 /// The journal's end of its socket, whose path the library has built in.

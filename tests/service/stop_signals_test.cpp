@@ -1,3 +1,4 @@
+#include "firmware_host/base/device_thread.h"
 #include "firmware_host/service/crash_line.h"
 #include "firmware_host/service/stop_signals.h"
 
@@ -5,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -60,6 +62,34 @@ TEST(StopSignals, EndTheProcessAtOnceWhileThereIsNothingToPutAway) {
     });
     ASSERT_TRUE(WIFEXITED(after));
     EXPECT_EQ(WEXITSTATUS(after), 7);
+}
+
+TEST(StopSignals, AreLeftToTheExhibitsThreadByOneThatWasStartedWhileTheyEndAtOnce) {
+    const int status = ending_of([] {
+        const StopSignals signals;
+        std::jthread device;
+        {
+            const StopSignals::AtOnce at_once(signals);
+            std::atomic<bool> begun{false};
+            device = std::jthread([&begun](const std::stop_token& stop) {
+                begin_device_thread("device");
+                begun = true;
+                while (!stop.stop_requested()) {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                }
+            });
+            while (!begun) {
+                std::this_thread::yield();
+            }
+        }
+        ::kill(::getpid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20)); // for the kernel to choose a thread
+        if (!signals.received()) {
+            ::_exit(1);
+        }
+    });
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST(StopSignals, AThreadThatHangsDoesNotHoldTheEnd) {

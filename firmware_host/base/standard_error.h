@@ -1,0 +1,25 @@
+/// A line for whoever reads standard error: one write, and lost where nobody takes it.
+///
+/// Threads  any.
+/// Errors   none: a full disk behind standard error ends no exhibit.
+#pragma once
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace frustumscreen {
+
+/// `line` without its end; what is longer than 1000 bytes is cut.
+inline void say_line(std::string_view program, std::string_view line) {
+    std::array<char, 1000> text{};
+    char* const end = fmt::format_to_n(text.data(), text.size() - 1, "{}: {}", program, line).out;
+    *end = '\n';
+    const auto size = static_cast<std::size_t>(end + 1 - text.data());
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), size);
+}
+
+} // namespace frustumscreen
