@@ -67,6 +67,18 @@ std::string label_of(const std::vector<FrameRecord>& records, std::int64_t t_us,
     return found == records.end() || found->artifact.empty() ? otherwise : found->artifact;
 }
 
+bool looks_like(const SheetFrame& a, const SheetFrame& b) {
+    constexpr double near_m = 0.02;
+    constexpr double near_eye_m = 0.05;
+    constexpr double near_deg = 8.0;
+    const RigidTransform& pose_a = a.situation.table_from_prop;
+    const RigidTransform& pose_b = b.situation.table_from_prop;
+    const double half_turn = std::min(std::abs(glm::dot(pose_a.rotation, pose_b.rotation)), 1.0);
+    return a.label == b.label && glm::distance(pose_a.translation, pose_b.translation) < near_m &&
+           glm::distance(a.situation.eye_m, b.situation.eye_m) < near_eye_m &&
+           glm::degrees(2.0 * std::acos(half_turn)) < near_deg;
+}
+
 } // namespace
 
 Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const std::string& name) {
@@ -156,6 +168,18 @@ std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_
         chosen.push_back(frames[(2 * k + 1) * frames.size() / (2 * count)]);
     }
     return chosen;
+}
+
+std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames) {
+    std::vector<SheetFrame> kept;
+    for (const SheetFrame& frame : frames) {
+        const bool shown = std::any_of(kept.begin(), kept.end(),
+                                       [&](const SheetFrame& one) { return looks_like(frame, one); });
+        if (!shown) {
+            kept.push_back(frame);
+        }
+    }
+    return kept;
 }
 
 Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {

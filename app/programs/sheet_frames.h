@@ -51,6 +51,10 @@ struct FrameFolder {
 /// The middle one of each of `count` equal parts; all if there are no more.
 [[nodiscard]] std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_t count);
 
+/// Those that look unlike each one before: another artifact, place, turn or eye. The prop rests most of the
+/// time.
+[[nodiscard]] std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames);
+
 /// Errors: not a PNG; another size than the configured projector's shape.
 [[nodiscard]] Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector);
 

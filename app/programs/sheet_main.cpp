@@ -100,7 +100,7 @@ Result<void> make(const Request& request) {
         }
         std::vector<SheetFrame> frames;
         for (const FrameFolder& folder : folders) {
-            const std::vector<SheetFrame> chosen = evenly(folder.frames, request.rows);
+            const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
             frames.insert(frames.end(), chosen.begin(), chosen.end());
         }
         ProgressLine progress("contact sheet");

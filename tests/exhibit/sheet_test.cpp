@@ -50,6 +50,23 @@ TEST_F(Sheet, FramesComeWithTheirPosesAndTheArtifactOfTheirTime) {
     EXPECT_EQ(evenly(read->frames, 9).size(), 4U);
 }
 
+TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
+    const auto frame = [](double x_m, double turn_deg, const char* label) {
+        SheetFrame one;
+        one.label = label;
+        one.situation.table_from_prop.translation.x = x_m;
+        one.situation.table_from_prop.rotation =
+            glm::angleAxis(glm::radians(turn_deg), glm::dvec3(0.0, 0.0, 1.0));
+        return one;
+    };
+    const std::vector<SheetFrame> kept =
+        distinct({frame(0.0, 0.0, "Bowl"), frame(0.001, 1.0, "Bowl"), frame(0.0, 0.0, "Cup"),
+                  frame(0.0, 20.0, "Bowl"), frame(0.1, 20.0, "Bowl"), frame(0.0, 359.0, "Bowl")});
+    ASSERT_EQ(kept.size(), 4U);
+    EXPECT_EQ(kept[1].label, "Cup");
+    EXPECT_EQ(kept[3].situation.table_from_prop.translation.x, 0.1);
+}
+
 TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
     ASSERT_TRUE(write_file(folder / "frames.csv", as_bytes("t_us,ms\n0,fast\n")));
     const Result<FrameFolder> damaged = read_frame_folder(folder, {}, "", {});
