@@ -32,10 +32,12 @@ function(frustumscreen_room room)
         "${room}=${CMAKE_CURRENT_SOURCE_DIR}")
 endfunction()
 
+add_custom_target(programs) # all of them, without the tests
 function(frustumscreen_program name)
     cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
     add_executable(${name} ${PROGRAM_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
+    add_dependencies(programs ${name})
 endfunction()
 
 # A GoogleTest program of one room; working directory is its own build folder.
