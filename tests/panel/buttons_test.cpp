@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -140,6 +141,33 @@ TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].kind, PressKind::Stuck);
     EXPECT_TRUE(buttons.any_stuck());
+}
+
+/// A wrong `active_low` or bias, shorted wires: every button is down from the first sample on.
+TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
+    for (const std::array<bool, 3> held :
+         {std::array{true, true, true}, std::array{true, false, false}, std::array{false, false, true}}) {
+        Buttons buttons(3, {});
+        std::vector<PanelEvent> events;
+        int ms = 0;
+        const auto hold = [&](const std::array<bool, 3>& levels, int until_ms) {
+            for (; ms < until_ms; ++ms) {
+                buttons.sample(start + milliseconds(ms), levels, events);
+            }
+        };
+        const auto chords = [&] {
+            return std::count_if(events.begin(), events.end(),
+                                 [](const PanelEvent& event) { return event.kind == PressKind::Chord; });
+        };
+        hold(held, 100);
+        hold({true, true, true}, 10'000);
+        EXPECT_EQ(chords(), 0);
+        hold({}, 10'100);
+        hold({true, false, true}, 13'000);
+        EXPECT_EQ(chords(), 0);
+        hold({true, false, true}, 13'200);
+        EXPECT_EQ(chords(), 1);
+    }
 }
 
 TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
