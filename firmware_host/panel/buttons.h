@@ -4,6 +4,10 @@
 /// first sample says nothing until it was up, but for being stuck: a chip's spurious first edge is no press,
 /// and wires that are swapped or shorted are no chord.
 ///
+/// A press is said at once, also of a button that may come to be held for the chord: no visitor waits for
+/// the staff. A chord began with the latest press of each of its buttons; whoever heeded them takes them
+/// back.
+///
 /// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
 /// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
 #pragma once
