@@ -16,10 +16,11 @@ std::string_view primary(std::string_view tag) {
 Exhibit::Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
                  MonotonicTime now)
     : count_(artifact_count), languages_(std::move(languages)), language_(std::move(language)),
-      fade_(0, fade_time, now) {}
+      language_before_(language_), fade_(0, fade_time, now) {}
 
 void Exhibit::wish(Wish wish, MonotonicTime now) {
     if (wish == Wish::NextLanguage) {
+        language_before_ = language_;
         if (!languages_.empty()) {
             const auto current = std::find(languages_.begin(), languages_.end(), language_);
             const bool last = current == languages_.end() || current + 1 == languages_.end();
@@ -29,6 +30,20 @@ void Exhibit::wish(Wish wish, MonotonicTime now) {
     }
     if (count_ > 1) {
         fade_.change_to((fade_.goal() + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now);
+    }
+}
+
+void Exhibit::take_back(Wish wish, MonotonicTime now) {
+    switch (wish) {
+    case Wish::PreviousArtifact:
+        this->wish(Wish::NextArtifact, now);
+        break;
+    case Wish::NextArtifact:
+        this->wish(Wish::PreviousArtifact, now);
+        break;
+    case Wish::NextLanguage:
+        language_ = language_before_;
+        break;
     }
 }
 

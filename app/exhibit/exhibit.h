@@ -34,6 +34,8 @@ public:
             MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now);
+    /// As if the latest such wish had not been.
+    void take_back(Wish wish, MonotonicTime now);
     /// There is something to change to.
     [[nodiscard]] bool heeds(Wish wish) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
@@ -43,7 +45,8 @@ private:
     std::size_t count_;
     std::vector<std::string> languages_;
     std::string language_;
-    Fade fade_; ///< of artifacts
+    std::string language_before_; ///< before the latest wish for another
+    Fade fade_;                   ///< of artifacts
 };
 
 /// Index of the caption for `language` among captions in `languages`: the same tag, else the same language

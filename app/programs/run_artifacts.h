@@ -47,6 +47,7 @@ public:
            const RenderTarget& target, MonotonicTime now);
 
     void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
+    void take_back(Wish wish, MonotonicTime now) override { exhibit_.take_back(wish, now); }
     [[nodiscard]] bool heeds(Wish wish) const override { return exhibit_.heeds(wish); }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
                                   Redraw redraw) override;

@@ -29,7 +29,9 @@ class Show {
 public:
     virtual ~Show() = default;
     virtual void wish(Wish wish, MonotonicTime now) = 0;
-    /// The staff's chord was held.
+    /// As if the latest such wish had not been.
+    virtual void take_back(Wish /*wish*/, MonotonicTime /*now*/) {}
+    /// The staff's chord was held; `wish` heard the presses that it began with.
     virtual void chord(MonotonicTime /*now*/, const RunStatus& /*status*/) {}
     /// Once a second, how the run is.
     virtual void tell(const RunStatus& /*status*/) {}

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace frustumscreen {
 
 namespace {
@@ -28,9 +30,14 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
                     status.median_ms, status.p95_ms, status.late, status.uptime_s)};
 }
 
+std::size_t index_of(Wish wish) {
+    return static_cast<std::size_t>(wish);
+}
+
 } // namespace
 
 void StaffShow::wish(Wish wish, MonotonicTime now) {
+    passed_on_[index_of(wish)] = !pattern_;
     if (pattern_) {
         end();
     } else {
@@ -38,7 +45,18 @@ void StaffShow::wish(Wish wish, MonotonicTime now) {
     }
 }
 
+/// The chord began with a press of the first and a press of the last button.
+void StaffShow::take_back_presses(MonotonicTime now) {
+    const std::size_t buttons = settings_.panel.buttons();
+    for (const Wish wish : {Wish::PreviousArtifact, buttons == 2 ? Wish::NextArtifact : Wish::NextLanguage}) {
+        if (std::exchange(passed_on_[index_of(wish)], false)) {
+            exhibit_->take_back(wish, now);
+        }
+    }
+}
+
 void StaffShow::chord(MonotonicTime now, const RunStatus& status) {
+    take_back_presses(now);
     if (pattern_) {
         end();
         return;

@@ -1,6 +1,8 @@
 /// The exhibit, and for the staff who hold the chord the alignment pattern with what there is to know: every
 /// device's state, level and error, frame times, versions. For a minute, or until a button is pressed.
 ///
+/// Presses  reach the exhibit at once, since a visitor's must. Those that turn out to have begun a chord are
+///          taken back when it is held: after the pattern the exhibit is as it was before.
 /// Memory   the pattern is made when it is asked for and put away afterwards: it costs no one else anything.
 /// Threads  the render thread, with the display's context current.
 /// Errors   a typeface that is missing: the exhibit goes on, and a line on standard error says so.
@@ -10,6 +12,7 @@
 #include "app/programs/run_show.h"
 #include "app/settings/settings.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,11 +37,13 @@ public:
     [[nodiscard]] ShowState state(MonotonicTime now) const override { return exhibit_->state(now); }
 
 private:
+    void take_back_presses(MonotonicTime now);
     void end();
 
     const Settings& settings_;
     std::unique_ptr<Show> exhibit_;
     std::string driver_;
+    std::array<bool, 3> passed_on_{};      ///< for each wish: the exhibit heeds the latest
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     MonotonicTime until_;
     std::optional<int> presents_; ///< since the other show drew last; nothing = it never did

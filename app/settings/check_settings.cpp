@@ -1,11 +1,13 @@
 #include "app/settings/check_settings.h"
 
 #include "app/settings/lit_zone.h"
+#include "app/settings/table_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace frustumscreen {
 
@@ -85,6 +87,38 @@ void check_eye(const Settings& settings, Fitness& fitness) {
                                 settings.eye.nearest_m, settings.eye.farthest_m));
 }
 
+/// "03" is offset 3.
+std::string_view line_id(std::string_view line) {
+    const bool offset = line.find_first_not_of("0123456789") == std::string_view::npos;
+    return offset ? line.substr(std::min(line.find_first_not_of('0'), line.size() - 1)) : line;
+}
+
+/// The first of `lines` that is one of `taken`, or of those before it; empty if there is none.
+std::string_view used_twice(const std::vector<std::string>& lines,
+                            const std::vector<std::string>& taken = {}) {
+    std::vector<std::string_view> used;
+    std::transform(taken.begin(), taken.end(), std::back_inserter(used), line_id);
+    for (const std::string& line : lines) {
+        if (std::find(used.begin(), used.end(), line_id(line)) != used.end()) {
+            return line;
+        }
+        used.push_back(line_id(line));
+    }
+    return {};
+}
+
+/// The kernel would say that a line is busy, as if another program held it; a key twice would be two buttons.
+void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
+    const auto require_once = [&](std::string_view again, std::string_view key, std::string_view remedy) {
+        fitness.require(again.empty(), key,
+                        fmt::format("names \"{}\" again; {}", printable(again, 40), remedy));
+    };
+    require_once(used_twice(panel.lines), "panel.lines", "give each button a line of its own");
+    require_once(used_twice(panel.lamps, panel.lines), "panel.lamps",
+                 "give each lamp a line of its own, that is none of panel.lines");
+    require_once(used_twice(panel.keys), "panel.keys", "give each button a key of its own");
+}
+
 void check_devices(const Settings& settings, Fitness& fitness) {
     fitness.require(!settings.display.force || settings.display.mode.width > 0, "display.force",
                     "is true; it needs display.mode, the mode to force, such as \"1280x800@60\"");
@@ -103,6 +137,7 @@ void check_devices(const Settings& settings, Fitness& fitness) {
     fitness.require(settings.panel.lamps.size() <= settings.panel.lines.size(), "panel.lamps",
                     fmt::format("names {} lamps; allowed is one for each of the {} lines of panel.lines",
                                 settings.panel.lamps.size(), settings.panel.lines.size()));
+    check_each_is_used_once(settings.panel, fitness);
     const auto& script = settings.panel.script;
     fitness.require(
         std::is_sorted(script.begin(), script.end(),

@@ -38,7 +38,6 @@ bool LiveSituation::take(const PoseSample& sample) {
 Situation LiveSituation::at(MonotonicTime lit) {
     Situation situation;
     situation.time = lit;
-    situation.eye_m = default_eye_m_;
     const PoseEstimate prop = prop_.at(lit);
     if (prop.uptakes > 0) {
         situation.table_from_prop = shown_prop_.follow(prop, lit);
@@ -46,11 +45,23 @@ Situation LiveSituation::at(MonotonicTime lit) {
         situation.prop_known = prop.status != PoseStatus::Stale;
     }
     const PoseEstimate head = head_.at(lit);
-    if (head.uptakes > 0 && head.status != PoseStatus::Stale) {
-        situation.eye_m = shown_head_.follow(head, lit).translation;
-        situation.head_known = true;
-    }
+    situation.head_known = head.uptakes > 0 && head.status != PoseStatus::Stale;
+    situation.eye_m = shown_head_.follow(goal_of_eye(head, situation.head_known), lit).translation;
     return situation;
+}
+
+PoseEstimate LiveSituation::goal_of_eye(const PoseEstimate& head, bool known) {
+    if (known != eye_is_heads_) {
+        eye_is_heads_ = known;
+        ++eye_goals_;
+    }
+    PoseEstimate goal = head;
+    if (!known) {
+        goal.pose = {{1.0, 0.0, 0.0, 0.0}, default_eye_m_};
+        goal.status = PoseStatus::Exact;
+    }
+    goal.uptakes += eye_goals_;
+    return goal;
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {

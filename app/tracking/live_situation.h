@@ -19,17 +19,23 @@ public:
 
     /// False: a sample that claims to be usable and is no pose, or that no hand can have brought about.
     bool take(const PoseSample& sample);
-    /// A prop that is lost stays where it was, first in truth, then with `prop_known` false. Time does not go
+    /// A prop that is lost stays where it was, first in truth, then with `prop_known` false. The eye of a
+    /// head that is lost glides to the default eye, and from there to a head that is found. Time does not go
     /// back from call to call.
     [[nodiscard]] Situation at(MonotonicTime lit);
 
 private:
+    /// The head, or the default eye in its place; a change between them is an uptake.
+    [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
+
     RigidTransform table_from_device_;
     glm::dvec3 default_eye_m_;
     PoseEstimator prop_;
     PoseEstimator head_;
     ShownPose shown_prop_;
     ShownPose shown_head_;
+    bool eye_is_heads_ = false;   ///< else the default eye
+    std::uint64_t eye_goals_ = 1; ///< so many until now; the default eye is the first
 };
 
 /// How long after `now`, at which a frame begins, its picture is lit: the display's own latency and what is

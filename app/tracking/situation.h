@@ -19,7 +19,7 @@ struct Situation {
     glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
     MonotonicTime time;      ///< for which this holds
     bool prop_known = false; ///< a usable pose of the prop was seen, and it is not too old
-    bool head_known = false; ///< else `eye_m` is the default eye
+    bool head_known = false; ///< else `eye_m` is the default eye, or live on its way there
     Nanoseconds prop_age{0}; ///< of the pose used
 };
 

@@ -1,7 +1,7 @@
 /// How a device is, in one plain sentence for the person beside it, without memory of its own.
 ///
-/// `Sentence` is a value of fixed size; what is too long is cut. `SharedSentence` carries the latest one from
-/// the device's thread to the exhibit's.
+/// `Sentence` is a value of fixed size; what is too long is cut, between two characters of UTF-8: systemd
+/// refuses half a one. `SharedSentence` carries the latest one from the device's thread to the exhibit's.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +14,23 @@ namespace frustumscreen {
 
 class Sentence {
 public:
-    static constexpr std::size_t longest = 240; ///< characters
+    static constexpr std::size_t longest = 240; ///< bytes
 
     Sentence() = default;
-    explicit Sentence(std::string_view text) : length_(std::min(text.size(), text_.size())) {
-        text.copy(text_.data(), length_);
-    }
+    explicit Sentence(std::string_view text) : length_(fitting(text)) { text.copy(text_.data(), length_); }
     [[nodiscard]] std::string_view view() const { return {text_.data(), length_}; }
     [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
 
 private:
+    /// Bytes of the whole characters that `text` begins with and that there is room for.
+    [[nodiscard]] static constexpr std::size_t fitting(std::string_view text) {
+        std::size_t end = std::min(text.size(), longest);
+        while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+            --end; // a character goes on here
+        }
+        return end;
+    }
+
     std::array<char, longest> text_{};
     std::size_t length_ = 0;
 };

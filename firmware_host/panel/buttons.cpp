@@ -18,7 +18,7 @@ void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<
     for (std::size_t k = 0; k < buttons_.size(); ++k) {
         Button& button = buttons_[k];
         if (first) {
-            button = {down[k], down[k], down[k], false, now, now};
+            button = {.level = down[k], .down = down[k], .level_since = now, .down_since = now};
         } else if (down[k] != button.level) {
             button.level = down[k];
             button.level_since = now;
@@ -41,12 +41,14 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     const int number = static_cast<int>(which);
     if (button.down) {
         button.down_since = button.level_since;
+        button.pressed = true;
         events.push_back({button.level_since, number, PressKind::Press});
         return;
     }
     if (button.stuck) {
         events.push_back({button.level_since, number, PressKind::Freed});
     }
+    button.pressed = false;
     button.mute = false;
     button.stuck = false;
 }
@@ -58,7 +60,7 @@ void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>
         return;
     }
     const int number = static_cast<int>(which);
-    if (!button.mute && !chord_since() && now - button.down_since >= times_.long_press) {
+    if (button.pressed && !button.mute && !chord_since() && now - button.down_since >= times_.long_press) {
         button.mute = true;
         events.push_back({button.down_since + times_.long_press, number, PressKind::LongPress});
     }
@@ -88,7 +90,7 @@ std::optional<MonotonicTime> Buttons::chord_since() const {
     }
     const Button& first = buttons_.front();
     const Button& last = buttons_.back();
-    const bool held = first.down && last.down && !first.stuck && !last.stuck;
+    const bool held = first.pressed && last.pressed && !first.stuck && !last.stuck;
     return held ? std::optional(std::max(first.down_since, last.down_since)) : std::nullopt;
 }
 
@@ -105,7 +107,7 @@ std::optional<MonotonicTime> Buttons::due() const {
         }
         if (button.down && !button.stuck) {
             consider(button.down_since + times_.stuck);
-            if (!button.mute && !chord) {
+            if (button.pressed && !button.mute && !chord) {
                 consider(button.down_since + times_.long_press);
             }
         }

@@ -1,7 +1,12 @@
 /// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick.
 ///
 /// A level counts once it has held for the debounce time, from when it began. A button that is down at the
-/// first sample says nothing until it was up; so a chip's spurious first edge is no press.
+/// first sample says nothing until it was up, but for being stuck: a chip's spurious first edge is no press,
+/// and wires that are swapped or shorted are no chord.
+///
+/// A press is said at once, also of a button that may come to be held for the chord: no visitor waits for
+/// the staff. A chord began with the latest press of each of its buttons; whoever heeded them takes them
+/// back.
 ///
 /// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
 /// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
@@ -36,9 +41,10 @@ public:
 
 private:
     struct Button {
-        bool level = false; ///< as sampled last
-        bool down = false;  ///< as it counts
-        bool mute = false;  ///< nothing more is said until it comes up
+        bool level = false;   ///< as sampled last
+        bool down = false;    ///< as it counts
+        bool pressed = false; ///< down, after it was up: its press was said
+        bool mute = false;    ///< no long press until it comes up
         bool stuck = false;
         MonotonicTime level_since{};
         MonotonicTime down_since{};

@@ -15,7 +15,7 @@ namespace frustumscreen {
 enum class PressKind : std::uint8_t {
     Press,
     LongPress, ///< follows the press while the button is still down
-    Chord,     ///< first and last button down together for long: staff; `button` is the first
+    Chord,     ///< first and last button held together: staff, as were their presses; `button` is the first
     Stuck,     ///< down longer than anyone presses: it counts as broken and is ignored
     Freed,     ///< a stuck button came up: it counts again
 };

@@ -102,6 +102,22 @@ TEST(Exhibit, TheLanguageButtonGoesThroughTheLanguages) {
     EXPECT_EQ(elsewhere.language(), "en");
 }
 
+TEST(Exhibit, AWishThatIsTakenBackLeavesWhatWasThere) {
+    const MonotonicTime later = start + std::chrono::seconds(3);
+    for (const Wish wish : {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage}) {
+        for (const std::string language : {"en", "fr", "nl"}) { // "nl": no caption has it
+            Exhibit exhibit(3, {"en", "de", "fr"}, language, start);
+            exhibit.wish(wish, start + std::chrono::seconds(1));
+            const Shown wished = exhibit.at(later);
+            EXPECT_TRUE(wished.artifact != 0 || exhibit.language() != language);
+            exhibit.take_back(wish, later);
+            EXPECT_EQ(exhibit.at(later).brightness, wished.brightness) << "a jump";
+            EXPECT_EQ(exhibit.at(later + 2 * fade_time).artifact, 0U);
+            EXPECT_EQ(exhibit.language(), language);
+        }
+    }
+}
+
 TEST(Exhibit, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
     Exhibit none(0, {}, "en", start);
     none.wish(Wish::NextArtifact, start);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -111,6 +112,45 @@ TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
     EXPECT_EQ(fingers.count(PressKind::Chord), 2);
 }
 
+/// By the millisecond: whatever the other buttons do, nobody waits for more than the debounce time.
+TEST(Buttons, APressIsSaidAtOnceAlsoWhereItMayBecomeAChord) {
+    for (int apart_ms = 0; apart_ms < 3000; apart_ms += 47) {
+        Fingers fingers;
+        fingers.set(0, true);
+        fingers.run(milliseconds(apart_ms));
+        fingers.set(2, true);
+        const MonotonicTime second = fingers.now();
+        fingers.run(milliseconds(31));
+        ASSERT_EQ(fingers.count(PressKind::Press), 2) << apart_ms;
+        EXPECT_EQ(fingers.events.back().time, second);
+        EXPECT_EQ(fingers.events.back().button, 2);
+    }
+}
+
+/// So that whoever heeded these two knows what to take back.
+TEST(Buttons, AChordBeganWithTheLatestPressOfEachOfItsButtons) {
+    std::mt19937 engine(11);
+    int chords = 0;
+    for (int run = 0; run < 20; ++run) {
+        Fingers fingers;
+        for (int k = 0; k < 60; ++k) {
+            fingers.set(static_cast<int>(engine() % 3), engine() % 3 != 0);
+            fingers.run(milliseconds(engine() % 2 == 0 ? engine() % 200 : engine() % 6000));
+        }
+        std::array<std::optional<MonotonicTime>, 3> pressed;
+        for (const PanelEvent& event : fingers.events) {
+            if (event.kind == PressKind::Press) {
+                pressed.at(static_cast<std::size_t>(event.button)) = event.time;
+            } else if (event.kind == PressKind::Chord) {
+                ASSERT_TRUE(pressed[0] && pressed[2]);
+                EXPECT_EQ(std::max(*pressed[0], *pressed[2]) + seconds(3), event.time);
+                ++chords;
+            }
+        }
+    }
+    EXPECT_GT(chords, 20);
+}
+
 TEST(Buttons, AStuckButtonIsReportedOnceAndIgnoredUntilItComesUp) {
     Fingers fingers;
     fingers.set(1, true);
@@ -140,6 +180,33 @@ TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].kind, PressKind::Stuck);
     EXPECT_TRUE(buttons.any_stuck());
+}
+
+/// A wrong `active_low` or bias, shorted wires: every button is down from the first sample on.
+TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
+    for (const std::array<bool, 3> held :
+         {std::array{true, true, true}, std::array{true, false, false}, std::array{false, false, true}}) {
+        Buttons buttons(3, {});
+        std::vector<PanelEvent> events;
+        int ms = 0;
+        const auto hold = [&](const std::array<bool, 3>& levels, int until_ms) {
+            for (; ms < until_ms; ++ms) {
+                buttons.sample(start + milliseconds(ms), levels, events);
+            }
+        };
+        const auto chords = [&] {
+            return std::count_if(events.begin(), events.end(),
+                                 [](const PanelEvent& event) { return event.kind == PressKind::Chord; });
+        };
+        hold(held, 100);
+        hold({true, true, true}, 10'000);
+        EXPECT_EQ(chords(), 0);
+        hold({}, 10'100);
+        hold({true, false, true}, 13'000);
+        EXPECT_EQ(chords(), 0);
+        hold({true, false, true}, 13'200);
+        EXPECT_EQ(chords(), 1);
+    }
 }
 
 TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {

@@ -17,6 +17,7 @@ const MonotonicTime start{seconds(100)};
 struct Record {
     std::vector<int> ages; ///< of the buffers it was given
     std::vector<Wish> wishes;
+    std::vector<Wish> taken_back;
     int took = 0;
 };
 
@@ -24,6 +25,7 @@ class RecordingShow final : public Show {
 public:
     explicit RecordingShow(Record& record) : record_(record) {}
     void wish(Wish wish, MonotonicTime) override { record_.wishes.push_back(wish); }
+    void take_back(Wish wish, MonotonicTime) override { record_.taken_back.push_back(wish); }
     [[nodiscard]] bool heeds(Wish wish) const override { return wish == Wish::NextArtifact; }
     [[nodiscard]] DrawResult draw(MonotonicTime, const Situation&, const RenderTarget& target,
                                   Redraw) override {
@@ -40,6 +42,8 @@ private:
 class RunStaff : public ::testing::Test {
 protected:
     void SetUp() override {
+        settings.panel.kind = PanelKind::Gpio;
+        settings.panel.lines = {"4", "5", "6"};
         settings.projector.pinhole = {320, 200, 480.0, 480.0, 160.0, 100.0};
         auto made = SurfacelessDisplay::create(320, 200);
         ASSERT_TRUE(made) << made.error().message;
@@ -89,6 +93,36 @@ TEST_F(RunStaff, TheChordBringsThePatternAndAPressEndsItAndMeansNothingElse) {
     EXPECT_EQ(record.wishes.size(), 1U);
     EXPECT_TRUE(show->heeds(Wish::NextArtifact));
     EXPECT_FALSE(show->heeds(Wish::NextLanguage));
+}
+
+TEST_F(RunStaff, TheChordTakesBackItsOwnPressesAndNoOthers) {
+    show->chord(now, status); // a panel that says no presses
+    EXPECT_TRUE(record.taken_back.empty());
+    show->chord(now, status);
+
+    const std::vector<Wish> first_and_last{Wish::PreviousArtifact, Wish::NextLanguage};
+    for (const Wish wish :
+         {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage, Wish::NextArtifact}) {
+        show->wish(wish, now);
+    }
+    show->chord(now, status);
+    EXPECT_EQ(record.wishes.size(), 4U) << "each at once";
+    EXPECT_EQ(record.taken_back, first_and_last);
+
+    show->wish(Wish::PreviousArtifact, now); // ends the pattern and means nothing else
+    show->wish(Wish::NextLanguage, now);
+    show->chord(now, status);
+    EXPECT_EQ(record.wishes.size(), 5U);
+    ASSERT_EQ(record.taken_back.size(), 3U);
+    EXPECT_EQ(record.taken_back.back(), Wish::NextLanguage);
+}
+
+TEST_F(RunStaff, OfTwoButtonsTheChordTakesBackPreviousAndNext) {
+    settings.panel.lines = {"4", "5"};
+    show->wish(Wish::PreviousArtifact, now);
+    show->wish(Wish::NextArtifact, now);
+    show->chord(now, status);
+    EXPECT_EQ(record.taken_back, (std::vector<Wish>{Wish::PreviousArtifact, Wish::NextArtifact}));
 }
 
 TEST_F(RunStaff, EndsByItselfAfterAMinuteOrByTheChord) {

@@ -1,3 +1,4 @@
+#include "firmware_host/base/format_sentence.h"
 #include "firmware_host/service/service_manager.h"
 #include "tests/service/notify_socket.h"
 
@@ -39,6 +40,18 @@ TEST_F(ServiceManagerTest, HearsOfAStatusOnlyWhenItChanges) {
     EXPECT_EQ(socket.receive(), std::nullopt);
     manager.status(Sentence("the dog\nREADY=1"));
     EXPECT_EQ(socket.receive(), "STATUS=the dog READY=1"); // a title from outside is one line
+}
+
+TEST_F(ServiceManagerTest, HearsAGreekTitleThatIsTooLongAsWholeCharacters) {
+    ServiceManager manager;
+    std::string title = "shows ";
+    for (int k = 0; k < 40; ++k) {
+        title += "Νεφερτίτη ";
+    }
+    manager.status(format_sentence("x{}", title)); // one byte moves every character over the end
+    EXPECT_EQ(socket.receive(), "STATUS=x" + title.substr(0, 238));
+    manager.status(format_sentence("{}", title));
+    EXPECT_EQ(socket.receive(), "STATUS=" + title.substr(0, 240));
 }
 
 TEST_F(ServiceManagerTest, AsksForTheWatchdogOfThisProcessAlone) {

@@ -147,6 +147,15 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[panel]\nkind = \"gpio\"", {":2: panel.kind is \"gpio\"", "panel.lines"}},
         {"[panel]\nkind = \"keys\"", {":2: panel.kind is \"keys\"", "panel.device", "panel.keys"}},
         {"[panel]\nlamps = [\"1\"]", {":2: panel.lamps names 1 lamps", "each of the 0 lines"}},
+        {"[panel]\nlines = [\"3\", \"3\", \"3\"]",
+         {":2: panel.lines names \"3\" again", "a line of its own"}},
+        {"[panel]\nlines = [\"red\", \"4\", \"red\"]", {":2: panel.lines names \"red\" again"}},
+        {"[panel]\nlines = [\"0\", \"1\", \"00\"]", {":2: panel.lines names \"00\" again"}},
+        {"[panel]\nlines = [\"3\", \"4\"]\nlamps = [\"5\", \"3\"]",
+         {":3: panel.lamps names \"3\" again", "none of panel.lines"}},
+        {"[panel]\nlines = [\"3\", \"4\"]\nlamps = [\"5\", \"5\"]", {":3: panel.lamps names \"5\" again"}},
+        {"[panel]\nkeys = [\"KEY_L\", \"KEY_R\", \"KEY_L\"]",
+         {":2: panel.keys names \"KEY_L\" again", "a key of its own"}},
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},
@@ -155,6 +164,12 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[exhibit]\nlanguage = \"e\"", {":2: exhibit.language", "\"de-CH\""}},
         {"[exhibit]\nlanguage = \"../etc\"", {":2: exhibit.language"}},
     });
+}
+
+TEST(Refusals, NotOfLinesThatOnlyLookAlike) {
+    EXPECT_EQ(refusal("[panel]\nlines = [\"3\", \"30\", \"GPIO3\"]\nlamps = [\"0\", \"03a\", \"3a\"]\n"
+                      "keys = [\"KEY_3\", \"KEY_03\"]"),
+              "");
 }
 
 TEST(Refusals, OfAFileThatIsTooLargeOrNotThere) {

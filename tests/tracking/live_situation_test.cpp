@@ -97,6 +97,56 @@ TEST(LiveSituation, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) {
     EXPECT_LT(slip_m(step_between({rotation_of({0.0, 0.0, 1.0}), {0.1, 0.0, 0.0}}, before), lever_m), 0.0001);
 }
 
+/// The eye through a loss and a return, both longer and shorter than the glide between them.
+TEST(LiveSituation, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
+    constexpr std::int64_t period_us = 16'667;
+    constexpr int lost = 60;
+    const glm::dvec3 before_loss(0.3, -0.5, 0.45);
+    const glm::dvec3 after_return(-0.1, -0.6, 0.6);
+    for (const int back : {lost + 65, lost + 69, lost + 200}) { // stale after 60; two on the way, one after
+        LiveSituation live({}, default_eye, lever_m);
+        glm::dvec3 eye = live.at(from_microseconds(0)).eye_m;
+        EXPECT_EQ(eye, default_eye);
+        double largest_m = 0.0;
+        for (int k = 0; k < 400; ++k) {
+            if (k < lost || k >= back) {
+                PoseSample head;
+                head.time = from_microseconds(k * period_us);
+                head.station = head_station;
+                head.position_m = k < lost ? before_loss : after_return;
+                EXPECT_TRUE(live.take(head));
+            }
+            const Situation now = live.at(from_microseconds(k * period_us + 17'000));
+            largest_m = std::fmax(largest_m, glm::length(now.eye_m - eye));
+            eye = now.eye_m;
+            if (k > 30 && k < lost + 50) {
+                EXPECT_LT(glm::length(eye - before_loss), 0.0001) << k;
+                EXPECT_TRUE(now.head_known);
+            }
+            if (k > lost + 80 && k < back) {
+                EXPECT_LT(glm::length(eye - default_eye), 0.0001) << k;
+                EXPECT_FALSE(now.head_known);
+            }
+        }
+        EXPECT_LT(glm::length(eye - after_return), 0.0001);
+        // The longest way within 0.25 s along a smooth step: 1.5 times the mean speed at most.
+        const double longest_m =
+            std::fmax(glm::length(after_return - before_loss), glm::length(default_eye - before_loss));
+        EXPECT_LT(largest_m, 1.5 * longest_m / 0.25 * 0.0167 * 1.1) << back;
+    }
+}
+
+/// A fixed viewer's eye, and every eye before the first head, is the default one bit for bit.
+TEST(LiveSituation, WithoutAHeadTheEyeRests) {
+    LiveSituation live({}, default_eye, lever_m);
+    for (std::int64_t t_us = 0; t_us < 2'000'000; t_us += 16'667) {
+        live.take(prop_at(t_us, 0.1));
+        const Situation now = live.at(from_microseconds(t_us + 17'000));
+        EXPECT_EQ(now.eye_m, default_eye);
+        EXPECT_FALSE(now.head_known);
+    }
+}
+
 TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
     LightDelay delay(std::chrono::milliseconds(17));
     EXPECT_EQ(delay.from_now(), std::chrono::milliseconds(17));
