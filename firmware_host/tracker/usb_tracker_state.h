@@ -20,6 +20,7 @@ enum class UsbTrackerState {
     Silent,
     DeviceFault,
     Streaming,
+    FilterStaysOn,
     SensorMissing,
     PosesUnusable,
     MetalNear,
@@ -54,6 +55,9 @@ enum class UsbTrackerState {
         return "the tracker reports a fault of its own; switch it off and on";
     case UsbTrackerState::Streaming:
         return "the tracker is running";
+    case UsbTrackerState::FilterStaysOn:
+        return "the tracker runs, but its own filter cannot be switched off and the picture may lag; switch "
+               "it off and on, and update its firmware if it stays so";
     case UsbTrackerState::SensorMissing:
         return "the tracker runs, but the prop's sensor is missing; plug it into connector 1";
     case UsbTrackerState::PosesUnusable:
@@ -68,8 +72,9 @@ enum class UsbTrackerState {
 
 /// Poses come in, good or less good.
 [[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
-    return state == UsbTrackerState::Streaming || state == UsbTrackerState::SensorMissing ||
-           state == UsbTrackerState::PosesUnusable || state == UsbTrackerState::MetalNear;
+    return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||
+           state == UsbTrackerState::SensorMissing || state == UsbTrackerState::PosesUnusable ||
+           state == UsbTrackerState::MetalNear;
 }
 
 } // namespace frustumscreen

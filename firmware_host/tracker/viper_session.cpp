@@ -37,22 +37,24 @@ std::vector<ViperSession::Step> ViperSession::steps(const std::array<float, 3>& 
     const UnitsPayload units{viper_metres, viper_quaternion};
     const HemispherePayload half{0, hemisphere};
     std::vector<Step> steps;
-    const auto add = [&steps](C name, A action, Need need, std::span<const std::byte> payload = {},
-                              std::size_t set_by = 0, std::uint32_t arg2 = 0) {
-        steps.push_back(
-            {ViperCommandBytes(name, action, payload, viper_all_sensors, arg2), name, need, set_by});
+    const auto ask = [&steps](C name, A action, Failing failing = Failing::TriesAgain) {
+        steps.push_back({ViperCommandBytes(name, action), name, Need::Ack, failing});
     };
-    add(C::Continuous, A::Reset, Need::Try); // whatever an earlier program left running
-    add(C::WhoAmI, A::Get, Need::Ack);
-    add(C::Units, A::Set, Need::Ack, bytes_of(units));
-    add(C::Units, A::Get, Need::Same, {}, steps.size() - 1);
-    add(C::Hemisphere, A::Set, Need::Ack, bytes_of(half));
-    add(C::Hemisphere, A::Get, Need::Same, {}, steps.size() - 1);
-    add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 0);
-    add(C::Filter, A::Set, Need::Try, bytes_of(no_filter), 0, 1);
-    add(C::FrameRate, A::Set, Need::Ack, bytes_of(rate_120_hz));
-    add(C::FrameRate, A::Get, Need::Same, {}, steps.size() - 1);
-    add(C::Continuous, A::Set, Need::Ack);
+    const auto set = [&steps](C name, std::span<const std::byte> payload,
+                              Failing failing = Failing::TriesAgain, std::uint32_t arg2 = 0) {
+        steps.push_back(
+            {ViperCommandBytes(name, A::Set, payload, viper_all_sensors, arg2), name, Need::Ack, failing});
+        steps.push_back(
+            {ViperCommandBytes(name, A::Get, {}, viper_all_sensors, arg2), name, Need::Same, failing});
+    };
+    ask(C::Continuous, A::Reset, Failing::GoesOn); // whatever an earlier program left running
+    ask(C::WhoAmI, A::Get);
+    set(C::Units, bytes_of(units));
+    set(C::Hemisphere, bytes_of(half));
+    set(C::Filter, bytes_of(no_filter), Failing::GoesOn, 0);
+    set(C::Filter, bytes_of(no_filter), Failing::GoesOn, 1);
+    set(C::FrameRate, bytes_of(rate_120_hz));
+    ask(C::Continuous, A::Set);
     return steps;
 }
 
@@ -65,11 +67,7 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
         try_again(steps_.size() - 1, UsbTrackerState::Silent);
     }
     if (progress_.unanswered(now)) {
-        if (steps_[progress_.step()].need == Need::Try) {
-            progress_.next(now);
-        } else {
-            try_again(progress_.step(), progress_.trouble_without_answer());
-        }
+        fail_step(progress_.step(), progress_.trouble_without_answer(), now);
     }
     if (!progress_.may_send(now)) {
         return {};
@@ -78,8 +76,23 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
         stream_.clear(); // half a frame would swallow the answer
         stream_stale_ = false;
     }
+    if (progress_.step() == 0) {
+        filter_stays_on_ = false; // until it is known
+    }
     progress_.sent(now);
     return steps_[progress_.step()].command.bytes();
+}
+
+void ViperSession::fail_step(std::size_t back_to, UsbTrackerState trouble, MonotonicTime now) {
+    const Step& step = steps_[progress_.step()];
+    if (step.failing == Failing::TriesAgain) {
+        try_again(back_to, trouble);
+        return;
+    }
+    filter_stays_on_ = filter_stays_on_ || step.name == ViperCommand::Filter;
+    do { // what was not set is not read back either
+        progress_.next(now);
+    } while (steps_[progress_.step()].need == Need::Same);
 }
 
 void ViperSession::try_again(std::size_t from, UsbTrackerState trouble) {
@@ -93,6 +106,10 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
     case ViperCommand::Units: {
         const auto units = reader.read<UnitsPayload>();
         return reader.ok() && units == UnitsPayload{viper_metres, viper_quaternion};
+    }
+    case ViperCommand::Filter: {
+        const auto filter = reader.read<std::array<float, 4>>();
+        return reader.ok() && filter == no_filter;
     }
     case ViperCommand::FrameRate:
         return reader.read<std::uint32_t>() == rate_120_hz && reader.ok();
@@ -121,7 +138,8 @@ void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
     if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
         if (step.need == Need::Same && !repeats_what_was_set(reply)) {
             const bool units = step.name == ViperCommand::Units;
-            try_again(step.set_by, units ? UsbTrackerState::WrongUnits : UsbTrackerState::SetUpRefused);
+            fail_step(progress_.step() - 1,
+                      units ? UsbTrackerState::WrongUnits : UsbTrackerState::SetUpRefused, now);
             return;
         }
         progress_.next(now);
@@ -130,10 +148,8 @@ void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
     const auto nak = ByteReader(reply.payload).read<std::uint32_t>();
     if (reply.payload.size() >= 4 && nak == static_cast<std::uint32_t>(ViperNak::Booting)) {
         progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
-    } else if (step.need == Need::Try) {
-        progress_.next(now);
     } else {
-        try_again(progress_.step(), UsbTrackerState::SetUpRefused);
+        fail_step(progress_.step(), UsbTrackerState::SetUpRefused, now);
     }
 }
 
@@ -162,6 +178,11 @@ void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arriv
             stream_.drop(step.consumed);
         }
     }
+}
+
+UsbTrackerState ViperSession::state(MonotonicTime now) const {
+    const UsbTrackerState state = progress_.state(now, intake_);
+    return state == UsbTrackerState::Streaming && filter_stays_on_ ? UsbTrackerState::FilterStaysOn : state;
 }
 
 } // namespace frustumscreen

@@ -1,4 +1,6 @@
 /// A VIPER's session: every setting is sent, then read back; the frame rate so confirmed is the clock's tick.
+/// Its filters, which lag, are switched off; where that cannot be confirmed, it streams all the same and says
+/// so.
 ///
 /// Frame, units, time, threads: see device_session.h.
 #pragma once
@@ -16,33 +18,34 @@ public:
     [[nodiscard]] std::span<const std::byte> due(MonotonicTime now) override;
     void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
                  std::vector<PoseSample>& samples) override;
-    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override {
-        return progress_.state(now, intake_);
-    }
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
     [[nodiscard]] bool failed() const override { return progress_.failed(); }
     [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
 
 private:
     enum class Need {
-        Try, ///< an answer is welcome; without one, or with a refusal, the set-up goes on
         Ack,
-        Same, ///< the answer must repeat what was set
+        Same, ///< the answer must repeat what the step before set
     };
+    /// What becomes of the set-up when a step fails.
+    enum class Failing { TriesAgain, GoesOn };
     struct Step {
         ViperCommandBytes command;
         ViperCommand name;
         Need need;
-        std::size_t set_by = 0; ///< Same: the step that set it, to go back to
+        Failing failing;
     };
 
     [[nodiscard]] static std::vector<Step> steps(const std::array<float, 3>& hemisphere);
     void answer(const ViperReply& reply, MonotonicTime now);
     [[nodiscard]] bool repeats_what_was_set(const ViperReply& reply) const;
+    void fail_step(std::size_t back_to, UsbTrackerState trouble, MonotonicTime now);
     void try_again(std::size_t from, UsbTrackerState trouble);
 
     std::array<float, 3> hemisphere_;
     std::vector<Step> steps_;
     SetUpProgress progress_;
+    bool filter_stays_on_ = false;
     bool stream_stale_ = false; ///< what came before is worth nothing; cleared with the next command
     StreamBuffer stream_;
     FrameIntake intake_;

@@ -54,7 +54,7 @@ void texts(const Seeds& seeds) {
 
 /// Scripts of viper_fuzz.cpp and patriot_fuzz.cpp: the set-up is agreed to, then frames come.
 void talks(const Seeds& seeds) {
-    const std::string agree(12, '\3');
+    const std::string agree(14, '\3');
     const std::string wait("\0\x19\0", 3);
     const std::string pose("\4\1\0\0\0\1\0\2\0\3\x7f\0\0\0", 14);
     seeds.add("viper", "streaming", agree + pose + wait + pose + wait + pose);

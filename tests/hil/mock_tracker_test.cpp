@@ -250,6 +250,14 @@ TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
     });
 }
 
+TEST(MockTracker, AViperWhoseFilterStaysOnStreamsAndSaysSo) {
+    Bench bench(devices.front(), {"--at", "0s filter-stays"});
+    EXPECT_TRUE(bench.until_state(UsbTrackerState::FilterStaysOn));
+    bench.tell("filter-stays off");
+    bench.tell("unplug 300ms");
+    EXPECT_TRUE(bench.until_streaming());
+}
+
 TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);

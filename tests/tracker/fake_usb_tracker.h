@@ -13,6 +13,9 @@
 
 namespace frustumscreen {
 
+/// What a VIPER makes of the command that switches its filters off.
+enum class FakeFilter { Obeys, Refuses, SaysNothing, StaysOn, TurnStaysOn };
+
 struct FakeUsbTracker {
     UsbTrackerModel model = UsbTrackerModel::Viper;
     MonotonicTime now = from_microseconds(1'000'000);
@@ -22,7 +25,8 @@ struct FakeUsbTracker {
     bool keeps_inches = false;   ///< answers that units were set, and does not set them
     bool deaf = false;           ///< answers nothing
     bool mute = false;           ///< sends no frames
-    bool refuses_filter = false;
+    FakeFilter filter = FakeFilter::Obeys;
+    Nanoseconds answers_after{}; ///< VIPER
     bool streaming = false;
     std::uint32_t counter = 0;
     std::uint32_t highest = 0; ///< counter of all that were sent
@@ -33,9 +37,10 @@ struct FakeUsbTracker {
     std::function<std::vector<wire::Wire>(wire::Wire)> mischief;
 
     std::deque<wire::Wire> to_host;
-    std::vector<std::uint32_t> commands;   ///< VIPER: command * 16 + action, as they came
-    std::string text;                      ///< PATRIOT: all that came
-    std::optional<int> unplug_after_calls; ///< then the cable comes out
+    std::deque<std::pair<MonotonicTime, wire::Wire>> answers; ///< not due yet
+    std::vector<std::uint32_t> commands;                      ///< VIPER: command * 16 + action, as they came
+    std::string text;                                         ///< PATRIOT: all that came
+    std::optional<int> unplug_after_calls;                    ///< then the cable comes out
     MonotonicTime next_frame{};
 
     [[nodiscard]] Nanoseconds period() const {
@@ -69,10 +74,14 @@ struct FakeUsbTracker {
     void restart() {
         streaming = false;
         to_host.clear();
+        answers.clear();
         next_frame = {};
     }
-    /// Frames up to now.
+    /// Answers and frames up to now.
     void run() {
+        for (; !answers.empty() && answers.front().first <= now; answers.pop_front()) {
+            to_host.push_back(std::move(answers.front().second));
+        }
         if (!streaming || mute) {
             next_frame = now + period();
             return;
@@ -141,22 +150,32 @@ struct FakeUsbTracker {
         const std::uint32_t command = word(12);
         const std::uint32_t action = word(16);
         commands.push_back(command * 16 + action);
+        const auto say = [&](std::uint32_t said, const wire::Wire& payload) {
+            answers.emplace_back(now + answers_after, wire::viper_reply(command, said, payload));
+        };
         wire::Wire payload;
         if (now < boots_until) {
             wire::put(payload, std::uint32_t{1});
-            to_host.push_back(wire::viper_reply(command, 4, payload));
+            return say(4, payload);
+        }
+        if (command == 1 && filter == FakeFilter::SaysNothing) {
             return;
         }
-        if (command == 1 && refuses_filter) {
+        if (command == 1 && filter == FakeFilter::Refuses) {
             wire::put(payload, std::uint32_t{2});
-            to_host.push_back(wire::viper_reply(command, 4, payload));
-            return;
+            return say(4, payload);
         }
+        // The filters of places and of turns are two settings.
+        wire::Wire& setting = settings[command == 1 && word(24) == 1 ? settings.size() - 1 : command];
         if (action == 0 && bytes.size() > 32) {
-            settings[command].assign(bytes.begin() + 28, bytes.end() - 4);
+            setting.assign(bytes.begin() + 28, bytes.end() - 4);
         }
         if (action == 1) {
-            payload = settings[command];
+            payload = setting;
+        }
+        if (command == 1 && action == 1 &&
+            (filter == FakeFilter::StaysOn || (filter == FakeFilter::TurnStaysOn && word(24) == 1))) {
+            payload = wire::from_hex("CDCC4C3E CDCC4C3E CDCC4C3F 3333733F");
         }
         if (command == 7 && keeps_inches && action == 1) {
             payload = wire::from_hex("00000000 02000000");
@@ -165,7 +184,7 @@ struct FakeUsbTracker {
             streaming = action == 0;
             next_frame = now + period();
         }
-        to_host.push_back(wire::viper_reply(command, 3, payload));
+        say(3, payload);
     }
     void hear_patriot(std::span<const std::byte> bytes) {
         const std::string line(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -183,7 +202,7 @@ struct FakeUsbTracker {
             say(keeps_inches ? "00U 0\r\n" : "00U 1\r\n");
         }
     }
-    std::array<wire::Wire, 32> settings; ///< VIPER: payloads set, by command
+    std::array<wire::Wire, 32> settings; ///< VIPER: payloads set, by command; last: the filter of turns
 };
 
 class FakeTransport final : public UsbTransport {
@@ -214,6 +233,7 @@ public:
         device_.now += std::chrono::microseconds(100);
         device_.run();
         device_.hear(bytes);
+        device_.run();
         return {};
     }
     void close() override {}

@@ -77,17 +77,19 @@ TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
     }
 }
 
-TEST(UsbTrackerDriver, AViperStreamsOnlyAfterUnitsHemisphereAndRateWereReadBack) {
+TEST(UsbTrackerDriver, AViperStreamsOnlyAfterEverySettingWasReadBack) {
     Bench bench(UsbTrackerModel::Viper);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     constexpr std::uint32_t set = 0;
     constexpr std::uint32_t get = 1;
-    const std::vector<std::uint32_t> expected{19 * 16 + 2,  20 * 16 + get, 7 * 16 + set, 7 * 16 + get,
-                                              0 * 16 + set, 0 * 16 + get,  1 * 16 + set, 1 * 16 + set,
-                                              6 * 16 + set, 6 * 16 + get,  19 * 16 + set};
+    const std::vector<std::uint32_t> expected{
+        19 * 16 + 2,  20 * 16 + get, 7 * 16 + set, 7 * 16 + get, 0 * 16 + set, 0 * 16 + get, 1 * 16 + set,
+        1 * 16 + get, 1 * 16 + set,  1 * 16 + get, 6 * 16 + set, 6 * 16 + get, 19 * 16 + set};
     EXPECT_EQ(bench.device.commands, expected);
     EXPECT_EQ(bench.device.settings[7], wire::from_hex("03000000 02000000"));
     EXPECT_EQ(bench.device.settings[0], wire::from_hex("00000000 0000803F 00000000 00000000"));
+    EXPECT_EQ(bench.device.settings[1], wire::from_hex("00000000 0000803F 00000000 00000000"));
+    EXPECT_EQ(bench.device.settings.back(), bench.device.settings[1]);
     EXPECT_EQ(bench.device.settings[6], wire::from_hex("02000000"));
 }
 
@@ -162,10 +164,27 @@ TEST(UsbTrackerDriver, ADeafDeviceIsTriedAgainUntilItAnswers) {
     }
 }
 
-TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsNoReasonNotToStream) {
-    Bench bench(UsbTrackerModel::Viper);
-    bench.device.refuses_filter = true;
-    EXPECT_TRUE(bench.until_streaming(seconds(2)));
+TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStream) {
+    for (const FakeFilter filter :
+         {FakeFilter::Refuses, FakeFilter::SaysNothing, FakeFilter::StaysOn, FakeFilter::TurnStaysOn}) {
+        Bench bench(UsbTrackerModel::Viper);
+        bench.device.filter = filter;
+        ASSERT_TRUE(bench.until_streaming(seconds(2)));
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::FilterStaysOn);
+        EXPECT_NE(sentence_of(bench.state()).find("filter"), std::string_view::npos);
+        EXPECT_GT(bench.samples.size(), 200U);
+        bench.device.connectors = {2}; // what is worse is said first
+        bench.run(seconds(1));
+        EXPECT_EQ(bench.state(), UsbTrackerState::SensorMissing);
+        bench.device.connectors = {1, 2};
+        bench.device.filter = FakeFilter::Obeys;
+        bench.device.unplug_after_calls = 0;
+        bench.run(seconds(1));
+        bench.device.plugged = true;
+        bench.run(seconds(2));
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+    }
 }
 
 /// The cable comes out at every single read and write of set-up and streaming, and is back three seconds

@@ -23,8 +23,8 @@ def long_division(data):
     return struct.pack("<I", remainder)
 
 
-def command(number, action, payload=b""):
-    whole = struct.pack("<4sIIIIII", b"VPRC", 24 + len(payload), 0xFFFFFFFF, number, action, 0xFFFFFFFF, 0) + payload
+def command(number, action, payload=b"", arg2=0):
+    whole = struct.pack("<4sIIIIII", b"VPRC", 24 + len(payload), 0xFFFFFFFF, number, action, 0xFFFFFFFF, arg2) + payload
     return whole + long_division(whole)
 
 
@@ -82,6 +82,20 @@ class ViperBytes(unittest.TestCase):
         self.talk.device.start_anew()
         self.assertEqual(self.talk.say(command(7, 1))[28:36], struct.pack("<II", 0, 0))
 
+    def test_its_two_filters_are_switched_off_each_and_read_back(self):
+        def filters():
+            return [struct.unpack("<4f", self.talk.say(command(1, 1, arg2=which))[28:44]) for which in (0, 1)]
+
+        off = struct.pack("<4f", 0, 1, 0, 0)
+        on = filters()
+        self.talk.say(command(1, 0, off, arg2=1))
+        self.assertEqual(filters(), [on[0], (0, 1, 0, 0)])
+        self.talk.say(command(1, 0, off))
+        self.assertEqual(filters(), [(0, 1, 0, 0)] * 2)
+        self.talk.faults.tell("filter-stays", [])
+        self.assertEqual(filters(), on)
+        self.assertNotIn((0, 1, 0, 0), on)
+
     def test_without_a_set_up_it_sends_inches_and_angles(self):
         self.talk.say(CONTINUOUS_SET)
         self.talk.player.place(1, Pose((0.0254, 0.0, -0.0508), (0.7071067811865476, 0.0, 0.0, 0.7071067811865476)))
@@ -105,7 +119,7 @@ class ViperBytes(unittest.TestCase):
         self.assertFalse(self.talk.device.streaming)
 
     def test_what_it_refuses(self):
-        for bad in (command(6, 0, struct.pack("<I", 6)), command(7, 0, b"\0"), command(99, 0), command(7, 3)):
+        for bad in (command(6, 0, struct.pack("<I", 6)), command(7, 0, b"\0"), command(99, 0), command(7, 3), command(1, 1, arg2=2)):
             answer = self.talk.say(bad)
             self.assertEqual(struct.unpack("<I", answer[16:20]), (4,))
             self.assertEqual(struct.unpack("<I", answer[28:32]), (2,))

@@ -30,6 +30,7 @@ KINDS = {
     "hang": Kind(None, None, "nothing goes in or out, though the device stays connected"),
     "nan": Kind(None, None, "positions that are no numbers"),
     "wrong-units": Kind(None, None, "inches, whatever it is told"),
+    "filter-stays": Kind(None, None, "a VIPER's filters stay on, whatever it is told"),
     "nak": Kind(None, None, "commands are refused"),
     "slow-boot": Kind(None, None, "starts anew: forgets its settings and says that it is still booting"),
     "unplug": Kind(None, None, "the USB cable is out; plugged in again it starts anew"),

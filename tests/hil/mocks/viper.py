@@ -82,12 +82,13 @@ class Viper(Tracker):
     strings = ("", "Polhemus", "VIPER (mock)", "mock")
     break_bytes = staticmethod(flip_or_cut)
 
-    # As it is after power came on.
+    # As it is after power came on, by command and filter (0 of places, 1 of turns).
     _defaults = {
-        HEMISPHERE: struct.pack("<I3f", 0, 1.0, 0.0, 0.0),
-        FILTER: struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
-        FRAME_RATE: struct.pack("<I", 3),
-        UNITS: struct.pack("<II", INCHES, DEGREES),
+        (HEMISPHERE, 0): struct.pack("<I3f", 0, 1.0, 0.0, 0.0),
+        (FILTER, 0): struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
+        (FILTER, 1): struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
+        (FRAME_RATE, 0): struct.pack("<I", 3),
+        (UNITS, 0): struct.pack("<II", INCHES, DEGREES),
     }
 
     def __init__(self, *args, **kwargs):
@@ -101,11 +102,11 @@ class Viper(Tracker):
 
     @property
     def rate_hz(self):
-        return 30.0 * (1 << struct.unpack("<I", self.settings[FRAME_RATE])[0])
+        return 30.0 * (1 << struct.unpack("<I", self.settings[FRAME_RATE, 0])[0])
 
     @property
     def units(self):
-        position, orientation = struct.unpack("<II", self.settings[UNITS])
+        position, orientation = struct.unpack("<II", self.settings[UNITS, 0])
         return (INCHES if self.faults.on("wrong-units") else position, orientation)
 
     def received(self, endpoint, data):
@@ -114,13 +115,14 @@ class Viper(Tracker):
             self.commands += 1
             self.answer(self._answer(*command))
 
-    def _answer(self, command, action, _arg1, _arg2, payload):
+    def _answer(self, command, action, _arg1, arg2, payload):
         if self.faults.on("slow-boot"):
             return answer_frame(command, NAK, nak_payload(NAK_BOOTING, "the system is booting"))
         if self.faults.on("nak"):
             return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "refused"))
         known = False
         answer = b""
+        setting = (command, arg2 if command == FILTER else 0)
         if command == CONTINUOUS and action in (SET, RESET):
             known = True
             self.streaming = action == SET
@@ -130,22 +132,29 @@ class Viper(Tracker):
         elif command == SINGLE and action == GET:
             known = True
             answer = pose_body(self.counter, self._records(self.poses(time.monotonic())))
-        elif command in self.settings and action == SET:
-            known = self._allowed(command, payload)
+        elif setting in self.settings and action == SET:
+            known = self._allowed(setting, payload)
             if known:
-                self.settings[command] = payload
-        elif command in self.settings and action == GET:
+                self.settings[setting] = payload
+        elif setting in self.settings and action == GET:
             known = True
-            answer = struct.pack("<II", *self.units) if command == UNITS else self.settings[command]
-        elif command in self.settings and action == RESET:
+            answer = self._in_use(setting)
+        elif setting in self.settings and action == RESET:
             known = True
-            self.settings[command] = self._defaults[command]
+            self.settings[setting] = self._defaults[setting]
         if known:
             return answer_frame(command, ACK, answer)
         return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "unknown command or payload"))
 
-    def _allowed(self, command, payload):
-        if len(payload) != len(self._defaults[command]):
+    def _in_use(self, setting):
+        if setting[0] == UNITS:
+            return struct.pack("<II", *self.units)
+        kept = self._defaults if setting[0] == FILTER and self.faults.on("filter-stays") else self.settings
+        return kept[setting]
+
+    def _allowed(self, setting, payload):
+        command = setting[0]
+        if len(payload) != len(self._defaults[setting]):
             return False
         if command == FRAME_RATE:
             return struct.unpack("<I", payload)[0] <= _FASTEST_RATE
