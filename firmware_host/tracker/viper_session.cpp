@@ -136,6 +136,9 @@ void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
     }
     const Step& step = steps_[progress_.step()];
     if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
+        if (step.need == Need::Same && reply.payload.empty()) {
+            return; // late, to what was set
+        }
         if (step.need == Need::Same && !repeats_what_was_set(reply)) {
             const bool units = step.name == ViperCommand::Units;
             fail_step(progress_.step() - 1,

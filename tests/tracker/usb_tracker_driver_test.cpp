@@ -187,6 +187,22 @@ TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStrea
     }
 }
 
+TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
+    for (const Nanoseconds late : {milliseconds(150), milliseconds(250), milliseconds(450)}) {
+        Bench bench(UsbTrackerModel::Viper);
+        bench.device.answers_after = late;
+        ASSERT_TRUE(bench.until_streaming(13 * late + seconds(1))) << late.count();
+        EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+    }
+    Bench bench(UsbTrackerModel::Viper);
+    bench.device.answers_after = milliseconds(700); // later than a device may
+    for (int k = 0; k < 2000; ++k) {
+        bench.run(milliseconds(10));
+        ASSERT_NE(bench.state(), UsbTrackerState::WrongUnits);
+    }
+    EXPECT_EQ(bench.state(), UsbTrackerState::SetUpRefused);
+}
+
 /// The cable comes out at every single read and write of set-up and streaming, and is back three seconds
 /// later.
 TEST(UsbTrackerDriver, UnpluggedAtAnyMomentItIsBackWithinTwoSeconds) {
