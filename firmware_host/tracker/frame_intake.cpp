@@ -6,7 +6,7 @@ namespace {
 
 /// A counter this far off is a broken one, or a device that began anew.
 constexpr std::int32_t far_off = 1000;
-/// So many successors in a row, and it did begin anew.
+/// So many later ones in a row, and it did begin anew.
 constexpr int enough_to_believe = 4;
 /// How long a fault must be gone, or the prop's sensor unheard, before the state says so.
 constexpr Nanoseconds settling = std::chrono::milliseconds(500);
@@ -24,7 +24,12 @@ FrameIntake::Order FrameIntake::order_of(int sensor, std::uint32_t counter) {
             return Order::Refused;
         }
         if (step < 0 || step > far_off) {
-            const bool follows = sequence.strange && counter == *sequence.strange + 1;
+            const auto strange_step = static_cast<std::int32_t>(counter - sequence.strange.value_or(counter));
+            if (sequence.strange && strange_step == 0) {
+                ++counts_.duplicated;
+                return Order::Refused;
+            }
+            const bool follows = strange_step > 0 && strange_step <= far_off;
             sequence.strange_run = follows ? sequence.strange_run + 1 : 0;
             sequence.strange = counter;
             if (sequence.strange_run < enough_to_believe) {
@@ -40,7 +45,7 @@ FrameIntake::Order FrameIntake::order_of(int sensor, std::uint32_t counter) {
     return Order::Next;
 }
 
-void FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples) {
+bool FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples) {
     std::optional<MonotonicTime> time;
     for (std::size_t k = 0; k < frame.count; ++k) {
         const SensorPose& pose = frame.sensors[k];
@@ -72,7 +77,9 @@ void FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
         ++counts_.frames;
         latest_ = arrival;
         began_ = began_ ? began_ : arrival;
+        return true;
     }
+    return false;
 }
 
 UsbTrackerState FrameIntake::state(MonotonicTime now) const {

@@ -27,7 +27,8 @@ class FrameIntake {
 public:
     explicit FrameIntake(double tick_ns) : clock_(tick_ns) {}
 
-    void take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples);
+    /// Whether any of it was taken; nothing of a frame that came twice, late or from nowhere is.
+    bool take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples);
     void count_refusal() { ++counts_.refused; }
     [[nodiscard]] const IntakeCounts& counts() const { return counts_; }
     [[nodiscard]] const DeviceClock& clock() const { return clock_; }
@@ -42,7 +43,7 @@ private:
 
     struct Sequence {
         std::optional<std::uint32_t> last;
-        std::optional<std::uint32_t> strange; ///< out of order; believed once enough successors came
+        std::optional<std::uint32_t> strange; ///< out of order; believed once enough later ones came
         int strange_run = 0;
     };
     DeviceClock clock_;

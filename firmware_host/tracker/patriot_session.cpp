@@ -81,8 +81,9 @@ void PatriotSession::read_frames(MonotonicTime arrival, std::vector<PoseSample>&
             return;
         }
         if (const auto* frame = std::get_if<DeviceFrame>(&step.message)) {
-            intake_.take(*frame, arrival, samples);
-            progress_.well();
+            if (intake_.take(*frame, arrival, samples)) {
+                progress_.well();
+            }
         } else {
             intake_.count_refusal();
         }

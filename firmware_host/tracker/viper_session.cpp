@@ -173,8 +173,7 @@ void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arriv
                        frame && progress_.streaming()) {
                 if (!frame->units_as_set) {
                     try_again(0, UsbTrackerState::WrongUnits);
-                } else {
-                    intake_.take(*frame, arrival, samples);
+                } else if (intake_.take(*frame, arrival, samples)) {
                     progress_.well();
                 }
             }

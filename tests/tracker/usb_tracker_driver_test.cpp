@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -376,6 +377,52 @@ TEST(UsbTrackerDriver, ADeviceThatCountsFromTheBeginningAgainIsBelieved) {
         const std::size_t before = bench.samples.size();
         bench.run(seconds(1));
         EXPECT_GT(bench.samples.size(), before + 100);
+    }
+}
+
+TEST(UsbTrackerDriver, ItIsBelievedThoughItsFramesAreLostOrDoubledAllTheTime) {
+    const auto lost = [](std::uint32_t every) {
+        return [=](const wire::Wire& frame, std::uint32_t number) {
+            return number % every == 0 ? std::vector<wire::Wire>{} : std::vector<wire::Wire>{frame};
+        };
+    };
+    const auto doubled = [](const wire::Wire& frame, std::uint32_t) {
+        return std::vector<wire::Wire>{frame, frame};
+    };
+    using Way = std::function<std::vector<wire::Wire>(const wire::Wire&, std::uint32_t)>;
+    for (const UsbTrackerModel model : models) {
+        for (const Way& way : {Way(lost(2)), Way(lost(5)), Way(doubled)}) {
+            Bench bench(model);
+            bench.device.mischief = [&](const wire::Wire& frame) { return way(frame, bench.device.counter); };
+            ASSERT_TRUE(bench.until_streaming(seconds(2)));
+            bench.run(seconds(60));
+            const IntakeCounts before = bench.counts();
+            bench.device.counter = 0;
+            bench.run(seconds(1));
+            EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+            EXPECT_GT(bench.counts().frames, before.frames + 20); // and the device was not given up for it
+        }
+    }
+}
+
+TEST(UsbTrackerDriver, AStreamOfWhichNothingCanBeTakenIsOpenedAnew) {
+    for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Patriot}) {
+        Bench bench(model);
+        ASSERT_TRUE(bench.until_streaming(seconds(2)));
+        bench.device.commands.clear();
+        bench.device.text.clear();
+        bench.device.mischief = [&](wire::Wire frame) {
+            bench.device.counter += 5000; // far from the one before, each time
+            return std::vector<wire::Wire>{std::move(frame)};
+        };
+        bench.run(seconds(5));
+        EXPECT_NE(bench.state(), UsbTrackerState::Streaming);
+        constexpr std::uint32_t who_am_i = 20 * 16 + 1;
+        EXPECT_TRUE(model == UsbTrackerModel::Viper
+                        ? std::ranges::find(bench.device.commands, who_am_i) != bench.device.commands.end()
+                        : bench.device.text.find('\x16') != std::string::npos);
+        bench.device.mischief = {};
+        EXPECT_TRUE(bench.until_streaming(seconds(2)));
     }
 }
 
