@@ -48,19 +48,31 @@ Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
         if (written < 0 && errno == EINTR) {
             continue;
         }
-        if (written < 0 && (errno == ENOSPC || errno == EDQUOT)) {
-            return bad_input(path_.string() + ": the disk is full");
-        }
         if (written < 0) {
-            return bad_input(path_.string() + ": cannot be written: " + std::strerror(errno));
+            return failure();
         }
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     return {};
 }
 
-void GrowingFile::sync() const {
-    static_cast<void>(::fdatasync(descriptor_));
+Result<void> GrowingFile::sync() const {
+    while (::fdatasync(descriptor_) != 0) {
+        if (errno == EINVAL) {
+            return {}; // a pipe, or whatever else keeps nothing
+        }
+        if (errno != EINTR) {
+            return failure();
+        }
+    }
+    return {};
+}
+
+Result<void> GrowingFile::failure() const {
+    if (errno == ENOSPC || errno == EDQUOT) {
+        return bad_input(path_.string() + ": the disk is full");
+    }
+    return bad_input(path_.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 } // namespace frustumscreen

@@ -22,11 +22,14 @@ public:
     GrowingFile& operator=(GrowingFile&&) = delete;
 
     [[nodiscard]] Result<void> append(std::span<const std::byte> bytes);
-    /// What was appended survives a power cut from here on.
-    void sync() const;
+    /// What was appended survives a power cut from here on; or not: a disk may say only now what went wrong.
+    [[nodiscard]] Result<void> sync() const;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
 private:
+    /// What the latest call says through `errno`.
+    [[nodiscard]] Result<void> failure() const;
+
     int descriptor_;
     std::filesystem::path path_;
 };

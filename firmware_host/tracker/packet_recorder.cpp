@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 namespace frustumscreen {
 
 namespace {
@@ -13,7 +15,8 @@ constexpr std::size_t room_for_gap = 64; ///< for the packet that names a gap
 } // namespace
 
 PacketRecorder::PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now)
-    : file_(std::move(file)), said_(fmt::format("the tracker is recorded to {}", file_.path().string())) {
+    : file_(std::move(file)) {
+    say();
     waiting_.reserve(most_waiting_bytes);
     append_packet_header(waiting_);
     take(PacketKind::About, now, as_bytes(about));
@@ -32,60 +35,86 @@ void PacketRecorder::take(PacketKind kind, MonotonicTime time, std::span<const s
 
 void PacketRecorder::packet(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) {
     const std::lock_guard lock(mutex_);
-    if (ended_) {
+    if (finished_) {
         return;
     }
     if (!has_room(payload.size())) {
         ++counts_.dropped;
         ++gap_;
+        gap_until_ = time;
         return;
     }
+    name_gap(time);
+    take(kind, time, payload);
+}
+
+void PacketRecorder::name_gap(MonotonicTime time) {
     if (gap_ > 0) {
         take(PacketKind::Dropped, time, std::as_bytes(std::span(&gap_, 1)));
         gap_ = 0;
     }
-    take(kind, time, payload);
 }
 
 void PacketRecorder::write(const std::stop_token& stop) {
     Bytes writing;
     writing.reserve(most_waiting_bytes);
     MonotonicTime synced = monotonic_now();
-    std::uint64_t dropped = 0;
     bool last = false;
     while (!last) {
         {
             std::unique_lock lock(mutex_);
             something_waits_.wait_for(lock, stop, between_writes, [] { return false; });
             last = stop.stop_requested();
+            if (last) {
+                name_gap(gap_until_);
+            }
             writing.clear();
             writing.swap(waiting_);
-            if (counts_.dropped > dropped) {
-                dropped = counts_.dropped;
-                said_.set(fmt::format(
-                    "the tracker is recorded to {}, but the disk is too slow: {} packets are missing",
-                    file_.path().string(), dropped));
-            }
         }
-        if (Result<void> written = file_.append(writing); !written) {
-            const std::lock_guard lock(mutex_);
-            said_.set(fmt::format("the recording has ended; {}", written.error().message));
-            ended_ = std::move(written.error());
-            return;
-        }
-        if (last || monotonic_now() - synced > between_syncs) {
-            file_.sync();
+        Result<void> written = file_.append(writing);
+        if (written && (last || monotonic_now() - synced > between_syncs)) {
+            written = file_.sync();
             synced = monotonic_now();
+        }
+        if (!written) {
+            const std::lock_guard lock(mutex_);
+            ended_ = std::move(written.error());
+            finished_ = true;
+            return;
         }
     }
 }
 
+void PacketRecorder::say() {
+    std::array<char, Sentence::longest + 1> text{}; // one more, so that a sentence knows where it is cut
+    const auto put = [&]<typename... Of>(fmt::format_string<Of...> format, Of&&... of) {
+        const auto end = fmt::format_to_n(text.data(), text.size(), format, std::forward<Of>(of)...);
+        said_ = Sentence({text.data(), std::min(end.size, text.size())});
+    };
+    const std::string& path = file_.path().native();
+    if (ended_) {
+        put("the recording has ended; {}", ended_->message);
+    } else if (counts_.dropped > 0) {
+        put("the tracker is recorded to {}, but the disk is too slow: {} or more packets are missing", path,
+            std::bit_floor(counts_.dropped));
+    } else {
+        put("the tracker is recorded to {}", path);
+    }
+}
+
+/// What the disk does holds up the writing thread alone; the lock is held for no longer than a copy.
 std::string_view PacketRecorder::state() {
-    said_.read(read_);
-    return read_.view();
+    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
+        say();
+    }
+    return said_.view();
 }
 
 Result<void> PacketRecorder::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        finished_ = true;
+    }
     if (thread_.joinable()) {
         thread_.request_stop();
         thread_.join();

@@ -29,9 +29,11 @@ public:
     PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now);
 
     void packet(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) override;
-    /// How the recording goes, in one sentence; stands until the next call.
+    /// How the recording goes, in one sentence; stands until the next call. Says how many packets are missing
+    /// only when they have become twice as many, so that it can go to a journal at each change.
     [[nodiscard]] std::string_view state();
-    /// Writes what waits, closes nothing. Errors: what ended the recording before.
+    /// Takes nothing more, writes what waits and makes it safe, closes nothing. Errors: what ended the
+    /// recording.
     [[nodiscard]] Result<void> finish();
 
     struct Counts {
@@ -43,19 +45,22 @@ public:
 
 private:
     void write(const std::stop_token& stop);
-    /// With the lock held.
+    // With the lock held.
     [[nodiscard]] bool has_room(std::size_t payload) const;
     void take(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload);
+    void name_gap(MonotonicTime time);
+    void say();
 
     GrowingFile file_; ///< the writing thread only, but for its name
     mutable std::mutex mutex_;
     std::condition_variable_any something_waits_;
     Bytes waiting_;
     Counts counts_;
-    std::uint64_t gap_ = 0; ///< dropped since the last packet that was taken
+    std::uint64_t gap_ = 0;   ///< dropped since the last packet that was taken
+    MonotonicTime gap_until_; ///< the last of them
+    bool finished_ = false;   ///< nothing more is taken
     std::optional<Error> ended_;
-    SharedSentence said_;
-    Sentence read_;
+    Sentence said_;       ///< of the caller of `state`
     std::jthread thread_; ///< last: it uses all of the above
 };
 

@@ -7,7 +7,22 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <thread>
+
+namespace {
+
+/// What the disk says when it is to keep what it took; 0: all is well.
+std::atomic<int> disk_error{0};
+
+} // namespace
+
+/// The C library's, for the whole test: there is no disk to pull out here.
+extern "C" int fdatasync(int) {
+    errno = disk_error;
+    return errno == 0 ? 0 : -1;
+}
 
 namespace frustumscreen {
 namespace {
@@ -22,7 +37,10 @@ protected:
         fs::remove_all(folder);
         fs::create_directories(folder);
     }
-    void TearDown() override { fs::remove_all(folder); }
+    void TearDown() override {
+        disk_error = 0;
+        fs::remove_all(folder);
+    }
 
     struct Contents {
         std::vector<std::uint64_t> numbers; ///< of the packets received
@@ -52,6 +70,14 @@ protected:
         std::vector<std::byte> payload(size);
         std::memcpy(payload.data(), &number, sizeof(number));
         recorder.packet(PacketKind::Received, from_microseconds(static_cast<std::int64_t>(number)), payload);
+    }
+    static Bytes everything_from(int descriptor) {
+        Bytes all;
+        std::array<std::byte, 65536> block;
+        for (ssize_t count = 0; (count = ::read(descriptor, block.data(), block.size())) > 0;) {
+            all.insert(all.end(), block.begin(), block.begin() + count);
+        }
+        return all;
     }
     fs::path folder;
 };
@@ -126,12 +152,12 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
         while (recorder.counts().dropped < 100) {
             put(recorder, number++, 4096);
         }
-        reader = std::jthread([&] {
-            std::array<std::byte, 65536> block;
-            for (ssize_t count = 0; (count = ::read(ends[0], block.data(), block.size())) > 0;) {
-                read_back.insert(read_back.end(), block.begin(), block.begin() + count);
-            }
-        });
+        while (recorder.state().find("too slow") == std::string_view::npos) { // said while it hangs
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        EXPECT_EQ(recorder.state(), "the tracker is recorded to slow, but the disk is too slow: 64 or more "
+                                    "packets are missing");
+        reader = std::jthread([&] { read_back = everything_from(ends[0]); });
         const std::uint64_t before = recorder.counts().packets;
         while (recorder.counts().packets < before + 10) {
             put(recorder, number++, 4096);
@@ -145,6 +171,65 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
     const Contents contents = contents_of(read_back);
     EXPECT_EQ(contents.numbers.size() + contents.dropped, number);
     EXPECT_TRUE(std::is_sorted(contents.numbers.begin(), contents.numbers.end()));
+}
+
+TEST_F(RecorderTest, AGapAtTheEndIsNamedToo) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+    Bytes read_back;
+    std::uint64_t number = 0;
+    std::jthread reader;
+    {
+        PacketRecorder recorder(GrowingFile(ends[1], "slow"), "", from_microseconds(0));
+        while (recorder.counts().dropped < 100) {
+            put(recorder, number++, 4096);
+        }
+        reader = std::jthread([&] { read_back = everything_from(ends[0]); });
+        EXPECT_TRUE(recorder.finish());
+    } // closes the pipe
+    reader.join();
+    ::close(ends[0]);
+    const Contents contents = contents_of(read_back);
+    EXPECT_EQ(contents.numbers.size() + contents.dropped, number);
+    EXPECT_GE(contents.dropped, 100U);
+}
+
+TEST_F(RecorderTest, ADiskThatCannotKeepWhatItTookEndsTheRecording) {
+    for (const auto& [error, words] :
+         {std::pair{EIO, "cannot be written: Input/output error"}, std::pair{ENOSPC, "the disk is full"}}) {
+        disk_error = error;
+        Result<GrowingFile> file = GrowingFile::create(folder / "a");
+        ASSERT_TRUE(file);
+        const std::string path = file->path();
+        PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
+        while (recorder.state().find("ended") == std::string_view::npos) {
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        EXPECT_EQ(recorder.state(), "the recording has ended; " + path + ": " + words);
+        EXPECT_FALSE(recorder.finish());
+    }
+}
+
+TEST_F(RecorderTest, AtTheVeryEndToo) {
+    Result<GrowingFile> file = GrowingFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
+    disk_error = EIO; // long before the first second is over
+    const Result<void> finished = recorder.finish();
+    ASSERT_FALSE(finished);
+    EXPECT_NE(finished.error().message.find("cannot be written"), std::string::npos);
+}
+
+TEST_F(RecorderTest, WhatComesAfterTheEndIsNotTaken) {
+    Result<GrowingFile> file = GrowingFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
+    put(recorder, 1, 8);
+    ASSERT_TRUE(recorder.finish());
+    const std::uint64_t packets = recorder.counts().packets;
+    put(recorder, 2, 8);
+    EXPECT_EQ(recorder.counts().packets, packets);
+    EXPECT_EQ(contents_of(*read_file(folder / "a")).numbers, std::vector<std::uint64_t>{1});
 }
 
 /// A HID tracker that streams on the machine's own clock.
