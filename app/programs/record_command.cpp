@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -26,6 +27,8 @@ namespace {
 
 constexpr Nanoseconds between_polls = std::chrono::milliseconds(2);
 constexpr double longest_s = 86400.0;
+/// From the recording's end to the program's; a thread may hang in its device.
+constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
 
 struct Request {
     std::filesystem::path config;
@@ -150,7 +153,8 @@ Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracke
     return {};
 }
 
-Result<void> record(const Request& request) {
+/// `inputs` are the caller's to end: a thread of theirs may hang in its device.
+Result<void> record(const Request& request, Inputs& inputs) {
     const StopSignals stop;
     const Result<CheckedSettings> settings = load_settings(request.config);
     if (!settings) {
@@ -162,19 +166,17 @@ Result<void> record(const Request& request) {
         return fail(ErrorKind::BadConfiguration, "tracker.kind is \"none\"; there is nothing to record");
     }
     const MonotonicTime start = monotonic_now();
-    Result<Inputs> inputs = make_inputs(**settings, devices, std::nullopt, start,
-                                        request.raw ? request.output : std::filesystem::path());
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
+    Result<Inputs> made = make_inputs(**settings, devices, std::nullopt, start,
+                                      request.raw ? request.output : std::filesystem::path());
+    if (!made) {
+        return tl::unexpected<Error>(made.error());
     }
-    Recording recording(*inputs->tracker, start);
+    inputs = std::move(*made);
+    Recording recording(*inputs.tracker, start);
     recording.run(request, stop, !request.raw);
-    if (!request.raw) {
-        return write_pose_recording(request, **settings, *inputs, recording, start);
-    }
-    const std::string state(recording.state());
-    inputs->tracker.reset(); // its last packets, too
-    return end_raw_recording(*inputs->recorder, state);
+    const StopSignals::AtOnce at_once(stop); // a disk may take long, or hang; whoever asks twice means it
+    return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
+                       : write_pose_recording(request, **settings, inputs, recording, start);
 }
 
 } // namespace
@@ -185,7 +187,14 @@ int record_command(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    return exit_status("frustumscreen", record(request));
+    Inputs inputs;
+    const int status = exit_status("frustumscreen", record(request, inputs));
+    std::fflush(stdout);
+    if (status != 0) {
+        std::quick_exit(status); // a device that hangs must not make a success of it
+    }
+    end_within(longest_stop); // all is in the file; only the device is left to put away
+    return status;
 }
 
 } // namespace frustumscreen

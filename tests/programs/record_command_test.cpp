@@ -3,6 +3,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
+#include "tests/programs/hung_thread.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -66,6 +69,39 @@ protected:
         const auto parsed = parse_poses(text(file), file, PoseOrder::PropAscends);
         EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
         return parsed ? *parsed : std::vector<PoseSample>();
+    }
+    /// Records until it is told to stop, while the tracker's thread hangs; nothing: that cannot be done here.
+    [[nodiscard]] std::optional<int> stopped_while_the_device_hangs(std::vector<const char*> more) const {
+        const pid_t process = ::fork();
+        if (process == 0) {
+            fs::current_path(folder);
+            ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
+            std::freopen("out.txt", "w", stdout);
+            std::freopen("err.txt", "w", stderr);
+            std::vector<const char*> all{"frustumscreen", "record", "--config", "kiosk.toml"};
+            all.insert(all.end(), more.begin(), more.end());
+            all.push_back(nullptr);
+            ::execv(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", const_cast<char**>(all.data()));
+            ::_exit(127);
+        }
+        const std::optional<pid_t> tracker = thread_named(process, "tracker");
+        EXPECT_TRUE(tracker);
+        const bool hangs = tracker && hang(*tracker);
+        ::kill(process, hangs ? SIGTERM : SIGKILL);
+        // However slow the machine is, it ends; one that cannot be stopped is not waited for.
+        siginfo_t ended{};
+        for (int look = 0; hangs && look < 3000 && ended.si_pid == 0; ++look) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            ::waitid(P_PID, static_cast<id_t>(*tracker), &ended, WEXITED | WNOHANG | WNOWAIT | __WALL);
+        }
+        EXPECT_TRUE(!hangs || ended.si_pid != 0) << "it cannot be stopped";
+        ::kill(process, SIGKILL);
+        int status = 0;
+        if (hangs) {
+            ::waitpid(*tracker, nullptr, __WALL); // the tracer sees each thread's end first
+        }
+        ::waitpid(process, &status, 0);
+        return hangs ? std::optional(WIFEXITED(status) ? WEXITSTATUS(status) : -1) : std::nullopt;
     }
     fs::path folder;
 };
@@ -130,6 +166,29 @@ TEST_F(RecordCommand, WithoutADeviceThePacketsAreStillARecordingThatSaysSo) {
     EXPECT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.1 -o none.csv"), 1);
     EXPECT_NE(text("err.txt").find("no pose came"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "none.csv"));
+}
+
+TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost) {
+    settings("kind = \"usb\"\n");
+    const std::optional<int> status = stopped_while_the_device_hangs({"--raw", "-o", "raw"});
+    if (!status) {
+        GTEST_SKIP() << "this machine lets nobody trace";
+    }
+    EXPECT_EQ(*status, 0);
+    EXPECT_NE(text("err.txt").find("a device did not let go"), std::string::npos) << text("err.txt");
+    EXPECT_NE(text("out.txt").find(" packets, 0 dropped"), std::string::npos);
+    const Bytes file = *read_file(folder / "raw");
+    Result<PacketReader> reader = PacketReader::open(file, "raw");
+    ASSERT_TRUE(reader);
+    std::size_t packets = 0;
+    while (reader->next()) {
+        ++packets;
+    }
+    EXPECT_EQ(reader->left(), 0U);
+    EXPECT_EQ(text("out.txt").find(fmt::format("raw: {} packets", packets)), 0U) << text("out.txt");
+
+    EXPECT_EQ(stopped_while_the_device_hangs({"-o", "none.csv"}), 1); // and says why
+    EXPECT_NE(text("err.txt").find("no pose came"), std::string::npos) << text("err.txt");
 }
 
 } // namespace

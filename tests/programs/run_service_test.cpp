@@ -1,5 +1,6 @@
 // `frustumscreen run` as a service manager sees it: ready, fed, starved, stopped.
 
+#include "tests/programs/hung_thread.h"
 #include "tests/programs/kiosk_folder.h"
 #include "tests/service/notify_socket.h"
 
@@ -81,20 +82,6 @@ protected:
         ::waitpid(std::exchange(process, 0), &status, 0);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    /// Waited for: a thread names itself when it first runs.
-    std::optional<pid_t> thread_named(const std::string& wanted) const {
-        for (const auto end = Clock::now() + seconds(10); Clock::now() < end;) {
-            for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
-                std::string name;
-                std::getline(std::ifstream(entry.path() / "comm"), name);
-                if (name == wanted) {
-                    return std::stoi(entry.path().filename());
-                }
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return std::nullopt;
-    }
 
     NotifySocket socket;
     pid_t process = 0;
@@ -139,20 +126,16 @@ TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
 TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     start("", "usb");
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
-    const std::optional<pid_t> tracker = thread_named("tracker");
+    const std::optional<pid_t> tracker = thread_named(process, "tracker");
     ASSERT_TRUE(tracker);
-    // A tracer may stop a single thread.
-    if (::ptrace(PTRACE_SEIZE, *tracker, nullptr, nullptr) != 0) {
+    if (!hang(*tracker)) {
         GTEST_SKIP() << "this machine lets nobody trace";
     }
-    ASSERT_EQ(::ptrace(PTRACE_INTERRUPT, *tracker, nullptr, nullptr), 0);
-    int status = 0;
-    ASSERT_EQ(::waitpid(*tracker, &status, __WALL), *tracker);
     std::this_thread::sleep_for(seconds(11)); // its promise is broken by then
     EXPECT_FALSE(fed_within(seconds(2)));
     EXPECT_NE(errors().find("watchdog: not fed: a device's thread hangs"), std::string::npos) << errors();
     ::kill(process, SIGTERM);
-    ::waitpid(*tracker, &status, __WALL); // the tracer sees each thread's end first
+    ::waitpid(*tracker, nullptr, __WALL); // the tracer sees each thread's end first
     EXPECT_EQ(ending(), 0);               // though the thread could not be joined
     EXPECT_NE(errors().find("a device did not let go"), std::string::npos) << errors();
 }

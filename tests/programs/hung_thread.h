@@ -1,0 +1,43 @@
+/// One thread of another process, found by its name and stopped for good, as a device that hangs stops it.
+#pragma once
+
+#include <fmt/format.h>
+#include <sys/ptrace.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace frustumscreen {
+
+/// Waited for: a thread names itself when it first runs.
+inline std::optional<pid_t> thread_named(pid_t process, const std::string& wanted) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;) {
+        for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+            std::string name;
+            std::getline(std::ifstream(entry.path() / "comm"), name);
+            if (name == wanted) {
+                return std::stoi(entry.path().filename());
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return std::nullopt;
+}
+
+/// Stops a child's thread; from here on it is traced, and its end has to be waited for before the child's.
+/// False: this machine lets nobody trace.
+inline bool hang(pid_t thread) {
+    int status = 0;
+    return ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&
+           ::ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr) == 0 &&
+           ::waitpid(thread, &status, __WALL) == thread;
+}
+
+} // namespace frustumscreen
