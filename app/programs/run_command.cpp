@@ -85,6 +85,9 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
 /// From the end of the loop: a device's thread that does not come back is not waited for.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
 constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
+/// For so long a service shows why there is nothing to show, before it ends and is started to look for packs
+/// anew.
+constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
 
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
@@ -131,6 +134,18 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         return std::move(*artifacts); // no chord can be held
     }
     return std::make_unique<StaffShow>(settings, std::move(*artifacts), display.name());
+}
+
+/// On the table for the staff, where a person would read standard error.
+Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
+                                          const Error& why) {
+    journal.note(Weight::Error, why.message, {{"DEVICE", "exhibit"}});
+    Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
+    if (!pattern) {
+        return tl::unexpected<Error>(why);
+    }
+    (*pattern)->set_lines({why.message});
+    return std::move(*pattern);
 }
 
 /// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.
@@ -200,10 +215,15 @@ Result<void> run(const Request& request) {
     // Simulated time starts at zero, real time when everything is loaded.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
-    const Result<std::unique_ptr<Show>> show = [&] {
+    Result<std::unique_ptr<Show>> show = [&] {
         const StopSignals::AtOnce at_once(stop_signals); // loading takes long, and leaves nothing behind
         return make_show(request, **settings, devices, **display, now());
     }();
+    std::optional<Error> excuse;
+    if (!show && manager.listens()) {
+        excuse = show.error();
+        show = make_excuse(**settings, journal, *excuse);
+    }
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }
@@ -219,6 +239,8 @@ Result<void> run(const Request& request) {
     LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = nanoseconds(request.seconds);
+    } else if (excuse) {
+        options.length = excuse_length;
     }
     options.fast = request.fast;
     options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
@@ -235,6 +257,9 @@ Result<void> run(const Request& request) {
     }
     if (request.seconds == 0.0) {
         end_within(longest_stop);
+    }
+    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // not told to stop
+        return tl::unexpected<Error>(*excuse);
     }
     if (!request.out.empty()) {
         if (Result<void> written = write_pictures(request.out, *result); !written) {

@@ -75,8 +75,9 @@ void RunWatch::note_health(Health health) {
 }
 
 void RunWatch::note(const RunStatus& status) {
-    const Sentence shows =
-        format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
+    const Sentence shows = status.artifact.empty() ? Sentence("shows the alignment pattern")
+                                                   : format_sentence("shows {} ({}, {})", status.artifact,
+                                                                     status.language, status.level);
     const bool other = Sentence(status.artifact) != artifact_ || Sentence(status.language) != language_;
     artifact_ = Sentence(status.artifact);
     language_ = Sentence(status.language);

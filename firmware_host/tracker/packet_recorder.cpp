@@ -1,5 +1,7 @@
 #include "firmware_host/tracker/packet_recorder.h"
 
+#include "firmware_host/base/device_thread.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -56,6 +58,7 @@ void PacketRecorder::name_gap(MonotonicTime time) {
 }
 
 void PacketRecorder::write(const std::stop_token& stop) {
+    begin_device_thread("recorder");
     Bytes writing;
     writing.reserve(most_waiting_bytes);
     MonotonicTime synced = monotonic_now();

@@ -151,6 +151,16 @@ TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
     EXPECT_EQ(ending(), -1);
 }
 
+TEST_F(RunService, WithoutAPackShowsWhyAndStops) {
+    fs::remove(folder / "rings.fspack");
+    start();
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    EXPECT_TRUE(fed_within(seconds(10)));
+    EXPECT_NE(errors().find("can be shown"), std::string::npos) << errors();
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), 0);
+}
+
 TEST_F(RunService, StopsInTheMiddleOfLoading) {
     start();
     ::kill(process, SIGTERM);
