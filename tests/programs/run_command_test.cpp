@@ -88,6 +88,16 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
 }
 
+TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
+    const nlohmann::json replayed = run("--seconds 1");
+    EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is asked");
+    EXPECT_EQ(replayed.at("panel"), ""); // there is none
+    write_settings("simulated", "[[panel.script]]\nat_s = 1.0\nbutton = 2\n");
+    const nlohmann::json simulated = run("--seconds 2 --soak 1");
+    EXPECT_EQ(simulated.at("tracker"), "a simulated visitor moves the prop; no tracker is asked");
+    EXPECT_EQ(simulated.at("panel"), "presses come from a script; no buttons are asked");
+}
+
 TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {
     run("--seconds 2 --out pictures --stills 2");
     for (const char* name : {"frame_00000.png", "frame_00001.png"}) {
