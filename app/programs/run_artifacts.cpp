@@ -158,7 +158,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             needs = united(needs, artifact->plan.passes);
             artifacts.push_back(std::move(*artifact));
         } else {
-            say_line("frustumscreen", fmt::format("left out: {}", artifact.error().message));
+            say_line(options.program, fmt::format("left out: {}", artifact.error().message));
         }
     }
     if (artifacts.empty()) {

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -27,6 +28,7 @@ struct ArtifactShowOptions {
     std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
     int samples = default_samples;  ///< a pixel, that there is room for
     unsigned economies = AllEconomies;
+    std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
 };
 
 /// What a show took, planned and observed.

@@ -66,6 +66,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         return PatternShow::create(settings);
     }
     ArtifactShowOptions options = request.show;
+    options.program = "frustumscreen-window";
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
     }
