@@ -175,8 +175,9 @@ Result<void> render(const Request& request) {
         csv += *line;
         progress.show(frame + 1, frames->size());
     }
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
     if (!visitor_frames.empty()) {
-        if (Result<void> written = write_file(request.out / "visitor_cameras.json",
+        if (Result<void> written = write_file(request.out / visitor_cameras_name,
                                               as_bytes(visitor_cameras_json(visitor_frames)));
             !written) {
             return written;

@@ -1,5 +1,6 @@
 #include "app/programs/run_command.h"
 
+#include "app/exhibit/visitor_view.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
@@ -262,6 +263,8 @@ Result<void> run(const Request& request) {
         return tl::unexpected<Error>(*excuse);
     }
     if (!request.out.empty()) {
+        std::error_code failed;
+        std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call of render
         if (Result<void> written = write_pictures(request.out, *result); !written) {
             return written;
         }

@@ -79,6 +79,25 @@ TEST_F(RenderCommand, ShowsTheVisitorsView) {
     EXPECT_EQ(picture("half/frame_00000.png").width, 640); // of the 1280 in near.toml
 }
 
+TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
+    const auto sheet = [&](const std::string& arguments) {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
+                        ">out.txt 2>err.txt",
+                        folder.string(), FRUSTUMSCREEN_BIN_DIR, FRUSTUMSCREEN_SOURCE_DIR, arguments);
+        return std::system(command.c_str()) == 0 ? std::string() : text("err.txt");
+    };
+    EXPECT_EQ(sheet("--frames nowhere"), "frustumscreen-sheet: nowhere: there is no such folder\n");
+    ASSERT_EQ(run(usual("v") + "--width 320 --height 200 --view visitor"), 0) << text("err.txt");
+    EXPECT_EQ(sheet("--frames v --poses poses.csv").rfind("frustumscreen-sheet: v/visitor_cameras.json: ", 0),
+              0U);
+    ASSERT_EQ(run(usual("v") + "--width 320 --height 200"), 0) << text("err.txt");
+    EXPECT_EQ(sheet("--frames v"),
+              "frustumscreen-sheet: v/poses.csv: there is no such file; name it with --poses\n");
+    EXPECT_EQ(sheet("--frames v --poses poses.csv"), "");
+    EXPECT_TRUE(fs::exists(folder / "sheet.png"));
+}
+
 TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
     struct Case {
         std::string arguments;
