@@ -48,6 +48,15 @@ TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
     return rectangle;
 }
 
+/// Messages about a pack begin with its file.
+PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+    const std::string place = pack + ": ";
+    if (message.substr(0, place.size()) == place) {
+        message.remove_prefix(place.size());
+    }
+    return {pack, std::string(message)};
+}
+
 std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
     const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
     return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
@@ -148,6 +157,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     Loader loader{settings, devices, options, std::nullopt};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
+    std::vector<PackLeftOut> left_out;
     PassNeeds needs;
     for (const std::filesystem::path& file : options.packs) {
         if (!artifacts.empty() && !devices.other_packs) {
@@ -159,6 +169,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             artifacts.push_back(std::move(*artifact));
         } else {
             say_line(options.program, fmt::format("left out: {}", artifact.error().message));
+            left_out.push_back(pack_left_out(file.string(), artifact.error().message));
         }
     }
     if (artifacts.empty()) {
@@ -174,6 +185,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
+    show->left_out_ = std::move(left_out);
     show->measure(settings, target);
     return show;
 }
@@ -308,9 +320,12 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.switches += each.levels.state().switches;
         levels.ignored_times += each.levels.state().ignored_times;
     }
-    return {artifact.title, exhibit_.language(), levels,
+    return {artifact.title,
+            exhibit_.language(),
+            levels,
             !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
-            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt};
+            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt,
+            left_out_};
 }
 
 } // namespace frustumscreen

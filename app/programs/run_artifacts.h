@@ -93,6 +93,7 @@ private:
     PassNeeds needs_;
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
+    std::vector<PackLeftOut> left_out_;
     Exhibit exhibit_;
     glm::dvec2 attract_place_m_;
     std::optional<Attract> attract_; ///< from the first picture on

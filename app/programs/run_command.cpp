@@ -170,6 +170,7 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
 
 void report(const Request& request, const LoopResult& result) {
     RunStatus status = result.status;
+    status.written_at = std::chrono::system_clock::now();
     status.resident_mib = resident_mib();
     if (request.json) {
         fmt::print("{}", status_json(status));

@@ -98,6 +98,16 @@ TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
     EXPECT_EQ(simulated.at("panel"), "presses come from a script; no buttons are asked");
 }
 
+TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
+    const nlohmann::json status =
+        run("--seconds 1 --status-file status.json --packs cat.fspack rings.fspack");
+    const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
+    for (const nlohmann::json& each : {status, file}) {
+        EXPECT_EQ(each.at("left_out"),
+                  nlohmann::json::array({{{"pack", "cat.fspack"}, {"reason", "there is no such file"}}}));
+    }
+}
+
 TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {
     run("--seconds 2 --out pictures --stills 2");
     for (const char* name : {"frame_00000.png", "frame_00001.png"}) {
