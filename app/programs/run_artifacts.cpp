@@ -18,17 +18,23 @@ namespace {
 constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 constexpr double warm_up_step_m = 0.01;
 
-/// Languages of all artifacts, in the order of their first appearance.
-template <typename Artifacts> std::vector<std::string> all_languages(const Artifacts& artifacts) {
-    std::vector<std::string> languages;
+void add_once(std::vector<std::string>& languages, const std::string& language) {
+    if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+        languages.push_back(language);
+    }
+}
+
+/// Begins in the language that is asked for, or in the one that stands for it.
+template <typename Artifacts>
+Exhibit make_exhibit(const Artifacts& artifacts, const std::string& asked, MonotonicTime now) {
+    std::vector<std::string> languages; // in the order of their first appearance
     for (const auto& artifact : artifacts) {
         for (const std::string& language : artifact.languages) {
-            if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
-                languages.push_back(language);
-            }
+            add_once(languages, language);
         }
     }
-    return languages;
+    const std::string first = languages.empty() ? asked : languages[caption_for(asked, languages)];
+    return {artifacts.size(), std::move(languages), first, now};
 }
 
 /// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
@@ -72,6 +78,7 @@ struct ArtifactShow::Loader {
     const ArtifactShowOptions& options;
     std::optional<Typesetter> typesetter; ///< opened for the first caption
     std::uint64_t next_id = 1;
+    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
         ScenePlan plan;
@@ -95,6 +102,9 @@ struct ArtifactShow::Loader {
         next_id += (*pack)->levels.size();
         plan.passes = levels->needs();
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
+        for (const PackCaption& caption : (*pack)->captions) {
+            add_once(languages, caption.language);
+        }
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             return at(file.string(), set.error());
@@ -186,6 +196,12 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
     show->left_out_ = std::move(left_out);
+    if (settings.exhibit.captions && !loader.languages.empty() &&
+        !has_language(loader.languages, settings.exhibit.language)) {
+        show->notes_.push_back(fmt::format(
+            "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
+            show->language_of(show->artifacts_.front()), fmt::join(loader.languages, ", ")));
+    }
     show->measure(settings, target);
     return show;
 }
@@ -220,8 +236,7 @@ ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Ren
                            std::vector<Artifact> artifacts, MonotonicTime now)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
-      artifacts_(std::move(artifacts)),
-      exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
+      artifacts_(std::move(artifacts)), exhibit_(make_exhibit(artifacts_, settings.exhibit.language, now)),
       attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m),
       placer_(picture_on_table(settings, 0.0)) {}
 
@@ -309,6 +324,12 @@ void ArtifactShow::took(MonotonicTime now, double ms) {
     artifacts_[on_].levels.took(now, ms);
 }
 
+std::string_view ArtifactShow::language_of(const Artifact& artifact) const {
+    return artifact.languages.empty()
+               ? exhibit_.language()
+               : artifact.languages[caption_for(exhibit_.language(), artifact.languages)];
+}
+
 ShowState ArtifactShow::state(MonotonicTime now) const {
     const Shown shown = exhibit_.at(now);
     const Artifact& artifact = artifacts_[shown.artifact];
@@ -321,7 +342,7 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.ignored_times += each.levels.state().ignored_times;
     }
     return {artifact.title,
-            exhibit_.language(),
+            language_of(artifact),
             levels,
             !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
             stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt,

@@ -10,6 +10,7 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -130,6 +131,9 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
     if (!artifacts) {
         return tl::unexpected<Error>(artifacts.error());
+    }
+    for (const std::string& note : (*artifacts)->notes()) {
+        say_line("frustumscreen", note);
     }
     if (settings.panel.buttons() < 2) {
         return std::move(*artifacts); // no chord can be held

@@ -5,6 +5,7 @@
 #include "app/programs/run_pattern.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -73,7 +74,15 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     DevicePlan devices;
     devices.tracker = TrackerKind::Simulated;
     devices.panel = devices.other_packs = devices.language = true;
-    return ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+    Result<std::unique_ptr<ArtifactShow>> show =
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    for (const std::string& note : (*show)->notes()) {
+        say_line(options.program, note);
+    }
+    return std::move(*show);
 }
 
 Result<void> run(const Request& request) {

@@ -108,6 +108,20 @@ TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
     }
 }
 
+TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
+    write_settings("replay", "language = \"en-GB\"\n");
+    EXPECT_EQ(run("--seconds 1").at("language"), "en");
+    const Bytes quiet = *read_file(folder / "err.txt");
+    EXPECT_EQ(as_text(quiet).find("captions"), std::string_view::npos);
+    write_settings("replay", "language = \"xx\"\n");
+    EXPECT_EQ(run("--seconds 1").at("language"), "en");
+    const Bytes errors = *read_file(folder / "err.txt");
+    EXPECT_EQ(as_text(errors).rfind(
+                  "frustumscreen: no artifact has captions in 'xx'; en is shown; there are en\n", 0),
+              0U)
+        << as_text(errors);
+}
+
 TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {
     run("--seconds 2 --out pictures --stills 2");
     for (const char* name : {"frame_00000.png", "frame_00001.png"}) {
