@@ -1,6 +1,7 @@
 #include "app/programs/render_command.h"
 
 #include "app/exhibit/visitor_view.h"
+#include "app/programs/argument_checks.h"
 #include "app/programs/offline_render.h"
 #include "app/programs/progress_line.h"
 #include "app/settings/settings.h"
@@ -41,6 +42,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--poses", request.poses, "poses, CSV")->required();
     app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
     app.add_option("--technique", request.options.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     CLI::Option* width =
         app.add_option("--width", request.width, "picture's width in pixels")->check(CLI::Range(1, 16384));

@@ -1,6 +1,7 @@
 #include "app/programs/run_command.h"
 
 #include "app/exhibit/visitor_view.h"
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
@@ -51,7 +52,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_flag("--headless", request.headless, "without a screen");
     CLI::Option* seconds = app.add_option("--seconds", request.seconds, "stop after so many seconds")
-                               ->check(CLI::Range(0.01, 1e6));
+                               ->check(seconds_between(0.01, 1e6));
     app.add_option("--out", request.out,
                    "folder for frame_*.png, their poses.csv and frames.csv of all frames; made if missing")
         ->needs(seconds);
@@ -64,6 +65,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");
     app.add_flag("--full-redraw", request.full_redraw, "draw the whole picture every time, for measuring");

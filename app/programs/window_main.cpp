@@ -1,4 +1,5 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
@@ -37,9 +38,11 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
-    app.add_option("--seconds", request.seconds, "stop after so many seconds")->check(CLI::Range(0.01, 1e6));
+    app.add_option("--seconds", request.seconds, "stop after so many seconds")
+        ->check(seconds_between(0.01, 1e6));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

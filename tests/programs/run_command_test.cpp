@@ -58,7 +58,7 @@ TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
         EXPECT_NE(text.find(words), std::string::npos) << words;
     }
     EXPECT_NE(say("--technique level7"), 0);
-    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("level0 to level0"),
+    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("auto, finest and level0\n"),
               std::string::npos);
 }
 
