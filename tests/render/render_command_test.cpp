@@ -105,7 +105,8 @@ TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
     };
     for (const Case& c :
          {Case{usual("x") + "--technique level7", 1}, Case{usual("x") + "--pack missing.fspack", 2},
-          Case{usual("x") + "--width 100", 2}, Case{"render", 2}, Case{"wobble", 2}, Case{"", 2},
+          Case{usual("x") + "--width 100", 2}, Case{usual("x") + "--technique finst", 2}, Case{"render", 2},
+          Case{"wobble", 2}, Case{"", 2},
           Case{"render --config none.toml --pack rings.fspack --poses poses.csv --out x", 1},
           Case{usual("poses.csv/x"), 1}}) {
         EXPECT_EQ(run(c.arguments), c.status) << c.arguments;
@@ -122,6 +123,27 @@ TEST_F(RenderCommand, HelpIsNoFailure) {
     EXPECT_NE(text("out.txt").find("--poses"), std::string::npos);
     EXPECT_EQ(run("--version"), 0);
     EXPECT_EQ(run("--help"), 0);
+    EXPECT_EQ(run("render --version"), 0);
+    EXPECT_EQ(text("out.txt").rfind("frustumscreen ", 0), 0U);
+}
+
+TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
+    const auto refusal = [&](const std::string& arguments) {
+        EXPECT_EQ(run(arguments), 2) << arguments;
+        const std::string error = text("err.txt");
+        return error.substr(0, error.find('\n'));
+    };
+    EXPECT_EQ(refusal("--config kiosk.toml run"), "frustumscreen: write run before its options");
+    for (const std::string technique : {"finst", "level", "level-1", "Auto", "level0x"}) {
+        EXPECT_EQ(refusal("run --pattern --config kiosk.toml --technique " + technique),
+                  "--technique: '" + technique +
+                      "' is no technique; allowed: auto, finest, level0, level1, ...");
+    }
+    for (const std::string seconds : {"8s", "0,5", "0", "nan", "1e9"}) {
+        EXPECT_EQ(refusal("run --config kiosk.toml --seconds " + seconds),
+                  "--seconds: '" + seconds +
+                      "' is not allowed; a number of seconds is wanted, 0.01 to 1000000, such as 8 or 0.5");
+    }
 }
 
 } // namespace
