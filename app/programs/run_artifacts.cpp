@@ -63,6 +63,14 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
     return {pack, std::string(message)};
 }
 
+tl::unexpected<Error> nothing_to_show(std::size_t packs) {
+    return fail(ErrorKind::BadConfiguration,
+                packs == 0   ? "no pack is named; name packs under [exhibit] packs in the settings or with "
+                               "--packs, and make them with frustumscreen-bake"
+                : packs == 1 ? "the pack cannot be shown; see the line above"
+                             : fmt::format("none of the {} packs can be shown; see the lines above", packs));
+}
+
 std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
     const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
     return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
@@ -183,10 +191,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         }
     }
     if (artifacts.empty()) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
-            "make them with frustumscreen-bake");
+        return nothing_to_show(options.packs.size());
     }
     const Pinhole& pinhole = settings.projector.pinhole;
     Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));

@@ -108,6 +108,23 @@ TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
     }
 }
 
+TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
+    const auto errors = [&](const std::string& packs) {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 "
+                        "--packs {} >out.txt 2>err.txt",
+                        folder.string(), FRUSTUMSCREEN_BIN_DIR, packs);
+        EXPECT_NE(std::system(command.c_str()), 0);
+        return std::string(as_text(*read_file(folder / "err.txt")));
+    };
+    EXPECT_EQ(errors("cat.fspack"), "frustumscreen: left out: cat.fspack: there is no such file\n"
+                                    "frustumscreen: the pack cannot be shown; see the line above\n");
+    EXPECT_EQ(errors("cat.fspack ."),
+              "frustumscreen: left out: cat.fspack: there is no such file\n"
+              "frustumscreen: left out: .: this is a folder; name the *.fspack files in it\n"
+              "frustumscreen: none of the 2 packs can be shown; see the lines above\n");
+}
+
 TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
     write_settings("replay", "language = \"en-GB\"\n");
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
