@@ -125,6 +125,16 @@ TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
               "frustumscreen: none of the 2 packs can be shown; see the lines above\n");
 }
 
+TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
+    std::filesystem::remove(folder / "poses.csv");
+    const std::string command = fmt::format(
+        "cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 >out.txt 2>err.txt",
+        folder.string(), FRUSTUMSCREEN_BIN_DIR);
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_EQ(as_text(*read_file(folder / "err.txt")),
+              "frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: there is no such file\n");
+}
+
 TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
     write_settings("replay", "language = \"en-GB\"\n");
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
