@@ -7,6 +7,7 @@
 #include "app/settings/settings.h"
 #include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/tracker/pose_file.h"
 
 #include <CLI/CLI.hpp>
@@ -83,6 +84,20 @@ Result<std::vector<Situation>> frames_of(const Request& request, const Settings&
     return pose_frames(*samples, settings.eye.default_m);
 }
 
+/// Poses in millimetres, or in a tracker's frame, give dark pictures.
+void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
+    const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
+        const glm::dvec2 place_m(frame.table_from_prop.translation);
+        return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
+    });
+    if (off > 0) {
+        say_line("frustumscreen",
+                 fmt::format("in {} of {} poses the prop is off the table ({} x {} m); positions are metres",
+                             off, frames.size(), table.width_m, table.depth_m));
+    }
+}
+
 /// Everything that one picture is made with.
 struct Studio {
     const Request& request;
@@ -138,6 +153,7 @@ Result<void> render(const Request& request) {
     if (!frames) {
         return tl::unexpected<Error>(frames.error());
     }
+    say_off_the_table(*frames, (*settings)->table);
     OfflineOptions options = request.options;
     for (const Situation& frame : *frames) {
         options.views.push_back({frame.table_from_prop, frame.eye_m});

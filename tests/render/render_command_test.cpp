@@ -60,7 +60,16 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
     EXPECT_NE(csv.find("\n1,3000,"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",level0,"), std::string::npos) << csv;
     EXPECT_TRUE(text("out.txt").empty());
-    EXPECT_TRUE(text("err.txt").empty());
+    EXPECT_EQ(text("err.txt"), "");
+}
+
+TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
+    ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                                                          "1000,1,0.20,0,0,1,0,0,0,1\n"
+                                                          "2000,1,20,0,0,1,0,0,0,1\n")));
+    ASSERT_EQ(run(usual("a") + "--width 320 --height 200"), 0);
+    EXPECT_EQ(text("err.txt"), "frustumscreen: in 1 of 2 poses the prop is off the table (0.404 x 0.252 m); "
+                               "positions are metres\n");
 }
 
 TEST_F(RenderCommand, TheSameInputGivesTheSameBytes) {
