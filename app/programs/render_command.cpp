@@ -4,6 +4,7 @@
 #include "app/programs/argument_checks.h"
 #include "app/programs/offline_render.h"
 #include "app/programs/progress_line.h"
+#include "app/programs/prop_note.h"
 #include "app/settings/settings.h"
 #include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
@@ -170,6 +171,9 @@ Result<void> render(const Request& request) {
         });
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
+    }
+    if (const auto note = note_other_prop(request.pack.string(), **pack, (*settings)->prop.kind)) {
+        say_line("frustumscreen", *note);
     }
     std::error_code failed;
     std::filesystem::create_directories(request.out, failed);

@@ -2,6 +2,7 @@
 
 #include "app/exhibit/caption_image.h"
 #include "app/pack/pack_file.h"
+#include "app/programs/prop_note.h"
 #include "app/render/read_back.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/standard_error.h"
@@ -87,6 +88,7 @@ struct ArtifactShow::Loader {
     std::optional<Typesetter> typesetter; ///< opened for the first caption
     std::uint64_t next_id = 1;
     std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
+    std::vector<std::string> notes = {};
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
         ScenePlan plan;
@@ -112,6 +114,9 @@ struct ArtifactShow::Loader {
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
         for (const PackCaption& caption : (*pack)->captions) {
             add_once(languages, caption.language);
+        }
+        if (const auto note = note_other_prop(file.string(), **pack, settings.prop.kind)) {
+            notes.push_back(*note);
         }
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
@@ -201,6 +206,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
     show->left_out_ = std::move(left_out);
+    show->notes_ = std::move(loader.notes);
     if (settings.exhibit.captions && !loader.languages.empty() &&
         !has_language(loader.languages, settings.exhibit.language)) {
         show->notes_.push_back(fmt::format(

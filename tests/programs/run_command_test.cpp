@@ -135,6 +135,18 @@ TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
               "frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: there is no such file\n");
 }
 
+TEST_F(RunCommand, SaysThatAPackWasBakedForAnotherProp) {
+    write_settings("replay", "[prop]\nkind = \"cube\"\n");
+    run("--seconds 1");
+    const Bytes errors = *read_file(folder / "err.txt");
+    EXPECT_EQ(
+        as_text(errors).rfind("frustumscreen: rings.fspack: it was baked for a frustum, and the prop of "
+                              "the settings is a cube; bake it with --prop cube\n",
+                              0),
+        0U)
+        << as_text(errors);
+}
+
 TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
     write_settings("replay", "language = \"en-GB\"\n");
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
