@@ -64,12 +64,18 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
     return {pack, std::string(message)};
 }
 
-tl::unexpected<Error> nothing_to_show(std::size_t packs) {
+/// On its own, too, where nobody reads the lines on standard error.
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) {
+    if (left_out.empty()) {
+        return fail(ErrorKind::BadConfiguration,
+                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
+                    "make them with frustumscreen-bake");
+    }
+    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
     return fail(ErrorKind::BadConfiguration,
-                packs == 0   ? "no pack is named; name packs under [exhibit] packs in the settings or with "
-                               "--packs, and make them with frustumscreen-bake"
-                : packs == 1 ? "the pack cannot be shown; see the line above"
-                             : fmt::format("none of the {} packs can be shown; see the lines above", packs));
+                left_out.size() == 1 ? "the pack cannot be shown: " + first
+                                     : fmt::format("none of the {} packs can be shown; the first: {}",
+                                                   left_out.size(), first));
 }
 
 std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
@@ -196,7 +202,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         }
     }
     if (artifacts.empty()) {
-        return nothing_to_show(options.packs.size());
+        return nothing_to_show(left_out);
     }
     const Pinhole& pinhole = settings.projector.pinhole;
     Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));

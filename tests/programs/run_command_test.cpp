@@ -117,12 +117,14 @@ TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
         EXPECT_NE(std::system(command.c_str()), 0);
         return std::string(as_text(*read_file(folder / "err.txt")));
     };
-    EXPECT_EQ(errors("cat.fspack"), "frustumscreen: left out: cat.fspack: there is no such file\n"
-                                    "frustumscreen: the pack cannot be shown; see the line above\n");
-    EXPECT_EQ(errors("cat.fspack ."),
+    EXPECT_EQ(errors("cat.fspack"),
               "frustumscreen: left out: cat.fspack: there is no such file\n"
-              "frustumscreen: left out: .: this is a folder; name the *.fspack files in it\n"
-              "frustumscreen: none of the 2 packs can be shown; see the lines above\n");
+              "frustumscreen: the pack cannot be shown: cat.fspack: there is no such file\n");
+    EXPECT_EQ(
+        errors("cat.fspack ."),
+        "frustumscreen: left out: cat.fspack: there is no such file\n"
+        "frustumscreen: left out: .: this is a folder; name the *.fspack files in it\n"
+        "frustumscreen: none of the 2 packs can be shown; the first: cat.fspack: there is no such file\n");
 }
 
 TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
