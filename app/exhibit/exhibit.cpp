@@ -74,4 +74,9 @@ std::size_t caption_for(std::string_view language, std::span<const std::string> 
     return best == languages.size() ? 0 : best;
 }
 
+bool has_language(std::span<const std::string> languages, std::string_view language) {
+    return std::any_of(languages.begin(), languages.end(),
+                       [&](const std::string& tag) { return primary(tag) == primary(language); });
+}
+
 } // namespace frustumscreen

@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -82,6 +83,8 @@ struct VisitorFrame {
     glm::dvec3 eye_m{0.0};
     VisitorCamera camera;
 };
+/// Stands beside pictures of the visitor's view, and beside no others.
+inline constexpr std::string_view visitor_cameras_name = "visitor_cameras.json";
 /// {"frames": [{"frame", "t_us", "eye_m"[3], "width", "height", "fx", "fy", "cx", "cy",
 /// "table_from_camera"[16, column-major]}]}; ends with a line break.
 [[nodiscard]] std::string visitor_cameras_json(std::span<const VisitorFrame> frames);

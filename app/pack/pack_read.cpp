@@ -194,6 +194,9 @@ Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseL
 }
 
 Result<VerifiedPack> load_pack(const std::filesystem::path& file, const ChooseLevels& choose) {
+    if (std::error_code none; std::filesystem::is_directory(file, none)) {
+        return bad_input(file.string() + ": this is a folder; name the *.fspack files in it");
+    }
     const Result<Bytes> bytes = read_file(file, most_pack_bytes);
     if (!bytes) {
         return tl::unexpected(bytes.error());

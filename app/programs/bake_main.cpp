@@ -6,6 +6,7 @@
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,10 +58,25 @@ Result<void> describe(Pack& pack, const Arguments& arguments) {
     return {};
 }
 
+/// Unlit, such a mesh would be one flat colour.
+bool has_colours(const SourceMesh& mesh) {
+    const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
+        return each.base_colour == mesh.materials.front().base_colour;
+    });
+    return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
 Result<Pack> bake_file(const Arguments& arguments) {
     const Result<SourceMesh> mesh = load_mesh(arguments.input);
     if (!mesh) {
         return tl::unexpected<Error>(mesh.error());
+    }
+    if (arguments.options.unlit && !has_colours(*mesh)) {
+        say_line(
+            "frustumscreen-bake",
+            fmt::format("{}: it has no colours, --unlit makes a flat picture of it; without --unlit it is "
+                        "lit as in a museum",
+                        arguments.input.string()));
     }
     Result<Pack> pack = bake(*mesh, arguments.options);
     if (!pack) {
@@ -99,7 +115,8 @@ int run(int argc, char** argv) {
     app.add_option("--size", arguments.options.size, "texels along the longest edge of a face, 16 to 4096")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
-    app.add_flag("--unlit", arguments.options.unlit, "base colour alone, no museum light");
+    app.add_flag("--unlit", arguments.options.unlit,
+                 "base colour alone, no museum light: for colours that have their light in them");
     app.add_option("--prop", arguments.prop, "prop whose directions the relief is made for")
         ->check(CLI::IsMember({"frustum", "cube"}))
         ->capture_default_str();

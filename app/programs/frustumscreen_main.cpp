@@ -10,9 +10,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 namespace {
@@ -47,30 +50,40 @@ void print_usage(std::FILE* to) {
                    "  --version\n");
 }
 
+struct Command {
+    std::string_view name;
+    int (*run)(int argc, char** argv);
+};
+constexpr std::array<Command, 5> commands{{{"run", run_command},
+                                           {"record", record_command},
+                                           {"render", render_command},
+                                           {"plan", plan_command},
+                                           {"config", config_command}}};
+
+const Command* command_named(std::string_view name) {
+    const auto* const found = std::find_if(commands.begin(), commands.end(),
+                                           [&](const Command& command) { return command.name == name; });
+    return found != commands.end() ? found : nullptr;
+}
+
 int dispatch(int argc, char** argv) {
-    const std::string_view command = argc > 1 ? argv[1] : "";
-    if (command == "render") {
-        return render_command(argc - 1, argv + 1);
+    const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
+    const std::string_view first = words.empty() ? "" : words[0];
+    const Command* const command = command_named(first);
+    if (first == "--version" || (command != nullptr && words.size() == 2 && words[1] == "--version")) {
+        fmt::print("frustumscreen {}\n", FRUSTUMSCREEN_VERSION);
+        return 0;
     }
-    if (command == "config") {
-        return config_command(argc - 1, argv + 1);
+    if (command != nullptr) {
+        return command->run(argc - 1, argv + 1);
     }
-    if (command == "run") {
-        return run_command(argc - 1, argv + 1);
-    }
-    if (command == "record") {
-        return record_command(argc - 1, argv + 1);
-    }
-    if (command == "plan") {
-        return plan_command(argc - 1, argv + 1);
-    }
-    if (command == "--help" || command == "-h") {
+    if (first == "--help" || first == "-h") {
         print_usage(stdout);
         return 0;
     }
-    if (command == "--version") {
-        fmt::print("frustumscreen {}\n", FRUSTUMSCREEN_VERSION);
-        return 0;
+    if (const auto late = std::find_if(words.begin(), words.end(), command_named); late != words.end()) {
+        fmt::print(stderr, "frustumscreen: write {} before its options\n", *late);
+        return 2;
     }
     print_usage(stderr);
     return 2;

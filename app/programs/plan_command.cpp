@@ -1,5 +1,6 @@
 #include "app/programs/plan_command.h"
 
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/plan_report.h"
 #include "app/programs/wiring.h"
@@ -28,6 +29,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
     app.add_option("--technique", request.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--json", request.json, "report as JSON");
     try {

@@ -1,5 +1,6 @@
 #include "app/programs/record_command.h"
 
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/placed_pose.h"
 #include "app/programs/progress_line.h"
@@ -45,7 +46,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("-o,--output", request.output, "the file to write")->required();
     app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
-        ->check(CLI::Range(0.01, longest_s));
+        ->check(seconds_between(0.01, longest_s));
     app.add_flag("--raw", request.raw,
                  "the packets with their times of arrival, in a new file that is good up to any cut; "
                  "frustumscreen-poses convert makes poses of it");

@@ -1,11 +1,14 @@
 #include "app/programs/render_command.h"
 
 #include "app/exhibit/visitor_view.h"
+#include "app/programs/argument_checks.h"
 #include "app/programs/offline_render.h"
 #include "app/programs/progress_line.h"
+#include "app/programs/prop_note.h"
 #include "app/settings/settings.h"
 #include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/tracker/pose_file.h"
 
 #include <CLI/CLI.hpp>
@@ -41,6 +44,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--poses", request.poses, "poses, CSV")->required();
     app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
     app.add_option("--technique", request.options.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     CLI::Option* width =
         app.add_option("--width", request.width, "picture's width in pixels")->check(CLI::Range(1, 16384));
@@ -79,6 +83,20 @@ Result<std::vector<Situation>> frames_of(const Request& request, const Settings&
         return tl::unexpected<Error>(samples.error());
     }
     return pose_frames(*samples, settings.eye.default_m);
+}
+
+/// Poses in millimetres, or in a tracker's frame, give dark pictures.
+void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
+    const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
+        const glm::dvec2 place_m(frame.table_from_prop.translation);
+        return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
+    });
+    if (off > 0) {
+        say_line("frustumscreen",
+                 fmt::format("in {} of {} poses the prop is off the table ({} x {} m); positions are metres",
+                             off, frames.size(), table.width_m, table.depth_m));
+    }
 }
 
 /// Everything that one picture is made with.
@@ -136,6 +154,7 @@ Result<void> render(const Request& request) {
     if (!frames) {
         return tl::unexpected<Error>(frames.error());
     }
+    say_off_the_table(*frames, (*settings)->table);
     OfflineOptions options = request.options;
     for (const Situation& frame : *frames) {
         options.views.push_back({frame.table_from_prop, frame.eye_m});
@@ -152,6 +171,9 @@ Result<void> render(const Request& request) {
         });
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
+    }
+    if (const auto note = note_other_prop(request.pack.string(), **pack, (*settings)->prop.kind)) {
+        say_line("frustumscreen", *note);
     }
     std::error_code failed;
     std::filesystem::create_directories(request.out, failed);
@@ -175,8 +197,9 @@ Result<void> render(const Request& request) {
         csv += *line;
         progress.show(frame + 1, frames->size());
     }
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
     if (!visitor_frames.empty()) {
-        if (Result<void> written = write_file(request.out / "visitor_cameras.json",
+        if (Result<void> written = write_file(request.out / visitor_cameras_name,
                                               as_bytes(visitor_cameras_json(visitor_frames)));
             !written) {
             return written;

@@ -2,6 +2,7 @@
 
 #include "app/exhibit/caption_image.h"
 #include "app/pack/pack_file.h"
+#include "app/programs/prop_note.h"
 #include "app/render/read_back.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/standard_error.h"
@@ -18,17 +19,23 @@ namespace {
 constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 constexpr double warm_up_step_m = 0.01;
 
-/// Languages of all artifacts, in the order of their first appearance.
-template <typename Artifacts> std::vector<std::string> all_languages(const Artifacts& artifacts) {
-    std::vector<std::string> languages;
+void add_once(std::vector<std::string>& languages, const std::string& language) {
+    if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+        languages.push_back(language);
+    }
+}
+
+/// Begins in the language that is asked for, or in the one that stands for it.
+template <typename Artifacts>
+Exhibit make_exhibit(const Artifacts& artifacts, const std::string& asked, MonotonicTime now) {
+    std::vector<std::string> languages; // in the order of their first appearance
     for (const auto& artifact : artifacts) {
         for (const std::string& language : artifact.languages) {
-            if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
-                languages.push_back(language);
-            }
+            add_once(languages, language);
         }
     }
-    return languages;
+    const std::string first = languages.empty() ? asked : languages[caption_for(asked, languages)];
+    return {artifacts.size(), std::move(languages), first, now};
 }
 
 /// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
@@ -48,6 +55,29 @@ TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
     return rectangle;
 }
 
+/// Messages about a pack begin with its file.
+PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+    const std::string place = pack + ": ";
+    if (message.substr(0, place.size()) == place) {
+        message.remove_prefix(place.size());
+    }
+    return {pack, std::string(message)};
+}
+
+/// On its own, too, where nobody reads the lines on standard error.
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) {
+    if (left_out.empty()) {
+        return fail(ErrorKind::BadConfiguration,
+                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
+                    "make them with frustumscreen-bake");
+    }
+    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
+    return fail(ErrorKind::BadConfiguration,
+                left_out.size() == 1 ? "the pack cannot be shown: " + first
+                                     : fmt::format("none of the {} packs can be shown; the first: {}",
+                                                   left_out.size(), first));
+}
+
 std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
     const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
     return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
@@ -63,6 +93,8 @@ struct ArtifactShow::Loader {
     const ArtifactShowOptions& options;
     std::optional<Typesetter> typesetter; ///< opened for the first caption
     std::uint64_t next_id = 1;
+    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
+    std::vector<std::string> notes = {};
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
         ScenePlan plan;
@@ -86,6 +118,12 @@ struct ArtifactShow::Loader {
         next_id += (*pack)->levels.size();
         plan.passes = levels->needs();
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
+        for (const PackCaption& caption : (*pack)->captions) {
+            add_once(languages, caption.language);
+        }
+        if (const auto note = note_other_prop(file.string(), **pack, settings.prop.kind)) {
+            notes.push_back(*note);
+        }
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             return at(file.string(), set.error());
@@ -148,6 +186,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     Loader loader{settings, devices, options, std::nullopt};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
+    std::vector<PackLeftOut> left_out;
     PassNeeds needs;
     for (const std::filesystem::path& file : options.packs) {
         if (!artifacts.empty() && !devices.other_packs) {
@@ -158,14 +197,12 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             needs = united(needs, artifact->plan.passes);
             artifacts.push_back(std::move(*artifact));
         } else {
-            say_line("frustumscreen", fmt::format("left out: {}", artifact.error().message));
+            say_line(options.program, fmt::format("left out: {}", artifact.error().message));
+            left_out.push_back(pack_left_out(file.string(), artifact.error().message));
         }
     }
     if (artifacts.empty()) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            "no pack can be shown; name packs under [exhibit] packs in the settings or with --packs, and "
-            "make them with frustumscreen-bake");
+        return nothing_to_show(left_out);
     }
     const Pinhole& pinhole = settings.projector.pinhole;
     Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));
@@ -174,6 +211,14 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
+    show->left_out_ = std::move(left_out);
+    show->notes_ = std::move(loader.notes);
+    if (settings.exhibit.captions && !loader.languages.empty() &&
+        !has_language(loader.languages, settings.exhibit.language)) {
+        show->notes_.push_back(fmt::format(
+            "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
+            show->language_of(show->artifacts_.front()), fmt::join(loader.languages, ", ")));
+    }
     show->measure(settings, target);
     return show;
 }
@@ -208,8 +253,7 @@ ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Ren
                            std::vector<Artifact> artifacts, MonotonicTime now)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
-      artifacts_(std::move(artifacts)),
-      exhibit_(artifacts_.size(), all_languages(artifacts_), settings.exhibit.language, now),
+      artifacts_(std::move(artifacts)), exhibit_(make_exhibit(artifacts_, settings.exhibit.language, now)),
       attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m),
       placer_(picture_on_table(settings, 0.0)) {}
 
@@ -297,6 +341,12 @@ void ArtifactShow::took(MonotonicTime now, double ms) {
     artifacts_[on_].levels.took(now, ms);
 }
 
+std::string_view ArtifactShow::language_of(const Artifact& artifact) const {
+    return artifact.languages.empty()
+               ? exhibit_.language()
+               : artifact.languages[caption_for(exhibit_.language(), artifact.languages)];
+}
+
 ShowState ArtifactShow::state(MonotonicTime now) const {
     const Shown shown = exhibit_.at(now);
     const Artifact& artifact = artifacts_[shown.artifact];
@@ -308,9 +358,12 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.switches += each.levels.state().switches;
         levels.ignored_times += each.levels.state().ignored_times;
     }
-    return {artifact.title, exhibit_.language(), levels,
+    return {artifact.title,
+            language_of(artifact),
+            levels,
             !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
-            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt};
+            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt,
+            left_out_};
 }
 
 } // namespace frustumscreen

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -27,6 +28,7 @@ struct ArtifactShowOptions {
     std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
     int samples = default_samples;  ///< a pixel, that there is room for
     unsigned economies = AllEconomies;
+    std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
 };
 
 /// What a show took, planned and observed.
@@ -55,6 +57,8 @@ public:
     [[nodiscard]] ShowState state(MonotonicTime now) const override;
 
     [[nodiscard]] ShowUse use() const;
+    /// What a person may not have meant, in sentences.
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
     /// Of the artifacts that are shown, in order.
     [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const { return artifacts_[artifact].plan; }
     [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return artifacts_[artifact].levels; }
@@ -80,6 +84,8 @@ private:
                  std::vector<Artifact> artifacts, MonotonicTime now);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
+    /// Of its caption; without captions the exhibit's.
+    [[nodiscard]] std::string_view language_of(const Artifact& artifact) const;
     [[nodiscard]] Situation stand(MonotonicTime now, Situation situation, Shown& shown);
     /// Chooses the caption; its brightness includes the fades.
     [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
@@ -91,6 +97,8 @@ private:
     PassNeeds needs_;
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
+    std::vector<PackLeftOut> left_out_;
+    std::vector<std::string> notes_;
     Exhibit exhibit_;
     glm::dvec2 attract_place_m_;
     std::optional<Attract> attract_; ///< from the first picture on

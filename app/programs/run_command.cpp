@@ -1,5 +1,7 @@
 #include "app/programs/run_command.h"
 
+#include "app/exhibit/visitor_view.h"
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
@@ -9,6 +11,7 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -49,7 +52,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_flag("--headless", request.headless, "without a screen");
     CLI::Option* seconds = app.add_option("--seconds", request.seconds, "stop after so many seconds")
-                               ->check(CLI::Range(0.01, 1e6));
+                               ->check(seconds_between(0.01, 1e6));
     app.add_option("--out", request.out,
                    "folder for frame_*.png, their poses.csv and frames.csv of all frames; made if missing")
         ->needs(seconds);
@@ -62,6 +65,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");
     app.add_flag("--full-redraw", request.full_redraw, "draw the whole picture every time, for measuring");
@@ -130,6 +134,9 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     if (!artifacts) {
         return tl::unexpected<Error>(artifacts.error());
     }
+    for (const std::string& note : (*artifacts)->notes()) {
+        say_line("frustumscreen", note);
+    }
     if (settings.panel.buttons() < 2) {
         return std::move(*artifacts); // no chord can be held
     }
@@ -169,6 +176,7 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
 
 void report(const Request& request, const LoopResult& result) {
     RunStatus status = result.status;
+    status.written_at = std::chrono::system_clock::now();
     status.resident_mib = resident_mib();
     if (request.json) {
         fmt::print("{}", status_json(status));
@@ -262,6 +270,8 @@ Result<void> run(const Request& request) {
         return tl::unexpected<Error>(*excuse);
     }
     if (!request.out.empty()) {
+        std::error_code failed;
+        std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call of render
         if (Result<void> written = write_pictures(request.out, *result); !written) {
             return written;
         }

@@ -204,6 +204,7 @@ private:
     void renew_status(MonotonicTime now) {
         RunStatus& status = result_.status;
         const ShowState state = show_.state(now);
+        status.left_out = state.left_out;
         status.artifact = state.artifact;
         status.language = state.language;
         status.technique = state.levels.technique;

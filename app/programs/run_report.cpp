@@ -4,6 +4,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 
@@ -64,7 +66,14 @@ double FrameTimes::quantile(double share) {
 
 std::string status_json(const RunStatus& status) {
     const auto rounded = [](double value) { return std::round(value * 1000.0) / 1000.0; };
-    const nlohmann::ordered_json json = {{"artifact", status.artifact},
+    nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
+    for (const PackLeftOut& each : status.left_out) {
+        left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
+    }
+    const std::time_t written_at = std::chrono::system_clock::to_time_t(status.written_at);
+    const nlohmann::ordered_json json = {{"written_at", fmt::format("{:%FT%TZ}", fmt::gmtime(written_at))},
+                                         {"left_out", left_out},
+                                         {"artifact", status.artifact},
                                          {"technique", status.technique},
                                          {"level", status.level},
                                          {"samples", status.samples},
@@ -141,6 +150,7 @@ void StatusFile::work() {
         RunStatus status = latest_;
         pending_ = false;
         lock.unlock();
+        status.written_at = std::chrono::system_clock::now();
         status.resident_mib = resident_mib();
         const Result<void> written = write_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {

@@ -9,11 +9,13 @@
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -47,7 +49,15 @@ private:
     std::size_t count_ = 0;
 };
 
+/// A pack that was asked for and cannot be shown.
+struct PackLeftOut {
+    std::string pack;
+    std::string reason;
+};
+
 struct RunStatus {
+    std::chrono::system_clock::time_point written_at; ///< set by who writes it
+    std::span<const PackLeftOut> left_out;            ///< lives as long as the show
     std::string_view artifact;
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;
@@ -69,13 +79,14 @@ struct RunStatus {
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
     double resident_mib = 0.0;
-    Sentence display; ///< how the devices are; empty where nothing can fail
+    Sentence display; ///< how the devices are; empty where there is nothing to say
     Sentence tracker;
     Sentence panel;
     Sentence recording;
     bool prop_known = false;
     bool head_known = false;
 };
+/// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);
 
 /// Of this process; 0 where the system does not say.

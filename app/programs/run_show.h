@@ -11,6 +11,7 @@
 #include "firmware_host/base/time.h"
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace frustumscreen {
@@ -23,6 +24,7 @@ struct ShowState {
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
     /// The prop's pose that was drawn for, where it is not the one that is known.
     std::optional<RigidTransform> stands = {};
+    std::span<const PackLeftOut> left_out = {};
 };
 
 class Show {

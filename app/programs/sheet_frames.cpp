@@ -79,6 +79,21 @@ bool looks_like(const SheetFrame& a, const SheetFrame& b) {
            glm::degrees(2.0 * std::acos(half_turn)) < near_deg;
 }
 
+Result<void> check_folder(const std::filesystem::path& folder, const std::filesystem::path& pose_file) {
+    if (!std::filesystem::is_directory(folder)) {
+        return bad_input(folder.string() + ": there is no such folder");
+    }
+    if (const auto cameras = folder / visitor_cameras_name; std::filesystem::exists(cameras)) {
+        return bad_input(fmt::format("{}: these pictures show what the visitor sees; a sheet is made of the "
+                                     "projector's, from render without --view visitor",
+                                     cameras.string()));
+    }
+    if (!std::filesystem::exists(pose_file)) {
+        return bad_input(pose_file.string() + ": there is no such file; name it with --poses");
+    }
+    return {};
+}
+
 } // namespace
 
 Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const std::string& name) {
@@ -119,6 +134,9 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
 Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const std::filesystem::path& poses,
                                       const std::string& label, const glm::dvec3& default_eye_m) {
     const std::filesystem::path pose_file = poses.empty() ? folder / "poses.csv" : poses;
+    if (Result<void> fit = check_folder(folder, pose_file); !fit) {
+        return tl::unexpected<Error>(fit.error());
+    }
     const Result<Bytes> bytes = read_file(pose_file);
     if (!bytes) {
         return tl::unexpected<Error>(bytes.error());

@@ -1,10 +1,12 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
+#include "app/programs/argument_checks.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/run_artifacts.h"
 #include "app/programs/run_loop.h"
 #include "app/programs/run_pattern.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/standard_error.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -36,9 +38,11 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
-    app.add_option("--seconds", request.seconds, "stop after so many seconds")->check(CLI::Range(0.01, 1e6));
+    app.add_option("--seconds", request.seconds, "stop after so many seconds")
+        ->check(seconds_between(0.01, 1e6));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -66,13 +70,22 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         return PatternShow::create(settings);
     }
     ArtifactShowOptions options = request.show;
+    options.program = "frustumscreen-window";
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
     }
     DevicePlan devices;
     devices.tracker = TrackerKind::Simulated;
     devices.panel = devices.other_packs = devices.language = true;
-    return ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+    Result<std::unique_ptr<ArtifactShow>> show =
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    for (const std::string& note : (*show)->notes()) {
+        say_line(options.program, note);
+    }
+    return std::move(*show);
 }
 
 Result<void> run(const Request& request) {

@@ -70,7 +70,8 @@ std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
 
 Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
     if (settings.tracker.kind == TrackerKind::Replay) {
-        return make_replay(settings.tracker, start);
+        Result<std::unique_ptr<Tracker>> replay = make_replay(settings.tracker, start);
+        return replay ? std::move(replay) : at(settings.tracker.poses_key, replay.error());
     }
     if (has_packets(settings.tracker.kind)) {
         const UsbTrackerSetUp set_up{settings.tracker.hemisphere,

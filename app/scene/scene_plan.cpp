@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -152,6 +153,18 @@ void choose_faces(ScenePlan& plan) {
     }
 }
 
+/// Of "level0", "level1", ...
+std::optional<std::uint32_t> numbered_level(std::string_view technique) {
+    constexpr std::string_view prefix = "level";
+    if (technique.substr(0, prefix.size()) != prefix) {
+        return std::nullopt;
+    }
+    std::uint32_t level = 0;
+    const char* const end = technique.data() + technique.size();
+    const std::from_chars_result read = std::from_chars(technique.data() + prefix.size(), end, level);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(level) : std::nullopt;
+}
+
 } // namespace
 
 Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique) {
@@ -162,18 +175,15 @@ Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view techniq
     if (technique == "finest") {
         return levels - 1;
     }
-    constexpr std::string_view prefix = "level";
-    if (technique.substr(0, prefix.size()) == prefix) {
-        std::uint32_t level = 0;
-        const char* const begin = technique.data() + prefix.size();
-        const char* const end = technique.data() + technique.size();
-        const std::from_chars_result read = std::from_chars(begin, end, level);
-        if (read.ec == std::errc{} && read.ptr == end && level < levels) {
-            return level;
-        }
+    if (const std::optional<std::uint32_t> level = numbered_level(technique); level && *level < levels) {
+        return *level;
     }
-    return bad_input(fmt::format("technique '{}'; this pack has auto, finest and level0 to level{}",
-                                 technique, levels - 1));
+    return bad_input(fmt::format("technique '{}'; this pack has auto, finest and level0{}", technique,
+                                 levels > 1 ? fmt::format(" to level{}", levels - 1) : ""));
+}
+
+bool is_technique(std::string_view name) {
+    return name == "auto" || name == "finest" || numbered_level(name);
 }
 
 std::string_view name_of(Economy economy) {

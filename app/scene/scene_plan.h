@@ -25,6 +25,8 @@
 
 namespace frustumscreen {
 
+/// The form of a technique's name: "auto", "finest", or "level" and a number that some pack may have.
+[[nodiscard]] bool is_technique(std::string_view name);
 /// The level that a technique's name means: "auto" the pack's default, "finest", "level0", "level1", ...
 [[nodiscard]] Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique);
 

@@ -187,6 +187,7 @@ void read_tracker(TableReader table, const std::filesystem::path& folder, Tracke
     table.text("poses", poses);
     if (!poses.empty()) {
         tracker.poses = (folder / poses).lexically_normal();
+        tracker.poses_key = table.place("poses");
     }
     table.number("replay_speed", tracker.replay_speed, {0.01, 100.0, "times as fast as recorded"});
     table.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""});

@@ -66,6 +66,7 @@ struct TrackerSettings {
     std::uint64_t seed = 1; ///< simulated
     /// Replay: a pose file or a recording of packets; resolved against the settings file's folder.
     std::filesystem::path poses;
+    std::string poses_key; ///< where the settings name it, for messages
     double replay_speed = 1.0;
     /// Usb: towards the half space of the tracker's source in which the prop moves, in the tracker's axes.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};

@@ -115,10 +115,19 @@ const toml::node* TableReader::take(std::string_view key) {
     return state_->error ? nullptr : node;
 }
 
+std::uint32_t TableReader::line_of_key(std::string_view name) const {
+    const auto line = state_->lines.find(name);
+    return line != state_->lines.end() ? line->second : line_;
+}
+
 void TableReader::refuse(std::string_view key, std::string_view what) {
     const std::string name = full_name(key);
-    const auto line = state_->lines.find(name);
-    state_->refuse(line != state_->lines.end() ? line->second : line_, name + " " + std::string(what));
+    state_->refuse(line_of_key(name), name + " " + std::string(what));
+}
+
+std::string TableReader::place(std::string_view key) const {
+    const std::string name = full_name(key);
+    return located(state_->file, line_of_key(name), name);
 }
 
 bool TableReader::number_of(const toml::node& node, const std::string& name, double& value,

@@ -70,8 +70,11 @@ public:
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.
     void refuse(std::string_view key, std::string_view what);
     [[nodiscard]] std::string full_name(std::string_view key) const;
+    /// `file:line: name` of a key that was read, for messages about what it names.
+    [[nodiscard]] std::string place(std::string_view key) const;
 
 private:
+    [[nodiscard]] std::uint32_t line_of_key(std::string_view name) const;
     const toml::node* take(std::string_view key);
     bool number_of(const toml::node& node, const std::string& name, double& value, const Range& range);
     bool text_of(const toml::node& node, const std::string& name, std::string& value);

@@ -32,8 +32,8 @@ public:
     /// Appends the events with time <= now that were not handed out before.
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing
-    /// that could fail.
+    /// How the device is, or what stands in its place, in one plain sentence that stands until the next
+    /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// The buttons that do something, bit k = button k: their lamps are lit. Handed over, not waited for.
     virtual void light(std::uint32_t /*buttons*/) {}

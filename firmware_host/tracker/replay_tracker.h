@@ -21,6 +21,9 @@ public:
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return "replay"; }
+    [[nodiscard]] std::string_view state() const override {
+        return "poses come from a file; no tracker is asked";
+    }
 
 private:
     void pass_over_rounds(MonotonicTime now);

@@ -35,8 +35,8 @@ public:
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual bool reports_table_frame() const { return true; }
-    /// How the device is, in one plain sentence that stands until the next `poll`; empty: there is nothing
-    /// that could fail.
+    /// How the device is, or what stands in its place, in one plain sentence that stands until the next
+    /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// Until when its thread has promised to be heard of again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,13 @@ constexpr double turn_of_a_pixel = 0.0087; ///< half a degree
 
 tl::unexpected<Error> no_window(const char* what) {
     return fail(ErrorKind::BadConfiguration, fmt::format("window: {}: {}", what, SDL_GetError()));
+}
+
+/// SDL falls back to drivers that show nothing, where there is nothing else; a person asks for one by name.
+bool unseen_unasked(std::string_view driver) {
+    const char* const asked = std::getenv("SDL_VIDEODRIVER");
+    return (driver == "offscreen" || driver == "dummy") &&
+           std::string_view(asked != nullptr ? asked : "").find(driver) == std::string_view::npos;
 }
 
 /// The window with two OpenGL ES contexts, the renderer's and the copy's, and what mouse and keys did.
@@ -60,6 +69,10 @@ Result<void> SdlWindow::open() {
     SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1"); // OpenGL ES comes through EGL everywhere
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
+        return no_window("there is no desktop here");
+    }
+    if (unseen_unasked(SDL_GetCurrentVideoDriver())) {
+        SDL_SetError("SDL has only its driver '%s', which shows nothing", SDL_GetCurrentVideoDriver());
         return no_window("there is no desktop here");
     }
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);

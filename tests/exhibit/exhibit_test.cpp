@@ -140,6 +140,8 @@ TEST(Exhibit, TheCaptionIsInTheLanguageAskedForOrTheNearestThereIs) {
     EXPECT_EQ(caption_for("en", tags), 2U);
     EXPECT_EQ(caption_for("ja", tags), 2U);
     EXPECT_EQ(caption_for("ja", std::vector<std::string>{"fr", "it"}), 0U);
+    EXPECT_TRUE(has_language(tags, "de-AT"));
+    EXPECT_FALSE(has_language(tags, "ja"));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <random>
 
@@ -37,20 +38,34 @@ TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
+    const std::vector<PackLeftOut> left_out{{"cat.fspack", "there is no such file"}};
+    const std::time_t before = std::time(nullptr);
     {
         StatusFile status_file(file);
         for (std::uint64_t k = 1; k <= 50; ++k) {
             RunStatus status;
             status.artifact = "Amphora";
             status.frames = k;
+            status.left_out = left_out;
             status_file.post(status);
         }
     }
+    const std::time_t after = std::time(nullptr);
     const Result<Bytes> bytes = read_file(file);
     ASSERT_TRUE(bytes);
     const nlohmann::json json = nlohmann::json::parse(as_text(*bytes));
     EXPECT_EQ(json.at("frames"), 50);
     EXPECT_EQ(json.at("artifact"), "Amphora");
+    ASSERT_EQ(json.at("left_out").size(), 1U);
+    EXPECT_EQ(json.at("left_out")[0].at("pack"), "cat.fspack");
+    EXPECT_EQ(json.at("left_out")[0].at("reason"), "there is no such file");
+    std::tm utc{};
+    const std::string written_at = json.at("written_at");
+    const char* const rest = ::strptime(written_at.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    ASSERT_NE(rest, nullptr) << written_at;
+    EXPECT_EQ(*rest, 0) << written_at;
+    EXPECT_GE(::timegm(&utc), before);
+    EXPECT_LE(::timegm(&utc), after);
     EXPECT_GT(json.at("resident_mib"), 0.0);
     EXPECT_FALSE(std::filesystem::exists(file.string() + ".part" + std::to_string(::getpid())));
     std::filesystem::remove(file);

@@ -58,7 +58,7 @@ TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
         EXPECT_NE(text.find(words), std::string::npos) << words;
     }
     EXPECT_NE(say("--technique level7"), 0);
-    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("level0 to level0"),
+    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("auto, finest and level0\n"),
               std::string::npos);
 }
 
@@ -86,6 +86,81 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
     EXPECT_EQ(file.at("level"), "level0");
     EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
+}
+
+TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
+    const nlohmann::json replayed = run("--seconds 1");
+    EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is asked");
+    EXPECT_EQ(replayed.at("panel"), ""); // there is none
+    write_settings("simulated", "[[panel.script]]\nat_s = 1.0\nbutton = 2\n");
+    const nlohmann::json simulated = run("--seconds 2 --soak 1");
+    EXPECT_EQ(simulated.at("tracker"), "a simulated visitor moves the prop; no tracker is asked");
+    EXPECT_EQ(simulated.at("panel"), "presses come from a script; no buttons are asked");
+}
+
+TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
+    const nlohmann::json status =
+        run("--seconds 1 --status-file status.json --packs cat.fspack rings.fspack");
+    const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
+    for (const nlohmann::json& each : {status, file}) {
+        EXPECT_EQ(each.at("left_out"),
+                  nlohmann::json::array({{{"pack", "cat.fspack"}, {"reason", "there is no such file"}}}));
+    }
+}
+
+TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
+    const auto errors = [&](const std::string& packs) {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 "
+                        "--packs {} >out.txt 2>err.txt",
+                        folder.string(), FRUSTUMSCREEN_BIN_DIR, packs);
+        EXPECT_NE(std::system(command.c_str()), 0);
+        return std::string(as_text(*read_file(folder / "err.txt")));
+    };
+    EXPECT_EQ(errors("cat.fspack"),
+              "frustumscreen: left out: cat.fspack: there is no such file\n"
+              "frustumscreen: the pack cannot be shown: cat.fspack: there is no such file\n");
+    EXPECT_EQ(
+        errors("cat.fspack ."),
+        "frustumscreen: left out: cat.fspack: there is no such file\n"
+        "frustumscreen: left out: .: this is a folder; name the *.fspack files in it\n"
+        "frustumscreen: none of the 2 packs can be shown; the first: cat.fspack: there is no such file\n");
+}
+
+TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
+    std::filesystem::remove(folder / "poses.csv");
+    const std::string command = fmt::format(
+        "cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 >out.txt 2>err.txt",
+        folder.string(), FRUSTUMSCREEN_BIN_DIR);
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_EQ(as_text(*read_file(folder / "err.txt")),
+              "frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: there is no such file\n");
+}
+
+TEST_F(RunCommand, SaysThatAPackWasBakedForAnotherProp) {
+    write_settings("replay", "[prop]\nkind = \"cube\"\n");
+    run("--seconds 1");
+    const Bytes errors = *read_file(folder / "err.txt");
+    EXPECT_EQ(
+        as_text(errors).rfind("frustumscreen: rings.fspack: it was baked for a frustum, and the prop of "
+                              "the settings is a cube; bake it with --prop cube\n",
+                              0),
+        0U)
+        << as_text(errors);
+}
+
+TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
+    write_settings("replay", "language = \"en-GB\"\n");
+    EXPECT_EQ(run("--seconds 1").at("language"), "en");
+    const Bytes quiet = *read_file(folder / "err.txt");
+    EXPECT_EQ(as_text(quiet).find("captions"), std::string_view::npos);
+    write_settings("replay", "language = \"xx\"\n");
+    EXPECT_EQ(run("--seconds 1").at("language"), "en");
+    const Bytes errors = *read_file(folder / "err.txt");
+    EXPECT_EQ(as_text(errors).rfind(
+                  "frustumscreen: no artifact has captions in 'xx'; en is shown; there are en\n", 0),
+              0U)
+        << as_text(errors);
 }
 
 TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {

@@ -60,7 +60,16 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
     EXPECT_NE(csv.find("\n1,3000,"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",level0,"), std::string::npos) << csv;
     EXPECT_TRUE(text("out.txt").empty());
-    EXPECT_TRUE(text("err.txt").empty());
+    EXPECT_EQ(text("err.txt"), "");
+}
+
+TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
+    ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                                                          "1000,1,0.20,0,0,1,0,0,0,1\n"
+                                                          "2000,1,20,0,0,1,0,0,0,1\n")));
+    ASSERT_EQ(run(usual("a") + "--width 320 --height 200"), 0);
+    EXPECT_EQ(text("err.txt"), "frustumscreen: in 1 of 2 poses the prop is off the table (0.404 x 0.252 m); "
+                               "positions are metres\n");
 }
 
 TEST_F(RenderCommand, TheSameInputGivesTheSameBytes) {
@@ -79,6 +88,25 @@ TEST_F(RenderCommand, ShowsTheVisitorsView) {
     EXPECT_EQ(picture("half/frame_00000.png").width, 640); // of the 1280 in near.toml
 }
 
+TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
+    const auto sheet = [&](const std::string& arguments) {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
+                        ">out.txt 2>err.txt",
+                        folder.string(), FRUSTUMSCREEN_BIN_DIR, FRUSTUMSCREEN_SOURCE_DIR, arguments);
+        return std::system(command.c_str()) == 0 ? std::string() : text("err.txt");
+    };
+    EXPECT_EQ(sheet("--frames nowhere"), "frustumscreen-sheet: nowhere: there is no such folder\n");
+    ASSERT_EQ(run(usual("v") + "--width 320 --height 200 --view visitor"), 0) << text("err.txt");
+    EXPECT_EQ(sheet("--frames v --poses poses.csv").rfind("frustumscreen-sheet: v/visitor_cameras.json: ", 0),
+              0U);
+    ASSERT_EQ(run(usual("v") + "--width 320 --height 200"), 0) << text("err.txt");
+    EXPECT_EQ(sheet("--frames v"),
+              "frustumscreen-sheet: v/poses.csv: there is no such file; name it with --poses\n");
+    EXPECT_EQ(sheet("--frames v --poses poses.csv"), "");
+    EXPECT_TRUE(fs::exists(folder / "sheet.png"));
+}
+
 TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
     struct Case {
         std::string arguments;
@@ -86,7 +114,8 @@ TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
     };
     for (const Case& c :
          {Case{usual("x") + "--technique level7", 1}, Case{usual("x") + "--pack missing.fspack", 2},
-          Case{usual("x") + "--width 100", 2}, Case{"render", 2}, Case{"wobble", 2}, Case{"", 2},
+          Case{usual("x") + "--width 100", 2}, Case{usual("x") + "--technique finst", 2}, Case{"render", 2},
+          Case{"wobble", 2}, Case{"", 2},
           Case{"render --config none.toml --pack rings.fspack --poses poses.csv --out x", 1},
           Case{usual("poses.csv/x"), 1}}) {
         EXPECT_EQ(run(c.arguments), c.status) << c.arguments;
@@ -103,6 +132,27 @@ TEST_F(RenderCommand, HelpIsNoFailure) {
     EXPECT_NE(text("out.txt").find("--poses"), std::string::npos);
     EXPECT_EQ(run("--version"), 0);
     EXPECT_EQ(run("--help"), 0);
+    EXPECT_EQ(run("render --version"), 0);
+    EXPECT_EQ(text("out.txt").rfind("frustumscreen ", 0), 0U);
+}
+
+TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
+    const auto refusal = [&](const std::string& arguments) {
+        EXPECT_EQ(run(arguments), 2) << arguments;
+        const std::string error = text("err.txt");
+        return error.substr(0, error.find('\n'));
+    };
+    EXPECT_EQ(refusal("--config kiosk.toml run"), "frustumscreen: write run before its options");
+    for (const std::string technique : {"finst", "level", "level-1", "Auto", "level0x"}) {
+        EXPECT_EQ(refusal("run --pattern --config kiosk.toml --technique " + technique),
+                  "--technique: '" + technique +
+                      "' is no technique; allowed: auto, finest, level0, level1, ...");
+    }
+    for (const std::string seconds : {"8s", "0,5", "0", "nan", "1e9"}) {
+        EXPECT_EQ(refusal("run --config kiosk.toml --seconds " + seconds),
+                  "--seconds: '" + seconds +
+                      "' is not allowed; a number of seconds is wanted, 0.01 to 1000000, such as 8 or 0.5");
+    }
 }
 
 } // namespace

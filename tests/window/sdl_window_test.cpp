@@ -115,5 +115,15 @@ TEST_F(AWindow, KeysAreButtonsAndEscapeEnds) {
     EXPECT_EQ(sigtimedwait(&term, nullptr, &at_once), SIGTERM);
 }
 
+TEST(NoDesktop, IsSaidAndNotTakenForOne) {
+    for (const char* display : {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}) {
+        ::unsetenv(display);
+    }
+    const Result<Window> opened = open_window({width, height, {}, {}});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().message.rfind("window: there is no desktop here: ", 0), 0U)
+        << opened.error().message;
+}
+
 } // namespace
 } // namespace frustumscreen

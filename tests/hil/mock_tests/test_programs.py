@@ -41,6 +41,8 @@ class CommandLine(unittest.TestCase):
             found = run(*arguments)
             self.assertEqual(found.returncode, 1)
             self.assertEqual(len(found.stderr.splitlines()), 1)
+        self.assertEqual(run(TRACKER, "--tell", "/nowhere", "status").stderr,
+                         "mock_tracker: /nowhere: no mock listens there: No such file or directory\n")
 
 
 class Running(unittest.TestCase):

@@ -38,7 +38,11 @@ def parse_arguments(parser):
 
 
 def tell(arguments):
-    answer = control.tell(arguments.tell[0], " ".join(arguments.tell[1:]))
+    path = arguments.tell[0]
+    try:
+        answer = control.tell(path, " ".join(arguments.tell[1:]))
+    except OSError as error:
+        raise OSError(f"{path}: no mock listens there: {error.strerror or error}") from None
     print(answer["help"] if "help" in answer else json.dumps(answer, indent=1))
     return 0 if answer["ok"] else 1
 

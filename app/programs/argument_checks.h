@@ -1,0 +1,40 @@
+/// Checks of arguments that several programs take, with a sentence for the person who wrote them.
+///
+/// Threads  any.
+#pragma once
+
+#include "app/scene/scene_plan.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string>
+
+namespace frustumscreen {
+
+/// The form of the word alone: which levels there are stands in the packs.
+[[nodiscard]] inline CLI::Validator is_technique_word() {
+    const auto check = [](std::string& text) {
+        return is_technique(text)
+                   ? std::string()
+                   : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ...", text);
+    };
+    return {check, ""};
+}
+
+[[nodiscard]] inline CLI::Validator seconds_between(double low, double high) {
+    const auto check = [low, high](std::string& text) {
+        double seconds = 0.0;
+        const char* const end = text.data() + text.size();
+        const std::from_chars_result read = std::from_chars(text.data(), end, seconds);
+        const bool well = read.ec == std::errc{} && read.ptr == end && seconds >= low && seconds <= high;
+        return well ? std::string()
+                    : fmt::format("'{}' is not allowed; a number of seconds is wanted, {} to {:.0f}, such as "
+                                  "8 or 0.5",
+                                  text, low, high);
+    };
+    return {check, fmt::format("in [{} - {:.0f}]", low, high)};
+}
+
+} // namespace frustumscreen

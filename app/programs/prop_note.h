@@ -1,0 +1,29 @@
+/// What a person may not have meant: a pack that was baked for another kind of prop than the settings have.
+///
+/// It is shown all the same; its relief and the choice of its levels are the other prop's.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+#include "app/pack/pack.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+/// Nothing if they agree.
+[[nodiscard]] inline std::optional<std::string> note_other_prop(const std::string& file, const Pack& pack,
+                                                                PropKind prop) {
+    const std::string_view wanted = name_of(prop);
+    if (pack.prop_kind == wanted) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: it was baked for a {}, and the prop of the settings is a {}; bake it with --prop {}", file,
+        pack.prop_kind, wanted, wanted);
+}
+
+} // namespace frustumscreen
