@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -14,11 +15,9 @@ namespace frustumscreen::synthetic {
 class KioskFolder : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder =
-            std::filesystem::temp_directory_path() /
-            (std::string("frustumscreen_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
+        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
         Pack pack = rings();
         pack.title = "Rings";
         pack.languages = {"en"};
@@ -39,6 +38,7 @@ protected:
                                                               "0,1,0.02,0,0,1,0,0,0,1\n")));
         write_settings("replay", "");
     }
+    void TearDown() override { std::filesystem::remove_all(folder); }
     void write_settings(const std::string& tracker, const std::string& more) const {
         const std::string text = "[projector]\nwidth = 320\nheight = 200\nrefresh_hz = 20.0\n"
                                  "[tracker]\nkind = \"" +

@@ -31,6 +31,7 @@ protected:
             ::kill(process, SIGKILL);
             ::waitpid(process, nullptr, 0);
         }
+        KioskFolder::TearDown();
     }
     void start(const std::string& more = {}, const std::string& tracker = "replay",
                const char* screen = "--headless") {
