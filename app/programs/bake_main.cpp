@@ -42,9 +42,13 @@ Result<void> describe(Pack& pack, const Arguments& arguments) {
         const std::string language = caption.substr(0, equals);
         const auto known = std::find_if(pack.captions.begin(), pack.captions.end(),
                                         [&](const PackCaption& c) { return c.language == language; });
-        if (equals == std::string::npos || known == pack.captions.end()) {
-            return bad_input(fmt::format(
-                "--caption '{}': write LANGUAGE=TEXT, with a language given by --language", caption));
+        if (equals == std::string::npos) {
+            return bad_input(
+                fmt::format("--caption '{}': write LANGUAGE=TEXT, such as \"en=A cat.\"", caption));
+        }
+        if (known == pack.captions.end()) {
+            return bad_input(fmt::format("--caption '{}': the languages are {}; add --language {}", caption,
+                                         fmt::join(pack.languages, ", "), language));
         }
         known->text = caption.substr(equals + 1);
     }

@@ -215,6 +215,10 @@ Result<void> run(const Request& request) {
                 fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
         }
     }
+    if (const std::filesystem::path folder = request.status_file.parent_path();
+        !folder.empty() && !std::filesystem::is_directory(folder)) {
+        return bad_input(fmt::format("{}: the folder of --status-file is not there", folder.string()));
+    }
     const Result<std::unique_ptr<Display>> display =
         wait_for_display(request, **settings, stop_signals, manager, journal);
     if (!display) {

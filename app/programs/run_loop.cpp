@@ -78,6 +78,9 @@ public:
             now = next_display_time(now);
         }
         post_status(now);
+        if (stills_taken_ == 0 && options_.stills > 0 && result_.status.frames > 0) {
+            keep_still(now); // a short run leaves its last picture
+        }
         result_.stills.resize(stills_taken_);
         return std::move(result_);
     }
@@ -120,7 +123,9 @@ private:
                                     static_cast<float>(state.levels.estimated_error_mm), changed,
                                     state.artifact, state.levels.level});
         }
-        take_still(now, situation, state);
+        shown_ = situation;
+        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        take_still(now, state);
         return {};
     }
 
@@ -173,7 +178,7 @@ private:
     }
 
     /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
-    void take_still(MonotonicTime now, const Situation& situation, const ShowState& state) {
+    void take_still(MonotonicTime now, const ShowState& state) {
         if (stills_taken_ >= result_.stills.size() || !options_.length) {
             return;
         }
@@ -183,9 +188,12 @@ private:
             (!state.settled && now - start_ < (2 * number + 2) * part)) {
             return;
         }
+        keep_still(now);
+    }
+
+    void keep_still(MonotonicTime now) {
         Still& still = result_.stills[stills_taken_++];
-        still.situation = situation;
-        still.situation.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        still.situation = shown_;
         still.time = MonotonicTime(now - start_);
         read_colour_into(display_.framebuffer(), still.picture);
         erase_probe(still.picture); // a watchdog's, not the picture's
@@ -253,6 +261,7 @@ private:
     bool head_is_followed_;
     LightDelay light_delay_;
     LiveSituation situation_;
+    Situation shown_; ///< of the latest frame, as it was drawn
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;

@@ -26,7 +26,7 @@ constexpr glm::ivec2 projector_tile{400, 340};
 constexpr glm::ivec2 visitor_tile{544, 340};
 constexpr glm::ivec2 cell(projector_tile.x + 4 + visitor_tile.x, projector_tile.y + label_height);
 
-constexpr double most_zoom = 1.15; ///< of what shows the prop alone
+constexpr double most_zoom = 1.5; ///< of what shows the prop alone
 constexpr double least_zoom = 0.5;
 constexpr double filled = 0.94;  ///< of the tile
 constexpr int lit_code = 40;     ///< a picture's letters are brighter

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 namespace frustumscreen::samples {
@@ -155,10 +156,15 @@ struct Entries {
     }
 };
 
+/// Throws where it is no pack: a fuzzer's may claim any size.
 inline Entries take_apart(const Bytes& bytes) {
+    constexpr std::uint64_t most_bytes = 1U << 28U;
     auto zip = pack_format::ZipReader::open(bytes);
     Entries entries;
     for (const pack_format::ZipEntry& entry : zip.value().entries()) {
+        if (entry.bytes > most_bytes) {
+            throw std::length_error(entry.name);
+        }
         const Bytes part = zip->read(entry).value();
         if (entry.name == pack_format::manifest_name) {
             entries.manifest = nlohmann::ordered_json::parse(as_text(part));

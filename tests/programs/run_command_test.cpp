@@ -15,12 +15,15 @@ namespace {
 
 class RunCommand : public KioskFolder {
 protected:
-    nlohmann::json run(const std::string& more) const {
+    int exit_status(const std::string& more) const {
         const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml "
                                                 "--headless --fast --json {} >out.json 2>err.txt",
                                                 folder.string(), FRUSTUMSCREEN_BIN_DIR, more);
         const int status = std::system(command.c_str());
-        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << as_text(*read_file(folder / "err.txt"));
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    nlohmann::json run(const std::string& more) const {
+        EXPECT_EQ(exit_status(more), 0) << as_text(*read_file(folder / "err.txt"));
         return nlohmann::json::parse(as_text(*read_file(folder / "out.json")), nullptr, false);
     }
 };
@@ -86,6 +89,15 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
     EXPECT_EQ(file.at("level"), "level0");
     EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
+}
+
+TEST_F(RunCommand, AShortRunLeavesItsLastPictureAndAFolderThatIsNotThereIsSaid) {
+    run("--seconds 0.1 --out pictures --stills 1");
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00000.png"));
+    EXPECT_EQ(exit_status("--seconds 1 --status-file nowhere/status.json"), 1);
+    EXPECT_NE(
+        std::string(as_text(*read_file(folder / "err.txt"))).find("nowhere: the folder of --status-file"),
+        std::string::npos);
 }
 
 TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
