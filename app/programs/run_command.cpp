@@ -101,15 +101,15 @@ Nanoseconds nanoseconds(double seconds) {
 Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
                                                   const StopSignals& stop_signals, ServiceManager& manager,
                                                   const Journal& journal) {
-    const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
-    bool said = false;
+    std::unique_ptr<Hotplug> hotplug; // once there is something to wait for
     while (true) {
         Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
         if (display || display.error().kind != ErrorKind::DeviceLost || !manager.listens()) {
             return display;
         }
         const Sentence why(display.error().message);
-        if (!std::exchange(said, true)) {
+        if (!hotplug) {
+            hotplug = make_udev_hotplug();
             journal.note(Weight::Warning, why.view(), {{"DEVICE", "display"}});
         }
         manager.status(why);

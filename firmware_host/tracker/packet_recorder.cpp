@@ -1,8 +1,7 @@
 #include "firmware_host/tracker/packet_recorder.h"
 
 #include "firmware_host/base/device_thread.h"
-
-#include <fmt/format.h>
+#include "firmware_host/base/format_sentence.h"
 
 #include <bit>
 
@@ -89,19 +88,15 @@ void PacketRecorder::write(const std::stop_token& stop) {
 }
 
 void PacketRecorder::say() {
-    std::array<char, Sentence::longest + 1> text{}; // one more, so that a sentence knows where it is cut
-    const auto put = [&]<typename... Of>(fmt::format_string<Of...> format, Of&&... of) {
-        const auto end = fmt::format_to_n(text.data(), text.size(), format, std::forward<Of>(of)...);
-        said_ = Sentence({text.data(), std::min(end.size, text.size())});
-    };
     const std::string& path = file_.path().native();
     if (ended_) {
-        put("the recording has ended; {}", ended_->message);
+        said_ = format_sentence("the recording has ended; {}", ended_->message);
     } else if (counts_.dropped > 0) {
-        put("the tracker is recorded to {}, but the disk is too slow: {} or more packets are missing", path,
+        said_ = format_sentence(
+            "the tracker is recorded to {}, but the disk is too slow: {} or more packets are missing", path,
             std::bit_floor(counts_.dropped));
     } else {
-        put("the tracker is recorded to {}", path);
+        said_ = format_sentence("the tracker is recorded to {}", path);
     }
 }
 

@@ -71,14 +71,6 @@ protected:
         std::memcpy(payload.data(), &number, sizeof(number));
         recorder.packet(PacketKind::Received, from_microseconds(static_cast<std::int64_t>(number)), payload);
     }
-    static Bytes everything_from(int descriptor) {
-        Bytes all;
-        std::array<std::byte, 65536> block;
-        for (ssize_t count = 0; (count = ::read(descriptor, block.data(), block.size())) > 0;) {
-            all.insert(all.end(), block.begin(), block.begin() + count);
-        }
-        return all;
-    }
     fs::path folder;
 };
 
@@ -140,15 +132,43 @@ TEST_F(RecorderTest, AFullDiskEndsTheRecordingWithOneSentenceAndHoldsUpNobody) {
     EXPECT_EQ(finished.error().message, "stick/a: the disk is full");
 }
 
-/// A pipe that nobody reads stands for a disk that hangs.
+/// A pipe stands for a disk: it hangs until somebody reads it.
+class HangingDisk {
+public:
+    HangingDisk() { EXPECT_EQ(::pipe2(ends_.data(), O_CLOEXEC), 0); }
+    ~HangingDisk() { ::close(ends_[0]); }
+    HangingDisk(const HangingDisk&) = delete;
+    HangingDisk& operator=(const HangingDisk&) = delete;
+    /// Once; closing the file ends what `read_back` waits for.
+    [[nodiscard]] GrowingFile file() const { return {ends_[1], "slow"}; }
+    void go_on() {
+        reader_ = std::jthread([this] { read_back_ = everything_from(ends_[0]); });
+    }
+    [[nodiscard]] const Bytes& read_back() {
+        reader_.join();
+        return read_back_;
+    }
+
+private:
+    static Bytes everything_from(int descriptor) {
+        Bytes all;
+        std::array<std::byte, 65536> block;
+        for (ssize_t count = 0; (count = ::read(descriptor, block.data(), block.size())) > 0;) {
+            all.insert(all.end(), block.begin(), block.begin() + count);
+        }
+        return all;
+    }
+
+    std::array<int, 2> ends_{};
+    Bytes read_back_;
+    std::jthread reader_;
+};
+
 TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
-    std::array<int, 2> ends{};
-    ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
-    Bytes read_back;
+    HangingDisk disk;
     std::uint64_t number = 0;
-    std::jthread reader;
     {
-        PacketRecorder recorder(GrowingFile(ends[1], "slow"), "", from_microseconds(0));
+        PacketRecorder recorder(disk.file(), "", from_microseconds(0));
         while (recorder.counts().dropped < 100) {
             put(recorder, number++, 4096);
         }
@@ -157,7 +177,7 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
         }
         EXPECT_EQ(recorder.state(), "the tracker is recorded to slow, but the disk is too slow: 64 or more "
                                     "packets are missing");
-        reader = std::jthread([&] { read_back = everything_from(ends[0]); });
+        disk.go_on();
         const std::uint64_t before = recorder.counts().packets;
         while (recorder.counts().packets < before + 10) {
             put(recorder, number++, 4096);
@@ -165,31 +185,24 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
         }
         EXPECT_TRUE(recorder.finish());
         EXPECT_NE(recorder.state().find("too slow"), std::string_view::npos);
-    } // closes the pipe
-    reader.join();
-    ::close(ends[0]);
-    const Contents contents = contents_of(read_back);
+    } // closes the file
+    const Contents contents = contents_of(disk.read_back());
     EXPECT_EQ(contents.numbers.size() + contents.dropped, number);
     EXPECT_TRUE(std::is_sorted(contents.numbers.begin(), contents.numbers.end()));
 }
 
 TEST_F(RecorderTest, AGapAtTheEndIsNamedToo) {
-    std::array<int, 2> ends{};
-    ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
-    Bytes read_back;
+    HangingDisk disk;
     std::uint64_t number = 0;
-    std::jthread reader;
     {
-        PacketRecorder recorder(GrowingFile(ends[1], "slow"), "", from_microseconds(0));
+        PacketRecorder recorder(disk.file(), "", from_microseconds(0));
         while (recorder.counts().dropped < 100) {
             put(recorder, number++, 4096);
         }
-        reader = std::jthread([&] { read_back = everything_from(ends[0]); });
+        disk.go_on();
         EXPECT_TRUE(recorder.finish());
-    } // closes the pipe
-    reader.join();
-    ::close(ends[0]);
-    const Contents contents = contents_of(read_back);
+    } // closes the file
+    const Contents contents = contents_of(disk.read_back());
     EXPECT_EQ(contents.numbers.size() + contents.dropped, number);
     EXPECT_GE(contents.dropped, 100U);
 }
