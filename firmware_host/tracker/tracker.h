@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,20 @@ struct PoseSample {
     bool ok = true;                          ///< false: the device says that this pose is not to be used
 };
 
+/// What a device's driver has counted since the exhibit started; zeros where there is no device.
+struct TrackerCounts {
+    std::uint64_t connections = 0;    ///< times that a device was opened
+    std::uint64_t frames = 0;         ///< taken
+    std::uint64_t lost = 0;           ///< numbers missing between two taken frames of a sensor
+    std::uint64_t duplicated = 0;     ///< came twice; refused
+    std::uint64_t reordered = 0;      ///< came after a later one; refused
+    std::uint64_t strange = 0;        ///< a counter far from what was due; refused
+    std::uint64_t unusable = 0;       ///< poses that are none, or that the device disowns
+    std::uint64_t broken = 0;         ///< times that bytes were thrown away, most for a wrong checksum
+    std::uint64_t clock_restarts = 0; ///< times that the device's clock jumped
+    double clock_drift = 0.0;         ///< our seconds for each of the open device's, less 1
+};
+
 class Tracker {
 public:
     virtual ~Tracker() = default;
@@ -38,6 +53,8 @@ public:
     /// How the device is, or what stands in its place, in one plain sentence that stands until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// As they stood at the latest `poll`.
+    [[nodiscard]] virtual TrackerCounts counts() const { return {}; }
     /// Until when its thread has promised to be heard of again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
