@@ -6,7 +6,8 @@ import unittest
 from mock_tests.test_trackers import Talk
 from mocks.patriot import LibertyHs, Patriot
 from mocks.pose import Pose
-from mocks.viper import Viper
+from mocks.usb_device import Request
+from mocks.viper import Viper, split_commands
 
 _FOLDER = os.path.join(os.path.dirname(__file__), "..", "..", "tracker", "fixtures")
 TURNED = (0.5, 0.5, -0.5, 0.5)
@@ -88,6 +89,66 @@ class ViperFixtures(unittest.TestCase):
             self.answers(command, answer)
             self.talk.faults.clear()
         self.answers("host.hemisphere.get", "answer.hemisphere.get")  # a warning means that it was done
+
+
+class Descriptors(unittest.TestCase):
+    def setUp(self):
+        self.talk = Talk(Viper)
+        self.bytes = fixtures("descriptors.txt")
+
+    def reads(self, name, value):
+        found = self.talk.device.control(Request(0x80, 6, value, 0, 4096))
+        self.assertEqual(found.hex(), self.bytes[name].hex(), name)
+
+    def test_good_and_hostile_ones_are_these(self):
+        self.reads("device", 0x0100)
+        self.reads("good", 0x0200)
+        for name in ("no-endpoints", "absurd-endpoints", "absurd-lengths"):
+            self.talk.faults.tell(name, [])
+            self.reads(name, 0x0200)
+            self.talk.faults.clear()
+        self.reads("good", 0x0200)
+
+    def test_a_configuration_is_taken_or_refused(self):
+        request = Request(0, 9, 1, 0, 0)
+        self.assertEqual(self.talk.device.control(request), b"")
+        self.talk.faults.tell("wrong-configuration", [])
+        self.assertIsNone(self.talk.device.control(request))
+
+
+class Storms(unittest.TestCase):
+    def setUp(self):
+        self.talk = Talk(Viper)
+        self.talk.device.streaming = True
+
+    def sent(self, now):
+        self.talk.device.step(now)
+        return self.talk.heard()
+
+    def test_a_burst_is_the_latest_frame_again_four_times_a_second(self):
+        self.talk.faults.tell("burst", ["64"])
+        frame = self.sent(10.0)
+        whole = frame + b"".join(iter(self.talk.heard, None))
+        self.assertEqual(whole, whole[:60] * (len(whole) // 60))
+        self.assertEqual(len(whole) // 60, 1 + 65536 // 60)
+        self.assertEqual(len(self.sent(10.1)), 60)
+        self.assertGreater(len(self.sent(10.3)), 60000)
+
+    def test_a_false_start_comes_before_each_frame_and_is_none(self):
+        self.talk.faults.tell("false-preambles", [])
+        for _ in range(50):
+            sent = self.sent(1.0)
+            self.assertGreater(len(sent), 60)
+            self.assertIn(sent[:4], (b"VPRP", b"VPRC"))
+            self.assertEqual(split_commands(bytearray(sent[:-60])), [])
+
+    def test_its_clock_stands_on_command(self):
+        clock = self.talk.device.clock_s
+        self.assertEqual(clock(1.0), 1.0)
+        self.talk.faults.tell("clock-stands", [])
+        self.assertEqual([clock(2.0), clock(3.0)], [1.0, 1.0])
+        self.talk.faults.clear()
+        self.assertEqual(clock(4.0), 4.0)
 
 
 class LibertyFixtures(unittest.TestCase):
