@@ -34,7 +34,7 @@ public:
 enum class UsbTrackerModel : std::uint32_t { Viper = 1, Patriot = 2, Liberty = 3, Hid = 4, SpaceMouse = 5 };
 
 struct FoundTracker {
-    std::unique_ptr<UsbTransport> transport; ///< open
+    std::unique_ptr<UsbTransport> transport; ///< open; must go before its bus does
     UsbTrackerModel model = UsbTrackerModel::Viper;
     std::string place; ///< where it is plugged in: the same for the same device, another for another
 };

@@ -118,6 +118,38 @@ TEST(DeviceClock, AClockThatJumpsIsBegunAgainAndTimeStillAscends) {
     }
 }
 
+TEST(DeviceClock, AClockOfAnotherRateIsNotBelievedAndTheArrivalsAreUntilItIsRightAgain) {
+    for (const long double drift : {-0.5L, -0.05L, 0.05L, 1.0L, 3.0L}) {
+        Simulation simulation;
+        simulation.hiccups = false;
+        simulation.drift = drift;
+        DeviceClock clock(static_cast<double>(simulation.tick_ns));
+        std::mt19937 engine(7);
+        std::uint32_t tick = 0;
+        MonotonicTime arrival{};
+        MonotonicTime last{};
+        for (std::int64_t frame = 0; simulation.truth_ns(frame) < 20e9L; ++frame, ++tick) {
+            arrival = simulation.arrival(frame, engine);
+            const MonotonicTime time = clock.time_of(tick, arrival);
+            EXPECT_GT(time, last);
+            last = time;
+        }
+        EXPECT_FALSE(clock.believed());
+        EXPECT_EQ(last, arrival);
+        const std::uint64_t restarts = clock.restarts();
+        simulation.start_ns = static_cast<long double>(arrival.time_since_epoch().count());
+        simulation.drift = 0.0L;
+        for (std::int64_t frame = 1; frame < 120 * 20; ++frame, ++tick) {
+            last = clock.time_of(tick, simulation.arrival(frame, engine));
+            if (frame > 120 * 12) {
+                EXPECT_TRUE(clock.believed());
+                EXPECT_NEAR(off_ns(simulation, frame, last), 0.0, 1e6);
+            }
+        }
+        EXPECT_EQ(clock.restarts(), restarts);
+    }
+}
+
 TEST(DeviceClock, ACounterThatStoodStillForAWhileIsBelievedAgainAfterASecond) {
     Simulation simulation;
     simulation.hiccups = false;

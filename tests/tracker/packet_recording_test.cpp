@@ -32,6 +32,7 @@ struct Recorded {
     std::vector<std::size_t> ends;
     std::vector<PoseSample> samples; ///< that the driver gave then
     UsbTrackerState state = UsbTrackerState::NotConnected;
+    TrackerCounts counts;
 };
 
 /// A device with everything that can happen to one, recorded.
@@ -76,6 +77,7 @@ Recorded eventful(UsbTrackerModel model, Nanoseconds length) {
     recorded.file = tap.file;
     recorded.ends = tap.ends;
     recorded.state = driver.state();
+    recorded.counts = driver.counts();
     return recorded;
 }
 
@@ -121,6 +123,24 @@ TEST(PacketReplay, InStepsOfAnyLengthAndASecondTimeItIsTheSame) {
         ASSERT_EQ(samples.size(), recorded.samples.size());
         EXPECT_TRUE(same(samples.back(), recorded.samples.back()));
         EXPECT_EQ(replay->state(), sentence_of(recorded.state));
+        replay->rewind();
+    }
+}
+
+TEST(PacketReplay, CountsWhatTheExhibitCounted) {
+    const Recorded recorded = eventful(UsbTrackerModel::Viper, seconds(15));
+    Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
+    ASSERT_TRUE(replay);
+    std::vector<PoseSample> samples;
+    for (int round = 0; round < 2; ++round) {
+        replay->play(replay->end(), samples);
+        const TrackerCounts counts = replay->counts();
+        EXPECT_GT(counts.connections, 1U);
+        EXPECT_EQ(counts.connections, recorded.counts.connections);
+        EXPECT_EQ(counts.frames, recorded.counts.frames);
+        EXPECT_EQ(counts.lost, recorded.counts.lost);
+        EXPECT_EQ(counts.broken, recorded.counts.broken);
+        EXPECT_EQ(counts.clock_drift, recorded.counts.clock_drift);
         replay->rewind();
     }
 }

@@ -87,12 +87,15 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
     MonotonicTime last{};
     int followed = 0; // of the times that it came, those that poses came from
     int heard = 0;
+    TrackerCounts counts;
     while (followed < 3) {
         samples.clear();
         const MonotonicTime now = monotonic_now();
         const int finds = found;
         EXPECT_TRUE(tracker.poll(now, samples));
         EXPECT_FALSE(tracker.state().empty());
+        EXPECT_GE(tracker.counts().frames, counts.frames);
+        counts = tracker.counts();
         for (const PoseSample& sample : samples) {
             EXPECT_GE(sample.time, last);
             EXPECT_LE(sample.time, now);
@@ -104,6 +107,8 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
         }
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
+    EXPECT_GE(counts.connections, 2U);
+    EXPECT_GT(counts.frames, 0U);
 }
 
 TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
