@@ -165,7 +165,8 @@ void ViperSession::refused(const ViperReply& reply, MonotonicTime now) {
     if (reader.ok() && code == ViperNak::Booting) {
         progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
     } else if (steps_[progress_.step()].action == ViperAction::Get) {
-        doubtful_ = true; // it does as it was told, perhaps, and does not say so
+        // It does as it was told, perhaps, and does not say so; its name is nobody's doubt.
+        doubtful_ = doubtful_ || steps_[progress_.step()].need == Need::Same;
         progress_.next(now);
     } else {
         const bool fault = reader.ok() && code == ViperNak::BuiltInTest;
