@@ -18,15 +18,15 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
             fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
                         card->path()));
     }
-    Result<std::unique_ptr<GbmScreen>> screen =
-        GbmScreen::create(card->file(), {wish.picture_width, wish.picture_height});
+    Result<std::unique_ptr<CardScreen>> screen =
+        CardScreen::create(card->file(), {wish.picture_width, wish.picture_height});
     if (!screen) {
         return tl::unexpected<Error>(screen.error());
     }
     return std::unique_ptr<KmsDisplay>(new KmsDisplay(std::move(*card), std::move(*screen), wish));
 }
 
-KmsDisplay::KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish)
+KmsDisplay::KmsDisplay(KmsCard card, std::unique_ptr<CardScreen> screen, const OutputWish& wish)
     : card_(std::move(card)), screen_(std::move(screen)), kms_(card_),
       presenter_(
           kms_, [this](PixelSize size) { return screen_->make_pair(size); }, wish),

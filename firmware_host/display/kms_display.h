@@ -14,7 +14,7 @@
 #include "firmware_host/display/atomic_kms.h"
 #include "firmware_host/display/connector_watch.h"
 #include "firmware_host/display/display.h"
-#include "firmware_host/display/gbm_scanout.h"
+#include "firmware_host/display/card_screen.h"
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/presenter.h"
 
@@ -48,10 +48,10 @@ public:
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 
 private:
-    KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish);
+    KmsDisplay(KmsCard card, std::unique_ptr<CardScreen> screen, const OutputWish& wish);
 
     KmsCard card_;
-    std::unique_ptr<GbmScreen> screen_;
+    std::unique_ptr<CardScreen> screen_;
     AtomicKms kms_;
     Presenter presenter_;
     bool presented_ = false;
