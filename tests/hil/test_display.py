@@ -44,7 +44,6 @@ class Display(HilTest):
         super().setUp()
         self.show(ARTIFACT)
         self.bench.place(PLACE_M)
-        self.truth = self.bench.rendered([(*PLACE_M, *UPRIGHT)], ARTIFACT)[0]
         self.process = self.bench.main_process()
 
     def tearDown(self):
@@ -60,18 +59,19 @@ class Display(HilTest):
         self.assertNotEqual(process, 0)
 
     def test_driver_that_comes_late(self):
-        self.assert_same_place(self.bench.steady_picture(), self.truth)
+        self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def test_mode_change(self):
+        truth = self.bench.rendered([(*PLACE_M, *UPRIGHT)], ARTIFACT)[0]
         for _ in range(2):
             self.resize(*LARGER)
-            picture = self.bench.steady_picture()
+            picture = self.bench.picture_of((*PLACE_M, *UPRIGHT))
             seen = screen.centroid(screen.lit(picture), picture.width)
-            x, y = screen.centroid(screen.lit(self.truth), self.truth.width)
+            x, y = screen.centroid(screen.lit(truth), truth.width)
             self.assertAlmostEqual(seen[0], SCALE * x, delta=PIXELS)
             self.assertAlmostEqual(seen[1], SCALE * y + ABOVE, delta=PIXELS)
             self.resize(WIDTH, HEIGHT)
-            self.assert_same_place(self.bench.steady_picture(), self.truth)
+            self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def resize(self, width, height):
         self.viewer.resize(width, height)
@@ -90,4 +90,4 @@ class Display(HilTest):
             self.bench.status_says("display", "no projector is connected", BACK_S)
             self.bench.place(place)
             self.resize(WIDTH, HEIGHT)
-            self.assert_same_place(self.bench.steady_picture(), self.bench.rendered([(*place, *UPRIGHT)], ARTIFACT)[0])
+            self.assert_at(place, artifact=ARTIFACT)

@@ -1,10 +1,11 @@
-"""Looking at the screen for a while: when a new picture came, and what it lit.
+"""Looking at the screen for a while: which pictures came, how long one of them stood, and what some of them lit.
 
 A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
 different codes are two pictures, even where nothing moves.
 
-Time     seconds of the host's monotonic clock; a screendump is as old as the time it took. A gap is without what the
-         guest's processors waited for the host's meanwhile (Machine.waited_s): nothing in the guest could end it sooner.
+Time     seconds that the host granted the guest (Machine.granted_s), so that a busy host is not the exhibit's freeze: a
+         guest that is frozen waits for nothing, and nothing is taken off. A picture stood at least from the end of the
+         first look that saw it to the beginning of the last one, however slow the looks themselves are.
 """
 
 import time
@@ -13,40 +14,53 @@ from dataclasses import dataclass
 import screen
 
 LOOK_S = 0.02  # pause between two screendumps
-MEASURE_S = 0.2  # pause between two whose lit part is measured
+KEPT_S = 0.2  # pause between two that are kept to be measured
+RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
+FROZEN_S = 0.25
 
 
 @dataclass
 class Look:
-    picture: screen.Picture
-    lit: list  # as screen.lit
+    time_s: float  # by the monotonic clock, at its end
+    begin_s: float  # granted
+    end_s: float
+    code: int  # None: none can be read
 
 
 @dataclass
 class Watch:
-    longest_gap_s: float  # between two new pictures, or from the last one to the end; see above
-    pictures: int  # how many new ones were seen
     looks: list
+    pictures: list  # some of those seen
+
+    def stood_s(self, rests=False):
+        """How long one picture stood; `rests`: how much longer than a picture may while nothing moves."""
+        longest, first, since = 0.0, None, None
+        for look in self.looks:
+            if first is None or look.code not in (first.code, None):
+                first, since = look, None
+            if since is None and look.time_s >= first.time_s + (RESTING_S if rests else 0.0):
+                since = look  # the next picture is due
+            if since is not None:
+                longest = max(longest, look.begin_s - since.end_s)
+        return longest
+
+    def codes(self):
+        """How many different pictures were seen, one after another."""
+        seen = [look.code for look in self.looks if look.code is not None]
+        return sum(a != b for a, b in zip(seen, [None, *seen]))
 
 
 def watch(bench, seconds):
     """The exhibit is left alone meanwhile."""
-    begin = now = time.monotonic()
-    changed, measured = (begin, bench.machine.waited_s()), begin - MEASURE_S
-    code, gap, pictures, looks = None, 0.0, 0, []
-
-    def gap_until_now():
-        return now - changed[0] - max(b - a for a, b in zip(changed[1], bench.machine.waited_s()))
-
-    while now - begin < seconds:
+    looks, pictures, granted_s = [], [], bench.machine.granted_s
+    begun = time.monotonic()
+    kept = begun - KEPT_S
+    while time.monotonic() - begun < seconds:
+        begin_s = granted_s()
         picture = bench.screendump()
-        now = time.monotonic()
-        seen = screen.probe(picture)
-        if seen is not None and seen != code:
-            gap = max(gap, gap_until_now())
-            code, pictures, changed = seen, pictures + 1, (now, bench.machine.waited_s())
-        if now - measured >= MEASURE_S:
-            measured = now
-            looks.append(Look(picture, screen.lit(picture)))
+        looks.append(Look(time.monotonic(), begin_s, granted_s(), screen.probe(picture)))
+        if time.monotonic() - kept >= KEPT_S:
+            kept = time.monotonic()
+            pictures.append(picture)
         time.sleep(LOOK_S)
-    return Watch(max(gap, gap_until_now()), pictures, looks)
+    return Watch(looks, pictures)
