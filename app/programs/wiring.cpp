@@ -129,23 +129,6 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
     return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
 }
 
-Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
-    if (!has_packets(kind)) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
-                        "\"spacemouse\"",
-                        name_of(kind)));
-    }
-    Result<GrowingFile> file = GrowingFile::create(path);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
-                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
-    return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
-}
-
 } // namespace
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
@@ -165,17 +148,28 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
     return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
 }
 
+Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
+    if (!has_packets(kind)) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
+                        "\"spacemouse\"",
+                        name_of(kind)));
+    }
+    Result<GrowingFile> file = GrowingFile::create(path);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
+                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
+    return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
+}
+
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                            std::optional<Nanoseconds> press_every, MonotonicTime start,
-                           const std::filesystem::path& record) {
+                           std::unique_ptr<PacketRecorder> recorder) {
     Inputs inputs;
-    if (!record.empty()) {
-        Result<std::unique_ptr<PacketRecorder>> recorder = make_recorder(plan.tracker, record);
-        if (!recorder) {
-            return tl::unexpected<Error>(recorder.error());
-        }
-        inputs.recorder = std::move(*recorder);
-    }
+    inputs.recorder = std::move(recorder);
     if (plan.tracker != TrackerKind::None) {
         Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start, inputs.recorder.get());
         if (!tracker) {
