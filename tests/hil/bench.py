@@ -30,7 +30,6 @@ UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
 PLACE_TOLERANCE_M = 0.0005  # what is presented is filtered: it comes to rest this near to what was sent
 TURN_TOLERANCE = math.radians(0.2)
-CODES = 256  # the probe's
 OTHER_TRACKERS = ("patriot", "hid")  # beside the VIPER that most tests use; unplugged until a test wants them
 
 
@@ -172,14 +171,15 @@ class Bench:
 
         def presented():
             last[0] = (self.status() or {}).get("presented")
-            return last[0] if last[0] and last[0]["settled"] and near(last[0], pose, eye_m) else None
+            found = last[0] and last[0]["settled"] and last[0]["code"] is not None and near(last[0], pose, eye_m)
+            return last[0] if found else None
 
         code = eventually(presented, timeout_s, lambda: f"no picture is presented of {pose}, at last {last[0]}")["code"]
 
         def shown():
             picture = self.screendump()
             seen = screen.probe(picture)
-            return picture if seen is not None and (seen - code) % CODES < CODES // 2 else None
+            return picture if seen is not None and (seen - code) % screen.CODES < screen.CODES // 2 else None
 
         return eventually(shown, timeout_s, f"picture {code} was presented, but neither it nor a later one is shown")
 

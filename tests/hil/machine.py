@@ -70,6 +70,14 @@ class JsonLines:
 
 
 @dataclass
+class Given:
+    """Two clocks of the guest that stand while a busy host lets it wait."""
+
+    granted_s: float  # none of its processors waited for the host's
+    rested_s: float  # of that: none of its processors had anything to do
+
+
+@dataclass
 class Ran:
     """What a command in the guest left."""
 
@@ -105,7 +113,7 @@ class Machine:
             self._monitor.receive()
             self.monitor("qmp_capabilities")
             self._threads = [processor["thread-id"] for processor in self.monitor("query-cpus-fast")]
-            self._granted_s, self._asked = 0.0, (time.monotonic(), self._waited_s())
+            self._given, self._asked = Given(0.0, 0.0), self._scheduled()
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
             self.stop()
@@ -163,20 +171,27 @@ class Machine:
     def monitor(self, command, **arguments):
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
-    def _waited_s(self):
-        """For each of the guest's processors, how long it has been ready to run while the host's were all busy (Linux,
-        Documentation/scheduler/sched-stats.rst: run_delay)."""
+    def _scheduled(self):
+        """Now, and for each of the guest's processors the seconds that it ran, and those that it was ready to run while
+        the host's were all busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
         files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
-        return [int(file.read_text(encoding="ascii").split()[1]) * 1e-9 for file in files]
+        words = [file.read_text(encoding="ascii").split() for file in files]
+        return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
+
+    def given(self):
+        """What the host has given the guest so far; asked often, processors that wait one after another, not at once, are
+        seen to do so."""
+        now, scheduled = self._scheduled()
+        before, self._asked = self._asked, (now, scheduled)
+        took = now - before[0]
+        ran = [b[0] - a[0] for a, b in zip(before[1], scheduled)]
+        waited = [b[1] - a[1] for a, b in zip(before[1], scheduled)]
+        self._given = Given(self._given.granted_s + took - max(waited),
+                            self._given.rested_s + max(0.0, min(took - r - w for r, w in zip(ran, waited))))
+        return self._given
 
     def granted_s(self):
-        """A clock that stands while the host lets a processor of the guest wait: what took longer by it took longer in
-        the guest. Of processors that wait at once, the longest wait counts; asked often, those that wait one after
-        another count all."""
-        now, waited = time.monotonic(), self._waited_s()
-        self._granted_s += now - self._asked[0] - max(b - a for a, b in zip(self._asked[1], waited))
-        self._asked = (now, waited)
-        return self._granted_s
+        return self.given().granted_s
 
     def spawn(self, command):
         """Starts a shell command in the guest and returns its process number."""

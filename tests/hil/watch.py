@@ -3,27 +3,32 @@
 A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
 different codes are two pictures, even where nothing moves.
 
-Time     seconds that the host granted the guest (Machine.granted_s), so that a busy host is not the exhibit's freeze: a
-         guest that is frozen waits for nothing, and nothing is taken off. A picture stood at least from the end of the
-         first look that saw it to the beginning of the last one, however slow the looks themselves are.
+Freeze   a picture that stands while the guest rests, or while the guest is given the time of several pictures: two clocks
+         (Machine.given) that stand while a busy host lets the guest wait, so that its load is not the exhibit's freeze.
+         The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
+         that saw it to the beginning of the last one, however slow the looks themselves are.
 """
 
+import statistics
 import time
 from dataclasses import dataclass
 
 import screen
+from machine import Given
+from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
 RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
-FROZEN_S = 0.25
+FROZEN_RESTED_S = 0.2
+FROZEN_PACES = 4.0
 
 
 @dataclass
 class Look:
     time_s: float  # by the monotonic clock, at its end
-    begin_s: float  # granted
-    end_s: float
+    begin: Given
+    end: Given
     code: int  # None: none can be read
 
 
@@ -32,35 +37,47 @@ class Watch:
     looks: list
     pictures: list  # some of those seen
 
-    def stood_s(self, rests=False):
+    def stood(self, rests=False):
         """How long one picture stood; `rests`: how much longer than a picture may while nothing moves."""
-        longest, first, since = 0.0, None, None
+        longest, first, since = Given(0.0, 0.0), None, None
         for look in self.looks:
             if first is None or look.code not in (first.code, None):
                 first, since = look, None
             if since is None and look.time_s >= first.time_s + (RESTING_S if rests else 0.0):
                 since = look  # the next picture is due
             if since is not None:
-                longest = max(longest, look.begin_s - since.end_s)
+                longest = Given(max(longest.granted_s, look.begin.granted_s - since.end.granted_s),
+                                max(longest.rested_s, look.begin.rested_s - since.end.rested_s))
         return longest
 
-    def codes(self):
-        """How many different pictures were seen, one after another."""
-        seen = [look.code for look in self.looks if look.code is not None]
-        return sum(a != b for a, b in zip(seen, [None, *seen]))
+    def pace_s(self):
+        """How long the guest took for a picture: the median; 0: hardly any was seen."""
+        coded = [look for look in self.looks if look.code is not None]
+        first = [look for before, look in zip(coded, coded[1:]) if look.code != before.code]
+        paces = [(b.end.granted_s - a.end.granted_s) / ((b.code - a.code) % CODES) for a, b in zip(first, first[1:])]
+        return statistics.median(paces) if paces else 0.0
 
 
 def watch(bench, seconds):
     """The exhibit is left alone meanwhile."""
-    looks, pictures, granted_s = [], [], bench.machine.granted_s
+    looks, pictures, given = [], [], bench.machine.given
     begun = time.monotonic()
     kept = begun - KEPT_S
     while time.monotonic() - begun < seconds:
-        begin_s = granted_s()
+        begin = given()
         picture = bench.screendump()
-        looks.append(Look(time.monotonic(), begin_s, granted_s(), screen.probe(picture)))
+        looks.append(Look(time.monotonic(), begin, given(), screen.probe(picture)))
         if time.monotonic() - kept >= KEPT_S:
             kept = time.monotonic()
             pictures.append(picture)
         time.sleep(LOOK_S)
     return Watch(looks, pictures)
+
+
+def froze(seen, rests=False):
+    """Whether a picture froze; says the figures."""
+    stood, pace_s = seen.stood(rests), seen.pace_s()
+    print(f"  {'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
+          f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; {len(seen.looks)} looks",
+          flush=True)
+    return stood.rested_s > FROZEN_RESTED_S or not rests and pace_s > 0.0 and stood.granted_s > FROZEN_PACES * pace_s
