@@ -23,6 +23,7 @@ from vnc_viewer import VncViewer
 HERE = pathlib.Path(__file__).resolve().parent
 CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
+SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
 CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
@@ -147,6 +148,10 @@ class Bench:
         eventually(said, timeout_s, lambda: f"'{key}' never says '{pattern}', at last "
                                             f"'{found[0] and found[0].get(key)}'")
         return found[0]
+
+    def journal(self):
+        """What the exhibit has said since the machine started."""
+        return self.machine.run(f"journalctl -b -o cat --no-pager -u {UNIT}").output
 
     def main_process(self):
         """The exhibit's process number; 0: it does not run."""

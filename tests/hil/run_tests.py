@@ -17,7 +17,7 @@ from hil_test import HilTest, is_long
 from repeat import Load, Run, as_text
 
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "latency", "display", "restart", "kernel")
+MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "display", "vblank", "restart", "kernel")
 
 
 def say(text):

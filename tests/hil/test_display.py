@@ -4,17 +4,36 @@ which the window of a viewer is the projector. The kernel tells of it by uevent.
 import time
 
 import screen
-from bench import CONFIG, HEIGHT, UNIT, UPRIGHT, WIDTH, eventually
-from hil_test import PIXELS, START_S, HilTest
+from bench import CONFIG, CONNECTOR, HEIGHT, SETTINGS, UNIT, UPRIGHT, WIDTH, eventually
+from hil_test import PIXELS, START_S, HilTest, long
 from machine import SECOND_SLOT
 
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
-SETTINGS = "/etc/frustumscreen/kiosk.toml"
 CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
 WAITED_S = 4.0  # for a driver, without giving up
 BACK_S = 15.0
 LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # the picture as large as it fits
+
+
+@long
+class OtherCard(HilTest):
+    def test_projector_comes_to_the_other_card(self):
+        machine = self.bench.machine
+        self.show(ARTIFACT)
+        machine.check(f"echo off > {CONNECTOR}")
+        self.bench.status_says("display", "no projector is connected", BACK_S)
+        self.addCleanup(self.back_to_the_first)
+        self.bench.looked_at = "second"
+        machine.check("modprobe virtio_gpu")
+        self.bench.status_says("display", f"is lit, {WIDTH} x {HEIGHT}", START_S)
+        self.bench.place(PLACE_M)
+        self.assert_at(PLACE_M)
+
+    def back_to_the_first(self):
+        self.bench.looked_at = "screen"
+        self.bench.machine.run(f"systemctl stop {UNIT}; modprobe -r virtio_gpu; echo detect > {CONNECTOR}; "
+                               f"systemctl start --no-block {UNIT}")
 
 
 class Display(HilTest):

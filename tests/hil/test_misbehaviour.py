@@ -23,6 +23,7 @@ TURNS = 24
 BESIDE_PX = 2  # between what is shown and the nearest of the pictures
 BESIDE_SHARE = 0.01  # of the lit pixels
 FAULT_S = 4.0
+AFTER_S = 2.0
 CALM_S = 1.5
 
 RUNNING = "is running"
@@ -125,7 +126,7 @@ class Misbehaviour(HilTest):
         self.bench.tracker.tell("good")
         self.bench.status_says("tracker", RUNNING)
         self.settle(self.allowed.sent, "the prop is not followed again")
-        self.look(FAULT_S, self.allowed.sent)
+        self.look(AFTER_S, self.allowed.sent)
 
     def settle(self, is_right, otherwise):
         eventually(lambda: is_right(screen.lit(self.bench.screendump())), 10.0, otherwise)

@@ -8,6 +8,7 @@ from hil_test import HilTest
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
 STOPPED_S = 0.5
+CARD = "/dev/dri/card0"
 STOP = """begin=$(date +%s%N)
 kill -TERM "$1"
 tail --pid="$1" -f /dev/null -s 0.02
@@ -66,8 +67,22 @@ class Restart(HilTest):
         self.bench.status_says("display", "is lit", BACK_S)
         self.assert_restarted()
 
+    def test_card_that_udev_has_not_given_yet(self):
+        """As at the first boot: the exhibit starts before its user may open the card, and waits."""
+        machine = self.bench.machine
+        machine.check(f"systemctl stop {UNIT}; chmod 600 {CARD}; systemctl start --no-block {UNIT}")
+        shown = f"systemctl show --value -p StatusText {UNIT}"
+        eventually(lambda: "ermission denied" in machine.run(shown).output, BACK_S, "it does not say that it waits")
+        waiting = self.bench.main_process()
+        self.assertNotEqual(waiting, 0)
+        machine.check(f"chmod 660 {CARD}")
+        self.assert_restarted()
+        self.assertEqual(self.bench.main_process(), waiting, "it ended in place of waiting")
+
     def test_hung_renderer(self):
+        """Another thread tells of it before the service manager ends it."""
         self.hang("gl")
+        eventually(lambda: "the picture hangs" in self.bench.journal(), BACK_S, "nobody tells that the picture hangs")
         self.assert_restarted()
 
     def test_hung_connector_thread(self):

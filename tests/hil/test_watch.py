@@ -1,6 +1,6 @@
 """The watch itself: a picture that freezes is noticed, moving and at rest, beside a busy machine too."""
 
-from hil_test import HilTest
+from hil_test import HilTest, long
 from test_misbehaviour import write_strokes
 from watch import froze, watch
 
@@ -9,6 +9,7 @@ MOVING_MS, RESTING_MS = 600, 1500
 LOOK_S = 4.0
 
 
+@long
 class Freezes(HilTest):
     def setUp(self):
         super().setUp()
