@@ -17,7 +17,8 @@ from hil_test import HilTest, is_long
 from repeat import Load, Run, as_text
 
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "display", "vblank", "restart", "kernel")
+MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "display", "vblank",
+           "restart", "kernel")
 
 
 def say(text):
@@ -56,13 +57,18 @@ class Verdicts(unittest.TextTestResult):
             self._keep(test, err)
 
 
+def numbers(text):
+    return [int(word) for word in text.split(",")]
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test hil", description=__doc__)
     parser.add_argument("--only", metavar="NAME", help="the tests whose name contains NAME, long ones too")
     parser.add_argument("--all", action="store_true", help="the long tests too")
     parser.add_argument("--list", action="store_true", help="the tests' names, and nothing else")
-    parser.add_argument("--repeat", metavar="N", type=int, default=1, help="N times, each with a fresh machine; a table at the end")
-    parser.add_argument("--load", metavar="N[,N...]", default="0", type=lambda text: [int(word) for word in text.split(",")],
+    parser.add_argument("--repeat", metavar="N", type=int, default=1,
+                        help="N times, each with a fresh machine; a table at the end")
+    parser.add_argument("--load", metavar="N[,N...]", default="0", type=numbers,
                         help="with so many busy loops beside it; of several, one after another")
     parser.add_argument("--keep", action="store_true", help="leave the last machine up, and say how to get a shell in it")
     parser.add_argument("--build", type=pathlib.Path, default=image.CHECKOUT / "build" / "release",
@@ -119,16 +125,16 @@ def main(family):
     build, out = arguments.build.resolve(), arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
     root, payload, packs = made(build)
-    numbers = [(loops, number) for loops in arguments.load for number in range(1, arguments.repeat + 1)]
+    runs = [(loops, number) for loops in arguments.load for number in range(1, arguments.repeat + 1)]
     table = []
-    for loops, number in numbers:
-        folder = out if len(numbers) == 1 else out / f"load_{loops}_run_{number}"
+    for loops, number in runs:
+        folder = out if len(runs) == 1 else out / f"load_{loops}_run_{number}"
         folder.mkdir(parents=True)
-        family.keep = arguments.keep and (loops, number) == numbers[-1]
+        family.keep = arguments.keep and (loops, number) == runs[-1]
         with Load(loops):
             done = run(chosen(arguments), Bench(root, payload, build, packs, folder), family.keep)
         table.append((loops, number, done))
-        if len(numbers) > 1:
+        if len(runs) > 1:
             (out / "table.txt").write_text(as_text(table), encoding="utf-8")
             print(as_text(table), flush=True)
     return 1 if any(done.wrong for _, _, done in table) else 0

@@ -11,7 +11,7 @@ import operator
 
 import screen
 from bench import EYE_M, UPRIGHT, eventually
-from hil_test import HilTest
+from hil_test import HilTest, long
 
 ARTIFACT = "amphora"
 REACH_M = 0.12
@@ -34,6 +34,10 @@ FAULTS = {
     "duplicate": (("duplicate 0.5",), RUNNING, True),
     "reorder": (("reorder 0.3",), RUNNING, True),
     "distortion": (("distortion 200",), "metal", True),
+    "warn": (("warn", "unplug 1s"), "warned while it was set up", True),
+    "nak_questions": (("nak-questions", "unplug 1s"), "does not say how it is set", True),
+    "filter_stays": (("filter-stays", "unplug 1s"), "own filter cannot be switched off", True),
+    "built_in_test": (("built-in-test",), "a fault of its own", True),
     "stall": (("stall",), "stopped sending", False),
     "hang": (("hang",), "stopped sending|refuses its set-up", False),
     "nan": (("nan",), "can be used", False),
@@ -42,6 +46,7 @@ FAULTS = {
     "slow_boot": (("slow-boot",), "booting", False),
     "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
+LONG = ("reorder", "warn", "nak_questions", "filter_stays", "wrong_units")  # the drivers' own tests have these too
 
 
 def write_strokes(path):
@@ -118,6 +123,7 @@ class Misbehaviour(HilTest):
             self.bench.tracker.tell(command)
         self.bench.status_says("tracker", says)
         if poses_come:
+            self.settle(self.allowed.sent, "the prop is not followed")
             self.look(FAULT_S, self.allowed.sent)
         else:
             self.look(FAULT_S, self.allowed.fading, rests=True)
@@ -146,4 +152,4 @@ def _test(name):
 
 
 for _name in FAULTS:
-    setattr(Misbehaviour, f"test_{_name}", _test(_name))
+    setattr(Misbehaviour, f"test_{_name}", long(_test(_name)) if _name in LONG else _test(_name))

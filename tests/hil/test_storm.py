@@ -1,5 +1,5 @@
-"""Storms: plugs that come and go faster than a hand can, contacts that never rest. The exhibit stays the same process, its
-picture lives on, and all is well after."""
+"""Storms: plugs that come and go faster than a hand can, floods of frames and of noise, descriptors that lie, contacts that
+never rest. The exhibit stays the same process, its picture lives on, and all is well after."""
 
 import time
 
@@ -9,6 +9,20 @@ from hil_test import HilTest, long
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
 REPLUGS, REPLUG_S = 100, 0.1
+STORM_S = 10.0
+# what the tracker does; what the status says of it meanwhile, where that is certain
+STORMS = {
+    "replugged_100_times": ("replug 10", None),
+    "8_khz": ("rate 8000", None),
+    "64_kib_at_once": ("burst 64", None),
+    "false_preambles": ("false-preambles", "is running"),
+    "no_endpoints": ("no-endpoints", "cannot be opened|no tracker"),
+    "absurd_endpoints": ("absurd-endpoints", None),
+    "absurd_lengths": ("absurd-lengths", None),
+    "wrong_configuration": ("wrong-configuration", None),
+    "late_poses": ("rate 2", "its poses come late, or at another pace"),
+}
+DESCRIPTORS = ("no-endpoints", "absurd-endpoints", "absurd-lengths", "wrong-configuration")  # read when it is plugged in
 CHATTER_S = 30.0  # by when it must be known
 BACK_S = 30.0
 
@@ -28,10 +42,17 @@ class Storms(HilTest):
         self.bench.place(PLACE_M)
         self.assert_at(PLACE_M, UPRIGHT, ARTIFACT)
 
-    def test_tracker_replugged_100_times_in_10_s(self):
-        for _ in range(REPLUGS):
-            self.bench.tracker.tell("unplug", f"{round(500 * REPLUG_S)}ms")
-            time.sleep(REPLUG_S)
+    def storm(self, name):
+        command, says = STORMS[name]
+        self.bench.tracker.tell(command)
+        if command in DESCRIPTORS:
+            self.bench.tracker.tell("unplug", "500ms")
+        if says:
+            self.bench.status_says("tracker", says, BACK_S)
+        self.watch(STORM_S, rests=True)
+        self.bench.tracker.tell("good")
+        if command in DESCRIPTORS:
+            self.bench.tracker.tell("unplug", "500ms")
         self.assert_well()
 
     def test_panel_replugged_100_times_in_10_s(self):
@@ -58,3 +79,11 @@ class Storms(HilTest):
         self.bench.status_says("panel", "buttons are there", BACK_S)
         self.bench.buttons.tell("press", 1, "300ms")
         eventually(lambda: self.bench.status()["artifact"] != shown, BACK_S, "the quiet button does nothing")
+
+
+def _test(name):
+    return lambda self: self.storm(name)
+
+
+for _name in STORMS:
+    setattr(Storms, f"test_tracker_{_name}", _test(_name))

@@ -5,7 +5,7 @@ from test_misbehaviour import write_strokes
 from watch import froze, watch
 
 ARTIFACT = "amphora"
-MOVING_MS, RESTING_MS = 600, 1500
+MOVING_MS, RESTING_MS = 600, 2000
 LOOK_S = 4.0
 
 

@@ -20,7 +20,7 @@ from screen import CODES
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
 RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
-FROZEN_RESTED_S = 0.2
+FROZEN_RESTED_S = 0.15
 FROZEN_PACES = 4.0
 
 
