@@ -1,5 +1,6 @@
 #include "app/programs/wiring.h"
 
+#include "app/render/probe.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/display/kms_display.h"
@@ -131,6 +132,8 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
 
 } // namespace
 
+static_assert(probe_pixels == code_pixels, "the display shows the probe as it is, however it scales");
+
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
     const DisplaySettings& display = settings.display;
     if (!headless && display.kind == DisplayKind::Kms) {
@@ -143,6 +146,7 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
         wish.force = display.force;
         wish.picture_width = settings.projector.pinhole.width;
         wish.picture_height = settings.projector.pinhole.height;
+        wish.picture_hz = settings.projector.refresh_hz;
         return KmsDisplay::create(named(display.card), wish);
     }
     return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);

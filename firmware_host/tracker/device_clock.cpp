@@ -10,11 +10,15 @@ namespace {
 constexpr double block_ns = 1e9;
 /// Before this many seconds a slope says more of the delays than of the clock.
 constexpr std::size_t fewest_blocks = 4;
-/// Quartz is within 1e-4; this is far outside, and yet no clock of another rate.
-constexpr double most_drift = 1e-3;
+/// Quartz is within 1e-4. This is far outside, so that a slope measured on a busy machine is within, and yet
+/// no clock of another rate.
+constexpr double most_drift = 0.02;
 /// No arrival is this early, and none stays this late: the device's clock has jumped.
 constexpr double jump_ns = 0.5e9;
-constexpr Nanoseconds longest_late = std::chrono::seconds(1);
+constexpr Nanoseconds longest_late = std::chrono::milliseconds(500);
+/// A clock that has run for so long without a jump is one. A rate so wrong that it is not seen by its slope,
+/// after `fewest_blocks` seconds, makes the clock jump sooner than this.
+constexpr Nanoseconds settled = std::chrono::seconds(6);
 
 } // namespace
 
@@ -76,6 +80,7 @@ void DeviceClock::fit() {
         const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(pairs / 2);
         std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
         drift_ = std::clamp(*middle, -most_drift, most_drift);
+        wrong_rate_ = drift_ != *middle;
     }
     height_ns_ = height_of(blocks_[0]);
     for (std::size_t k = 1; k < count; ++k) {
@@ -83,29 +88,39 @@ void DeviceClock::fit() {
     }
 }
 
+void DeviceClock::restart(std::uint32_t tick, MonotonicTime arrival) {
+    restarts_ += believed() ? 1U : 0U; // one that is no clock jumps all the time
+    quick_restarts_ = arrival - first_arrival_ < settled ? quick_restarts_ + 1 : 1;
+    begin(tick, arrival);
+}
+
+MonotonicTime DeviceClock::line_at(double device_ns) const {
+    return first_arrival_ + Nanoseconds(std::llround(device_ns * (1.0 + drift_) + height_ns_));
+}
+
 MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
-    if (last_time_ && tick == last_tick_) {
-        return *last_time_;
-    }
     const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device does
+    bool same = false;                                              // as the time before
     if (!last_time_) {
         begin(tick, arrival);
+    } else if (step < 0 || jumped(point_of(ticks_ + step, arrival), arrival)) {
+        restart(tick, arrival);
     } else {
-        const Point next = point_of(ticks_ + step, arrival);
-        if (step < 0 || jumped(next, arrival)) {
-            ++restarts_;
-            begin(tick, arrival);
-        } else {
-            ticks_ += step;
-            last_tick_ = tick;
+        ticks_ += step;
+        last_tick_ = tick;
+        same = step == 0;
+        if (arrival - first_arrival_ > settled) {
+            quick_restarts_ = 0;
         }
     }
     const Point point = point_of(ticks_, arrival);
     take(point);
-    const double since_first = point.device_ns * (1.0 + drift_) + height_ns_;
-    MonotonicTime time = first_arrival_ + Nanoseconds(std::llround(since_first));
+    if (same && believed()) {
+        return *last_time_;
+    }
+    MonotonicTime time = believed() ? line_at(point.device_ns) : arrival;
     if (last_time_ && time <= *last_time_) {
-        time = *last_time_ + Nanoseconds(1000);
+        time = *last_time_ + Nanoseconds(same ? 0 : 1000);
     }
     last_time_ = time;
     return time;

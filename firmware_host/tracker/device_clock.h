@@ -2,7 +2,9 @@
 ///
 /// Units    ticks of the device; nanoseconds.
 /// Threads  one caller; allocates nothing.
-/// Errors   none; a clock that jumps is begun again.
+/// Errors   none; a clock that jumps is begun again; one that runs at another rate, or stands still, is not
+///          believed: then a time is that of the arrival, until the clock has run as it should for some
+///          seconds.
 /// Method   Every arrival is late by at least the shortest way through device and USB, so the line under the
 ///          points (device time, arrival) is the clock. Its slope, the drift, is the median of the slopes
 ///          between the earliest arrivals of each second (Theil 1950; Sen 1968), its height the lowest
@@ -23,12 +25,14 @@ class DeviceClock {
 public:
     explicit DeviceClock(double tick_ns) : tick_ns_(tick_ns) {}
 
-    /// When the device's `tick` was, in our time. Ascending for ascending ticks; the same for the same.
+    /// When the device's `tick` was, in our time. Ascending for ascending ticks; the same for the same while
+    /// the clock is believed.
     [[nodiscard]] MonotonicTime time_of(std::uint32_t tick, MonotonicTime arrival);
     /// Our seconds for each of the device's, less 1; 0 until some seconds were seen.
     [[nodiscard]] double drift() const { return drift_; }
     /// How often the device's clock jumped.
     [[nodiscard]] std::uint64_t restarts() const { return restarts_; }
+    [[nodiscard]] bool believed() const { return !wrong_rate_ && quick_restarts_ < most_quick_restarts; }
 
 private:
     struct Point {
@@ -36,8 +40,11 @@ private:
         double late_ns = 0.0;   ///< arrival less device time, both since the first
     };
     static constexpr std::size_t most_blocks = 32;
+    static constexpr int most_quick_restarts = 3;
 
     void begin(std::uint32_t tick, MonotonicTime arrival);
+    void restart(std::uint32_t tick, MonotonicTime arrival);
+    [[nodiscard]] MonotonicTime line_at(double device_ns) const;
     [[nodiscard]] Point point_of(std::int64_t ticks, MonotonicTime arrival) const;
     [[nodiscard]] bool jumped(const Point& point, MonotonicTime arrival);
     void take(const Point& point);
@@ -59,6 +66,8 @@ private:
     double drift_ = 0.0;
     double height_ns_ = 0.0;
     std::uint64_t restarts_ = 0;
+    int quick_restarts_ = 0;  ///< in a row, each soon after the one before
+    bool wrong_rate_ = false; ///< by its slope
 };
 
 } // namespace frustumscreen

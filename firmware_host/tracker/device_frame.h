@@ -30,6 +30,7 @@ struct DeviceFrame {
     std::array<SensorPose, most_sensors> sensors;
     std::size_t count = 0;    ///< of `sensors`
     bool units_as_set = true; ///< false: not metres and quaternions; no pose of this frame is usable
+    bool fault = false;       ///< the device's own test has found one; that says nothing of the poses
 };
 
 /// Why bytes were thrown away.

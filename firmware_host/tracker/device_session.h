@@ -43,8 +43,6 @@ public:
 struct SessionTimes {
     static constexpr Nanoseconds reply = std::chrono::milliseconds(500); ///< then a command is sent again
     static constexpr Nanoseconds booting = std::chrono::milliseconds(300);
-    static constexpr Nanoseconds quiet =
-        std::chrono::milliseconds(250); ///< then streaming is asked for again
     static constexpr int tries = 3;
 };
 

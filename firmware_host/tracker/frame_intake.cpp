@@ -8,8 +8,17 @@ namespace {
 constexpr std::int32_t far_off = 1000;
 /// So many later ones in a row, and it did begin anew.
 constexpr int enough_to_believe = 4;
-/// How long a fault must be gone, or the prop's sensor unheard, before the state says so.
+/// How long a fault must be gone, or the prop's sensor unheard, before the state says so; longer if the
+/// device's pace is so slow.
 constexpr Nanoseconds settling = std::chrono::milliseconds(500);
+/// A device that has not shown its pace yet may take so long to its second frame.
+constexpr Nanoseconds unknown_pace = std::chrono::milliseconds(1500);
+constexpr int gaps_of_patience = 3;
+constexpr Nanoseconds least_patience = std::chrono::milliseconds(250);
+constexpr Nanoseconds most_patience = std::chrono::seconds(4);
+constexpr int frames_to_forget = 10; ///< a long gap
+/// A pose this old when it comes shows the prop where it was.
+constexpr Nanoseconds old_age = std::chrono::milliseconds(500);
 /// Of 255. Sensors in clean surroundings stay near 0; to be set by a real device beside real metal.
 constexpr int metal_near_distortion = 64;
 
@@ -54,6 +63,7 @@ bool FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
         }
         if (!time) {
             time = clock_.time_of(frame.tick, arrival);
+            late_ = !clock_.believed() || arrival - *time > old_age ? arrival : late_;
         }
         if (pose.sensor == prop_station && pose.present) {
             prop_seen_ = arrival;
@@ -75,25 +85,53 @@ bool FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
     }
     if (time || frame.count == 0) {
         ++counts_.frames;
+        if (latest_ && frame.counter != latest_counter_) { // else another sensor's of the same instant
+            longest_gap_ = std::max(arrival - *latest_, longest_gap_ - longest_gap_ / frames_to_forget);
+        }
         latest_ = arrival;
+        latest_counter_ = frame.counter;
         began_ = began_ ? began_ : arrival;
+        faulty_ = frame.fault ? arrival : faulty_;
         return true;
     }
     return false;
 }
 
+TrackerCounts FrameIntake::counts() const {
+    TrackerCounts counts = counts_;
+    counts.clock_restarts = clock_.restarts();
+    counts.clock_drift = clock_.drift();
+    return counts;
+}
+
+Nanoseconds FrameIntake::patience() const {
+    return longest_gap_ > Nanoseconds::zero()
+               ? std::clamp<Nanoseconds>(gaps_of_patience * longest_gap_, least_patience, most_patience)
+               : unknown_pace;
+}
+
 UsbTrackerState FrameIntake::state(MonotonicTime now) const {
+    const Nanoseconds settled = std::max(settling, patience());
+    const auto lately = [&](const std::optional<MonotonicTime>& last) {
+        return last && now - *last < settled;
+    };
     const auto long_since = [&](const std::optional<MonotonicTime>& last) {
         const std::optional<MonotonicTime> since = last ? last : began_;
-        return since && now - *since > settling;
+        return since && now - *since > settled;
     };
     if (long_since(prop_seen_)) {
         return UsbTrackerState::SensorMissing;
     }
+    if (lately(faulty_)) {
+        return UsbTrackerState::DeviceFault;
+    }
     if (long_since(prop_usable_)) {
         return UsbTrackerState::PosesUnusable;
     }
-    if (distorted_ && now - *distorted_ < settling) {
+    if (lately(late_)) {
+        return UsbTrackerState::PosesLate;
+    }
+    if (lately(distorted_)) {
         return UsbTrackerState::MetalNear;
     }
     return UsbTrackerState::Streaming;

@@ -13,28 +13,20 @@
 
 namespace frustumscreen {
 
-struct IntakeCounts {
-    std::uint64_t frames = 0;     ///< taken
-    std::uint64_t lost = 0;       ///< numbers missing between two taken frames of a sensor
-    std::uint64_t duplicated = 0; ///< came twice; refused
-    std::uint64_t reordered = 0;  ///< came after a later one; refused
-    std::uint64_t strange = 0;    ///< a counter far from what was due; refused
-    std::uint64_t unusable = 0;   ///< poses that are none, or that the device disowns
-    std::uint64_t refused = 0;    ///< times that bytes were thrown away by the codec
-};
-
 class FrameIntake {
 public:
     explicit FrameIntake(double tick_ns) : clock_(tick_ns) {}
 
     /// Whether any of it was taken; nothing of a frame that came twice, late or from nowhere is.
     bool take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples);
-    void count_refusal() { ++counts_.refused; }
-    [[nodiscard]] const IntakeCounts& counts() const { return counts_; }
-    [[nodiscard]] const DeviceClock& clock() const { return clock_; }
+    void count_refusal() { ++counts_.broken; }
+    /// Of this one device.
+    [[nodiscard]] TrackerCounts counts() const;
     /// When a frame was taken last.
     [[nodiscard]] std::optional<MonotonicTime> latest() const { return latest_; }
-    /// Streaming, SensorMissing, PosesUnusable or MetalNear.
+    /// Without a frame for longer than this it has fallen silent: by its own pace, which its frames tell.
+    [[nodiscard]] Nanoseconds patience() const;
+    /// Streaming, SensorMissing, DeviceFault, PosesUnusable, PosesLate or MetalNear.
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const;
 
 private:
@@ -48,11 +40,15 @@ private:
     };
     DeviceClock clock_;
     std::array<Sequence, 129> sequences_; ///< by sensor; 7 bits, from 1
-    IntakeCounts counts_;
+    TrackerCounts counts_;                ///< but for the clock's
     std::optional<MonotonicTime> latest_;
+    std::uint32_t latest_counter_ = 0;
+    Nanoseconds longest_gap_{0}; ///< between two of the latest frames
     std::optional<MonotonicTime> began_;
     std::optional<MonotonicTime> prop_seen_;
     std::optional<MonotonicTime> prop_usable_;
+    std::optional<MonotonicTime> faulty_;
+    std::optional<MonotonicTime> late_;
     std::optional<MonotonicTime> distorted_;
 };
 

@@ -48,7 +48,7 @@ HidTrackerMessage parse_pose(ByteReader reader) {
         return Refusal::Content;
     }
     message.starting = (status & device_starting) != 0;
-    message.fault = (status & device_fault) != 0;
+    frame.fault = (status & device_fault) != 0;
     pose.present = (status & sensor_missing) == 0;
     pose.usable = status == 0 && is_pose(pose.position_m, pose.rotation);
     return message;

@@ -30,7 +30,6 @@ struct HidTrackerInfo {
 struct HidTrackerPose {
     DeviceFrame frame;
     bool starting = false;
-    bool fault = false;
 };
 using HidTrackerMessage = std::variant<Refusal, HidTrackerInfo, HidTrackerPose>;
 

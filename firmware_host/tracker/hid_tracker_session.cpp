@@ -8,7 +8,7 @@ constexpr double tick_ns = 1e3; ///< the time stamp counts microseconds
 constexpr int position_unit_um = 10;
 constexpr int fewest_hz = 30;
 constexpr int most_hz = 1000;
-/// A device that sends nothing for so long is opened anew.
+/// A device that sends nothing for so long is opened anew, if its pace is not so slow.
 constexpr Nanoseconds longest_silence = std::chrono::seconds(1);
 
 } // namespace
@@ -31,12 +31,16 @@ void HidTrackerSession::check(const HidTrackerInfo& info) {
     }
 }
 
+Nanoseconds HidTrackerSession::silence(MonotonicTime now) const {
+    return now - intake_.latest().value_or(*began_);
+}
+
 /// Nothing is ever sent; here it is noticed that nothing comes.
 std::span<const std::byte> HidTrackerSession::due(MonotonicTime now) {
     began_ = began_ ? began_ : now;
     if (!informed_ && now - *began_ > SessionTimes::reply) {
         give_up(UsbTrackerState::SetUpRefused);
-    } else if (now - std::max(intake_.latest().value_or(*began_), *began_) > longest_silence) {
+    } else if (silence(now) > std::max(longest_silence, intake_.patience())) {
         give_up(UsbTrackerState::Silent);
     }
     return {};
@@ -52,9 +56,7 @@ void HidTrackerSession::receive(std::span<const std::byte> report, MonotonicTime
         check(*info);
     } else if (const auto* pose = std::get_if<HidTrackerPose>(&message); pose && informed_) {
         intake_.take(pose->frame, arrival, samples);
-        said_ = pose->fault      ? UsbTrackerState::DeviceFault
-                : pose->starting ? UsbTrackerState::Booting
-                                 : UsbTrackerState::Streaming;
+        booting_ = pose->starting;
     } else {
         intake_.count_refusal();
     }
@@ -64,13 +66,13 @@ UsbTrackerState HidTrackerSession::state(MonotonicTime now) const {
     if (failed_ || !began_) {
         return trouble_;
     }
-    if (now - std::max(intake_.latest().value_or(*began_), *began_) > SessionTimes::quiet) {
+    if (silence(now) > intake_.patience()) {
         return UsbTrackerState::Silent;
     }
     if (!intake_.latest()) {
         return UsbTrackerState::SettingUp;
     }
-    return said_ == UsbTrackerState::Streaming ? intake_.state(now) : said_;
+    return booting_ ? UsbTrackerState::Booting : intake_.state(now);
 }
 
 } // namespace frustumscreen

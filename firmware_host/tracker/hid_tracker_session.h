@@ -22,12 +22,13 @@ public:
 private:
     void check(const HidTrackerInfo& info);
     void give_up(UsbTrackerState trouble);
+    [[nodiscard]] Nanoseconds silence(MonotonicTime now) const;
 
     std::optional<MonotonicTime> began_;
     bool informed_ = false; ///< the feature report was good
     bool failed_ = false;
     UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
-    UsbTrackerState said_ = UsbTrackerState::Streaming; ///< by the device itself, in its latest report
+    bool booting_ = false; ///< as the device itself said in its latest report
     FrameIntake intake_;
 };
 

@@ -83,7 +83,8 @@ tl::expected<FoundTracker, UsbTrackerState> open(const char* path, UsbTrackerMod
         const auto bytes = std::as_bytes(std::span(report)).first(static_cast<std::size_t>(count));
         first_report.assign(bytes.begin(), bytes.end());
     }
-    return FoundTracker{std::make_unique<HidapiTransport>(std::move(device), std::move(first_report)), model};
+    return FoundTracker{std::make_unique<HidapiTransport>(std::move(device), std::move(first_report)), model,
+                        path};
 }
 
 class HidapiBus final : public UsbBus {
@@ -93,11 +94,13 @@ public:
     HidapiBus(const HidapiBus&) = delete;
     HidapiBus& operator=(const HidapiBus&) = delete;
 
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> but_not) override {
         UsbTrackerState trouble = UsbTrackerState::NotConnected;
         const DeviceList devices(hid_enumerate(0, 0)); // initialises hidapi the first time
         for (const hid_device_info* at = devices.get(); at != nullptr; at = at->next) {
-            if (known_hid_tracker({at->vendor_id, at->product_id, at->usage_page, at->usage}) != model_) {
+            if (known_hid_tracker({at->vendor_id, at->product_id, at->usage_page, at->usage}) != model_ ||
+                std::find(but_not.begin(), but_not.end(), at->path) != but_not.end()) {
                 continue;
             }
             auto found = open(at->path, model_);

@@ -14,10 +14,11 @@ public:
     explicit JoinedBus(std::vector<std::unique_ptr<UsbBus>> buses) : buses_(std::move(buses)) {}
 
     /// What is in the way of a device that is there counts more than that another is not.
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> but_not) override {
         UsbTrackerState trouble = UsbTrackerState::NotConnected;
         for (const std::unique_ptr<UsbBus>& bus : buses_) {
-            tl::expected<FoundTracker, UsbTrackerState> found = bus->find();
+            tl::expected<FoundTracker, UsbTrackerState> found = bus->find(but_not);
             if (found) {
                 return found;
             }

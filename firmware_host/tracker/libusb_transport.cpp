@@ -6,6 +6,7 @@
 #include <libusb-1.0/libusb.h>
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
@@ -134,10 +135,9 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
         case LIBUSB_ERROR_BUSY:
             return UsbTrackerState::InUse;
         case LIBUSB_ERROR_NO_DEVICE:
-        case LIBUSB_ERROR_NOT_FOUND:
             return UsbTrackerState::NotConnected;
-        default:
-            return UsbTrackerState::UsbFailed;
+        default: // of this one device: its descriptors, its hub, its cable
+            return UsbTrackerState::CannotBeOpened;
         }
     };
     libusb_device_handle* opened = nullptr;
@@ -151,14 +151,23 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
     }
     const Endpoints endpoints = bulk_endpoints(device);
     if (!endpoints.complete()) {
-        return tl::unexpected(UsbTrackerState::UsbFailed);
+        return tl::unexpected(UsbTrackerState::CannotBeOpened);
     }
     return std::make_unique<LibusbTransport>(std::move(handle), endpoints);
 }
 
+/// The port's way from the bus on.
+std::string place_of(libusb_device* device) {
+    std::array<std::uint8_t, 7> ports{}; // as deep as hubs may be
+    const int count = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
+    return fmt::format("usb {}-{}", libusb_get_bus_number(device),
+                       fmt::join(std::span(ports).first(static_cast<std::size_t>(std::max(count, 0))), "."));
+}
+
 class LibusbBus final : public UsbBus {
 public:
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> but_not) override {
         if (!context_) {
             libusb_context* context = nullptr;
             if (libusb_init(&context) != LIBUSB_SUCCESS) {
@@ -171,13 +180,14 @@ public:
         if (count < 0) {
             return tl::unexpected(UsbTrackerState::UsbFailed);
         }
-        auto found = first_of(std::span(devices, static_cast<std::size_t>(count)));
+        auto found = first_of(std::span(devices, static_cast<std::size_t>(count)), but_not);
         libusb_free_device_list(devices, 1);
         return found;
     }
 
 private:
-    static tl::expected<FoundTracker, UsbTrackerState> first_of(std::span<libusb_device*> devices) {
+    static tl::expected<FoundTracker, UsbTrackerState> first_of(std::span<libusb_device*> devices,
+                                                                std::span<const std::string> but_not) {
         UsbTrackerState trouble = UsbTrackerState::NotConnected;
         for (libusb_device* device : devices) {
             libusb_device_descriptor descriptor{};
@@ -189,13 +199,17 @@ private:
             if (!known) {
                 continue;
             }
+            std::string place = place_of(device);
+            if (std::find(but_not.begin(), but_not.end(), place) != but_not.end()) {
+                continue;
+            }
             if (!known->firmware_loaded) {
                 trouble = UsbTrackerState::FirmwareNotLoaded;
                 continue;
             }
             tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> transport = open(device);
             if (transport) {
-                return FoundTracker{std::move(*transport), known->model};
+                return FoundTracker{std::move(*transport), known->model, std::move(place)};
             }
             trouble = transport.error();
         }

@@ -53,7 +53,21 @@ void PacketReplay::rewind() {
     rest_ = first_;
     next_ = rest_.next();
     session_.reset();
+    counts_ = {};
     state_ = Sentence(sentence_of(UsbTrackerState::NotConnected));
+}
+
+void PacketReplay::end_session() {
+    counts_ = counts();
+    session_.reset();
+}
+
+TrackerCounts PacketReplay::counts() const {
+    TrackerCounts counts = counts_;
+    if (session_) {
+        counts += session_->intake().counts();
+    }
+    return counts;
 }
 
 /// A session is asked for what is due before each call, as it was then: with the time of the call when it
@@ -62,11 +76,13 @@ void PacketReplay::feed(const Packet& packet, std::vector<PoseSample>& samples) 
     switch (packet.kind) {
     case PacketKind::Opened: {
         const std::optional<OpenedDevice> opened = OpenedDevice::from(packet.payload);
+        end_session();
+        ++counts_.connections;
         session_ = opened ? make_session(opened->model, opened->set_up) : nullptr;
         break;
     }
     case PacketKind::Closed:
-        session_.reset();
+        end_session();
         break;
     case PacketKind::Sent:
         if (session_) {

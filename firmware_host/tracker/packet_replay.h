@@ -30,6 +30,8 @@ public:
     [[nodiscard]] bool reports_table_frame() const { return model_ == UsbTrackerModel::SpaceMouse; }
     /// The state that the exhibit was in, as it said it then; stands until the next `play`.
     [[nodiscard]] std::string_view state() const { return state_.view(); }
+    /// What the sessions counted up to where it has played, in this round.
+    [[nodiscard]] TrackerCounts counts() const;
     [[nodiscard]] std::uint64_t packets() const { return packets_; } ///< in the whole recording
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; } ///< that the recorder had no room for
     [[nodiscard]] std::size_t left_bytes() const { return left_bytes_; } ///< behind a cut, or damage
@@ -38,6 +40,7 @@ private:
     PacketReplay(Bytes file, const PacketReader& packets)
         : file_(std::move(file)), first_(packets), rest_(packets) {}
     [[nodiscard]] bool survey();
+    void end_session();
     void feed(const Packet& packet, std::vector<PoseSample>& samples);
 
     Bytes file_; ///< its heap stays where it is when this moves
@@ -45,6 +48,7 @@ private:
     PacketReader rest_;
     std::optional<Packet> next_;
     std::unique_ptr<DeviceSession> session_;
+    TrackerCounts counts_; ///< of the sessions that are over, and of what was opened
     MonotonicTime called_; ///< when the session was called last
     MonotonicTime begin_;
     MonotonicTime end_;
@@ -64,6 +68,7 @@ public:
     [[nodiscard]] std::string name() const override { return "replay"; }
     [[nodiscard]] bool reports_table_frame() const override { return replay_.reports_table_frame(); }
     [[nodiscard]] std::string_view state() const override { return replay_.state(); }
+    [[nodiscard]] TrackerCounts counts() const override { return replay_.counts(); }
 
 private:
     [[nodiscard]] MonotonicTime ours(MonotonicTime recorded) const;

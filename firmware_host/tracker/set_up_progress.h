@@ -21,7 +21,7 @@ public:
     [[nodiscard]] bool waits_for_answer() const { return sent_.has_value(); }
     /// It streams, and nothing was heard for too long.
     [[nodiscard]] bool silent(MonotonicTime now, const FrameIntake& intake) const {
-        return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > SessionTimes::quiet;
+        return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > intake.patience();
     }
     [[nodiscard]] bool unanswered(MonotonicTime now) const {
         return sent_ && now - *sent_ > SessionTimes::reply;

@@ -39,7 +39,22 @@ struct TrackerCounts {
     std::uint64_t unusable = 0;       ///< poses that are none, or that the device disowns
     std::uint64_t broken = 0;         ///< times that bytes were thrown away, most for a wrong checksum
     std::uint64_t clock_restarts = 0; ///< times that the device's clock jumped
-    double clock_drift = 0.0;         ///< our seconds for each of the open device's, less 1
+    double clock_drift = 0.0;         ///< our seconds for each of the latest device's, less 1
+
+    /// What a later device counted; the drift is the later one's.
+    TrackerCounts& operator+=(const TrackerCounts& later) {
+        connections += later.connections;
+        frames += later.frames;
+        lost += later.lost;
+        duplicated += later.duplicated;
+        reordered += later.reordered;
+        strange += later.strange;
+        unusable += later.unusable;
+        broken += later.broken;
+        clock_restarts += later.clock_restarts;
+        clock_drift = later.clock_drift;
+        return *this;
+    }
 };
 
 class Tracker {

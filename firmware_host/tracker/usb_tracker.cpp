@@ -20,6 +20,10 @@ void UsbTracker::run(const std::stop_token& stop) {
             mailbox_.put(samples);
         }
         state_ = driver_.state();
+        {
+            const std::lock_guard lock(counts_mutex_);
+            counts_ = driver_.counts();
+        }
         std::unique_lock lock(rest_mutex_);
         stopped_.wait_for(lock, stop, rest, [] { return false; });
     }
@@ -27,6 +31,9 @@ void UsbTracker::run(const std::stop_token& stop) {
 
 Result<void> UsbTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
     mailbox_.take(now, samples);
+    if (const std::unique_lock lock(counts_mutex_, std::try_to_lock); lock.owns_lock()) {
+        seen_counts_ = counts_;
+    }
     return {};
 }
 

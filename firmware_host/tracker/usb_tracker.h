@@ -32,6 +32,7 @@ public:
     [[nodiscard]] std::string name() const override { return "usb"; }
     [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
+    [[nodiscard]] TrackerCounts counts() const override { return seen_counts_; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
     }
@@ -43,6 +44,9 @@ private:
     UsbTrackerDriver driver_; ///< the device's thread only
     Mailbox<PoseSample, most_waiting> mailbox_;
     std::atomic<UsbTrackerState> state_{UsbTrackerState::NotConnected};
+    TrackerCounts counts_; ///< with the lock held
+    std::mutex counts_mutex_;
+    TrackerCounts seen_counts_; ///< of the caller of `poll`
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;

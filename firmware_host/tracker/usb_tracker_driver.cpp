@@ -31,12 +31,25 @@ void UsbTrackerDriver::tell_state() {
     tell(PacketKind::State, clock_(), std::as_bytes(std::span(sentence.data(), sentence.size())));
 }
 
+/// One that has not failed; else the one whose failure is longest ago.
+tl::expected<FoundTracker, UsbTrackerState> UsbTrackerDriver::find() {
+    for (std::span<const std::string> but_not(failed_);; but_not = but_not.subspan(1)) {
+        tl::expected<FoundTracker, UsbTrackerState> found = bus_->find(but_not);
+        if (found || but_not.empty()) {
+            return found;
+        }
+    }
+}
+
 Nanoseconds UsbTrackerDriver::search() {
-    tl::expected<FoundTracker, UsbTrackerState> found = bus_->find();
+    tl::expected<FoundTracker, UsbTrackerState> found = find();
     if (!found) {
+        failed_.clear();
         report(found.error());
         return between_searches;
     }
+    ++counts_.connections;
+    place_ = std::move(found->place);
     transport_ = std::move(found->transport);
     session_ = make_session(found->model, set_up_);
     const OpenedDevice opened{found->model, set_up_};
@@ -48,6 +61,12 @@ Nanoseconds UsbTrackerDriver::search() {
 Nanoseconds UsbTrackerDriver::lose(UsbTrackerState state) {
     report(state);
     tell(PacketKind::Closed, clock_());
+    std::erase(failed_, place_);
+    if (failed_.size() == most_failed) {
+        failed_.erase(failed_.begin());
+    }
+    failed_.push_back(place_);
+    counts_ = counts();
     transport_->close();
     transport_.reset();
     session_.reset();
@@ -80,12 +99,12 @@ Nanoseconds UsbTrackerDriver::step(std::vector<PoseSample>& samples) {
     return Nanoseconds::zero();
 }
 
-IntakeCounts UsbTrackerDriver::counts() const {
-    return session_ ? session_->intake().counts() : IntakeCounts{};
-}
-
-double UsbTrackerDriver::clock_drift() const {
-    return session_ ? session_->intake().clock().drift() : 0.0;
+TrackerCounts UsbTrackerDriver::counts() const {
+    TrackerCounts counts = counts_;
+    if (session_) {
+        counts += session_->intake().counts();
+    }
+    return counts;
 }
 
 } // namespace frustumscreen

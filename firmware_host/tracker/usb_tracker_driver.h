@@ -1,5 +1,6 @@
-/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again. A tap, if
-/// there is one, sees everything that passes between transport and session.
+/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again. Of several
+/// trackers the first that can be opened has it until it fails; then it is tried last. A tap, if there is
+/// one, sees everything that passes between transport and session.
 ///
 /// Time     read from the clock handed in, since a read takes its time. A device that is back is found within
 ///          `between_searches` and streams one set-up later, together well below 2 s.
@@ -28,11 +29,13 @@ public:
     /// One round; appends what came in. Returns how long to rest before the next.
     [[nodiscard]] Nanoseconds step(std::vector<PoseSample>& samples);
     [[nodiscard]] UsbTrackerState state() const { return state_; }
-    /// Of the device that is open now; zeros if none is.
-    [[nodiscard]] IntakeCounts counts() const;
-    [[nodiscard]] double clock_drift() const;
+    /// Of all devices since the beginning.
+    [[nodiscard]] TrackerCounts counts() const;
 
 private:
+    static constexpr std::size_t most_failed = 4;
+
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find();
     [[nodiscard]] Nanoseconds search();
     [[nodiscard]] Nanoseconds lose(UsbTrackerState state);
     void report(UsbTrackerState state);
@@ -45,6 +48,9 @@ private:
     PacketTap* tap_; ///< may be none
     std::unique_ptr<UsbTransport> transport_;
     std::unique_ptr<DeviceSession> session_;
+    std::string place_;               ///< of what is open
+    std::vector<std::string> failed_; ///< places of those that were lost, the latest last
+    TrackerCounts counts_;            ///< of the sessions that are over, and of what was opened
     UsbTrackerState state_ = UsbTrackerState::NotConnected;
     std::array<std::byte, 4096> buffer_{}; ///< a multiple of any bulk packet: a transfer never overflows it
 };

@@ -13,6 +13,7 @@ enum class UsbTrackerState {
     FirmwareNotLoaded,
     InUse,
     UsbFailed,
+    CannotBeOpened,
     SettingUp,
     Booting,
     WrongUnits,
@@ -21,8 +22,10 @@ enum class UsbTrackerState {
     DeviceFault,
     Streaming,
     FilterStaysOn,
+    SetUpDoubtful,
     SensorMissing,
     PosesUnusable,
+    PosesLate,
     MetalNear,
 };
 
@@ -40,6 +43,9 @@ enum class UsbTrackerState {
         return "the tracker is in use by another program; end that program";
     case UsbTrackerState::UsbFailed:
         return "USB cannot be used on this machine; check that /dev/bus/usb is there";
+    case UsbTrackerState::CannotBeOpened:
+        return "a tracker is connected, but cannot be opened over USB; pull its cable, and try another port "
+               "and another cable";
     case UsbTrackerState::SettingUp:
         return "the tracker is being set up";
     case UsbTrackerState::Booting:
@@ -58,12 +64,18 @@ enum class UsbTrackerState {
     case UsbTrackerState::FilterStaysOn:
         return "the tracker runs, but its own filter cannot be switched off and the picture may lag; switch "
                "it off and on, and update its firmware if it stays so";
+    case UsbTrackerState::SetUpDoubtful:
+        return "the tracker runs, but warned while it was set up, or does not say how it is set; if the "
+               "picture is wrong, switch it off and on, and update its firmware";
     case UsbTrackerState::SensorMissing:
         return "the tracker runs, but the prop's sensor is missing; plug it into connector 1";
     case UsbTrackerState::PosesUnusable:
         return "the tracker sends no pose of the prop that can be used; switch it off and on, and look at "
-               "the "
-               "sensor's cable if it stays so";
+               "the sensor's cable if it stays so";
+    case UsbTrackerState::PosesLate:
+        return "the tracker runs, but its poses come late, or at another pace than it says; switch it off "
+               "and "
+               "on, and try another port if it stays so";
     case UsbTrackerState::MetalNear:
         return "the tracker's field is distorted; take metal away from its source and sensors";
     }
@@ -73,7 +85,8 @@ enum class UsbTrackerState {
 /// Poses come in, good or less good.
 [[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
     return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||
-           state == UsbTrackerState::SensorMissing || state == UsbTrackerState::PosesUnusable ||
+           state == UsbTrackerState::SetUpDoubtful || state == UsbTrackerState::SensorMissing ||
+           state == UsbTrackerState::PosesUnusable || state == UsbTrackerState::PosesLate ||
            state == UsbTrackerState::MetalNear;
 }
 

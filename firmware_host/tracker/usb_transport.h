@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace frustumscreen {
 
@@ -35,13 +36,16 @@ enum class UsbTrackerModel : std::uint32_t { Viper = 1, Patriot = 2, Liberty = 3
 struct FoundTracker {
     std::unique_ptr<UsbTransport> transport; ///< open
     UsbTrackerModel model = UsbTrackerModel::Viper;
+    std::string place; ///< where it is plugged in: the same for the same device, another for another
 };
 
 class UsbBus {
 public:
     virtual ~UsbBus() = default;
-    /// Opens the first tracker that can be opened; else says what is in the way.
-    [[nodiscard]] virtual tl::expected<FoundTracker, UsbTrackerState> find() = 0;
+    /// Opens the first tracker that can be opened; else says what is in the way. What is at the places
+    /// `but_not` is passed over.
+    [[nodiscard]] virtual tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> but_not) = 0;
     /// Whether its devices' poses are in the table's frame, not in the device's own.
     [[nodiscard]] virtual bool reports_table_frame() const { return false; }
 };

@@ -16,6 +16,7 @@ constexpr std::size_t crc_bytes = 4;
 constexpr std::size_t pose_head_bytes = 16;
 constexpr std::size_t sensor_bytes = 32;
 constexpr std::size_t command_head_bytes = 20;
+constexpr std::uint32_t standard_mode = 0; ///< the other has accelerations, and shorter quaternions
 /// The longest reply known is a single pose of 16 sensors.
 constexpr std::size_t most_reply_payload = 1024;
 
@@ -49,8 +50,8 @@ ViperStep refuse(std::span<const std::byte> stream, Refusal refusal) {
 SensorPose sensor_pose(ByteReader& reader, bool& units_as_set) {
     const auto info = reader.read<std::uint32_t>();
     const bool is_virtual = (info >> 7U & 1U) != 0;
-    const bool as_set = (info >> 8U & 3U) == viper_metres && (info >> 10U & 3U) == viper_quaternion;
-    units_as_set = units_as_set && as_set;
+    units_as_set =
+        units_as_set && (info >> 8U & 3U) == viper_metres && (info >> 10U & 3U) == viper_quaternion;
     std::array<double, 7> numbers{};
     for (double& number : numbers) {
         number = static_cast<double>(reader.read<float>());
@@ -60,7 +61,7 @@ SensorPose sensor_pose(ByteReader& reader, bool& units_as_set) {
     pose.position_m = {numbers[0], numbers[1], numbers[2]};
     pose.rotation = glm::dquat(numbers[3], numbers[4], numbers[5], numbers[6]);
     pose.distortion = static_cast<int>(info >> 14U & 0xFFU);
-    pose.usable = as_set && !is_virtual && is_pose(pose.position_m, pose.rotation);
+    pose.usable = units_as_set && !is_virtual && is_pose(pose.position_m, pose.rotation);
     return pose;
 }
 
@@ -70,11 +71,12 @@ DeviceFrame pose_frame(std::span<const std::byte> body) {
     static_cast<void>(reader.read<std::uint32_t>()); // serial
     frame.counter = reader.read<std::uint32_t>();
     frame.tick = frame.counter;
-    const bool fault = (reader.read<std::uint32_t>() >> 4U & 0xFU) != 0; // of the built-in test
+    const auto info = reader.read<std::uint32_t>(); // least significant first: mode 4, built-in test 4 bits
+    frame.units_as_set = (info & 0xFU) == standard_mode;
+    frame.fault = (info >> 4U & 0xFU) != 0;
     frame.count = reader.read<std::uint32_t>();
     for (std::size_t k = 0; k < frame.count; ++k) {
         frame.sensors[k] = sensor_pose(reader, frame.units_as_set);
-        frame.sensors[k].usable = frame.sensors[k].usable && !fault;
     }
     return frame;
 }
@@ -124,8 +126,8 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
 }
 
 ViperCommandBytes::ViperCommandBytes(ViperCommand command, ViperAction action,
-                                     std::span<const std::byte> payload, std::uint32_t arg1,
-                                     std::uint32_t arg2) {
+                                     std::span<const std::byte> payload, std::uint32_t sensor,
+                                     ViperFilterTarget target) {
     assert(payload.size() <= most_payload);
     const auto put = [this](std::uint32_t word) {
         std::memcpy(bytes_.data() + size_, &word, sizeof(word));
@@ -136,8 +138,8 @@ ViperCommandBytes::ViperCommandBytes(ViperCommand command, ViperAction action,
     put(0xFFFFFFFFU); // any device
     put(static_cast<std::uint32_t>(command));
     put(static_cast<std::uint32_t>(action));
-    put(arg1);
-    put(arg2);
+    put(sensor);
+    put(static_cast<std::uint32_t>(target));
     std::copy(payload.begin(), payload.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
     size_ += payload.size();
     put(crc16_arc(bytes()));

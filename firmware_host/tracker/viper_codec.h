@@ -3,11 +3,11 @@
 /// Layout   little-endian: u32 preamble, u32 size of all that follows, body, u32 CRC over everything before.
 ///          Preamble 'VPRP' for poses: u32 serial, u32 frame counter, u32 info, u32 sensor count, then 32
 ///          bytes each sensor. Preamble 'VPRC' for commands and replies: u32 serial, u32 command, u32 action,
-///          u32 arg1, u32 arg2, payload. CRC-16/ARC in a u32.
+///          u32 arg1 (the sensor), u32 arg2, payload. CRC-16/ARC in a u32.
 /// Errors   values; any bytes are safe, nothing is read past the span.
 /// Threads  pure functions; they allocate nothing.
-/// Source   Polhemus' documentation of the VIPER's USB protocol as public drivers use it. Not held against a
-///          device yet: the payload of `Filter`, and that sensor 0 on the wire is connector 1.
+/// Source   ViperInterface.h, revision 200519a, of Polhemus, as published in sailboy1025/viper_linux, commit
+///          db416f71; tests/tracker/fixtures/viper.txt has bytes made with it. Not held against a device yet.
 #pragma once
 
 #include "firmware_host/tracker/crc.h"
@@ -19,18 +19,27 @@
 namespace frustumscreen {
 
 enum class ViperCommand : std::uint32_t {
-    Hemisphere = 0, ///< u32 track, f32[3] towards the half space in which the sensors are
-    Filter = 1,     ///< f32[4] F, FLow, FHigh, factor; arg2 0 position, 1 orientation
-    FrameRate = 6,  ///< u32: 30 Hz << value, 0 to 5
-    Units = 7,      ///< u32 position (3 = metres), u32 orientation (2 = quaternion)
-    Continuous = 19,
+    Hemisphere = 0, ///< a sensor's: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space in
+                    ///< which the sensors are
+    Filter = 1,      ///< a sensor's: u32 level (0 none), f32[4] that only level 4 uses; arg2 the target
+    FrameRate = 6,   ///< u32: 30 Hz << value, 0 to 5
+    Units = 7,       ///< u32 position (3 = metres), u32 orientation (2 = quaternion)
+    Continuous = 19, ///< arg2 0: frames as `Layout` has them
     WhoAmI = 20,
 };
-enum class ViperAction : std::uint32_t { Set = 0, Get = 1, Reset = 2, Ack = 3, Nak = 4, NakWarning = 5 };
+enum class ViperAction : std::uint32_t {
+    Set = 0,
+    Get = 1,
+    Reset = 2,
+    Ack = 3,
+    Nak = 4,
+    NakWarning = 5, ///< received and processed, and a warning; its payload is a Nak's
+};
+enum class ViperFilterTarget : std::uint32_t { Both = 0, Orientation = 1, Position = 2 }; ///< Both: no Get
 /// The first number in a Nak's payload.
 enum class ViperNak : std::uint32_t { General = 0, Booting = 1, Command = 2, BuiltInTest = 3 };
 
-inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU;
+inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU; ///< to set; what is asked is asked of one
 inline constexpr std::uint32_t viper_metres = 3;
 inline constexpr std::uint32_t viper_quaternion = 2;
 
@@ -52,8 +61,9 @@ struct ViperStep {
 /// A command ready to be sent.
 class ViperCommandBytes {
 public:
+    /// `sensor`: from 0; 0 too where the command is the whole device's.
     ViperCommandBytes(ViperCommand command, ViperAction action, std::span<const std::byte> payload = {},
-                      std::uint32_t arg1 = viper_all_sensors, std::uint32_t arg2 = 0);
+                      std::uint32_t sensor = 0, ViperFilterTarget target = ViperFilterTarget::Both);
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
 
 private:

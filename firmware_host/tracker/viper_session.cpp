@@ -11,8 +11,7 @@ namespace {
 constexpr std::uint32_t rate_120_hz = 2;
 constexpr double rate_hz = 120.0;
 constexpr double least_agreement = 0.999; ///< cosine between the hemispheres set and answered
-/// F, FLow, FHigh, factor: 0, 1, 0, 0 is no filter.
-constexpr std::array<float, 4> no_filter{0.0F, 1.0F, 0.0F, 0.0F};
+constexpr std::uint32_t no_filter = 0;
 
 template <typename T> std::span<const std::byte> bytes_of(const T& value) {
     return std::as_bytes(std::span(&value, 1));
@@ -24,8 +23,12 @@ std::array<float, 3> direction(const glm::dvec3& v) {
 }
 
 struct HemispherePayload {
-    std::uint32_t track = 0; ///< 0: the half space stays where it is
+    std::uint32_t flags = 0; ///< 0: the half space stays where it is
     std::array<float, 3> direction{};
+};
+struct FilterPayload {
+    std::uint32_t level = no_filter;
+    std::array<float, 4> custom{};
 };
 using UnitsPayload = std::array<std::uint32_t, 2>;
 
@@ -36,25 +39,28 @@ std::vector<ViperSession::Step> ViperSession::steps(const std::array<float, 3>& 
     using A = ViperAction;
     const UnitsPayload units{viper_metres, viper_quaternion};
     const HemispherePayload half{0, hemisphere};
+    const FilterPayload filter{};
     std::vector<Step> steps;
-    const auto ask = [&steps](C name, A action, Failing failing = Failing::TriesAgain) {
-        steps.push_back({ViperCommandBytes(name, action), name, Need::Ack, failing});
-    };
-    const auto set = [&steps](C name, std::span<const std::byte> payload,
-                              Failing failing = Failing::TriesAgain, std::uint32_t arg2 = 0) {
+    const auto add = [&steps](C name, A action, Need need, Failing failing,
+                              std::span<const std::byte> payload = {}, std::uint32_t sensor = 0,
+                              ViperFilterTarget target = ViperFilterTarget::Both) {
         steps.push_back(
-            {ViperCommandBytes(name, A::Set, payload, viper_all_sensors, arg2), name, Need::Ack, failing});
-        steps.push_back(
-            {ViperCommandBytes(name, A::Get, {}, viper_all_sensors, arg2), name, Need::Same, failing});
+            {ViperCommandBytes(name, action, payload, sensor, target), name, action, need, failing});
     };
-    ask(C::Continuous, A::Reset, Failing::GoesOn); // whatever an earlier program left running
-    ask(C::WhoAmI, A::Get);
+    const auto set = [&add](C name, std::span<const std::byte> payload, std::uint32_t sensor = 0) {
+        add(name, A::Set, Need::Ack, Failing::TriesAgain, payload, sensor);
+        add(name, A::Get, Need::Same, Failing::TriesAgain); // of sensor 0, the prop's
+    };
+    add(C::Continuous, A::Reset, Need::Ack, Failing::GoesOn); // whatever an earlier program left running
+    add(C::WhoAmI, A::Get, Need::Ack, Failing::TriesAgain);
     set(C::Units, bytes_of(units));
-    set(C::Hemisphere, bytes_of(half));
-    set(C::Filter, bytes_of(no_filter), Failing::GoesOn, 0);
-    set(C::Filter, bytes_of(no_filter), Failing::GoesOn, 1);
+    set(C::Hemisphere, bytes_of(half), viper_all_sensors);
+    add(C::Filter, A::Set, Need::Ack, Failing::GoesOn, bytes_of(filter), viper_all_sensors);
+    for (const ViperFilterTarget target : {ViperFilterTarget::Orientation, ViperFilterTarget::Position}) {
+        add(C::Filter, A::Get, Need::Same, Failing::GoesOn, {}, 0, target);
+    }
     set(C::FrameRate, bytes_of(rate_120_hz));
-    ask(C::Continuous, A::Set);
+    add(C::Continuous, A::Set, Need::Ack, Failing::TriesAgain);
     return steps;
 }
 
@@ -78,6 +84,7 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
     }
     if (progress_.step() == 0) {
         filter_stays_on_ = false; // until it is known
+        doubtful_ = false;
     }
     progress_.sent(now);
     return steps_[progress_.step()].command.bytes();
@@ -107,10 +114,8 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
         const auto units = reader.read<UnitsPayload>();
         return reader.ok() && units == UnitsPayload{viper_metres, viper_quaternion};
     }
-    case ViperCommand::Filter: {
-        const auto filter = reader.read<std::array<float, 4>>();
-        return reader.ok() && filter == no_filter;
-    }
+    case ViperCommand::Filter:
+        return reader.read<FilterPayload>().level == no_filter && reader.ok();
     case ViperCommand::FrameRate:
         return reader.read<std::uint32_t>() == rate_120_hz && reader.ok();
     case ViperCommand::Hemisphere: {
@@ -146,13 +151,26 @@ void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
             return;
         }
         progress_.next(now);
-        return;
-    }
-    const auto nak = ByteReader(reply.payload).read<std::uint32_t>();
-    if (reply.payload.size() >= 4 && nak == static_cast<std::uint32_t>(ViperNak::Booting)) {
-        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
+    } else if (reply.action == static_cast<std::uint32_t>(ViperAction::NakWarning)) {
+        doubtful_ = true;
+        progress_.next(now);
     } else {
-        fail_step(progress_.step(), UsbTrackerState::SetUpRefused, now);
+        refused(reply, now);
+    }
+}
+
+void ViperSession::refused(const ViperReply& reply, MonotonicTime now) {
+    ByteReader reader(reply.payload);
+    const auto code = static_cast<ViperNak>(reader.read<std::uint32_t>());
+    if (reader.ok() && code == ViperNak::Booting) {
+        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
+    } else if (steps_[progress_.step()].action == ViperAction::Get) {
+        doubtful_ = true; // it does as it was told, perhaps, and does not say so
+        progress_.next(now);
+    } else {
+        const bool fault = reader.ok() && code == ViperNak::BuiltInTest;
+        fail_step(progress_.step(), fault ? UsbTrackerState::DeviceFault : UsbTrackerState::SetUpRefused,
+                  now);
     }
 }
 
@@ -184,7 +202,12 @@ void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arriv
 
 UsbTrackerState ViperSession::state(MonotonicTime now) const {
     const UsbTrackerState state = progress_.state(now, intake_);
-    return state == UsbTrackerState::Streaming && filter_stays_on_ ? UsbTrackerState::FilterStaysOn : state;
+    if (state != UsbTrackerState::Streaming) {
+        return state;
+    }
+    return filter_stays_on_ ? UsbTrackerState::FilterStaysOn
+           : doubtful_      ? UsbTrackerState::SetUpDoubtful
+                            : state;
 }
 
 } // namespace frustumscreen

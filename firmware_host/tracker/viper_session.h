@@ -1,6 +1,6 @@
 /// A VIPER's session: every setting is sent, then read back; the frame rate so confirmed is the clock's tick.
-/// Its filters, which lag, are switched off; where that cannot be confirmed, it streams all the same and says
-/// so.
+/// Its filters, which lag, are switched off; where they stay on, or an answer is refused, or comes with a
+/// warning, it streams all the same and says so.
 ///
 /// Frame, units, time, threads: see device_session.h.
 #pragma once
@@ -32,12 +32,14 @@ private:
     struct Step {
         ViperCommandBytes command;
         ViperCommand name;
+        ViperAction action;
         Need need;
         Failing failing;
     };
 
     [[nodiscard]] static std::vector<Step> steps(const std::array<float, 3>& hemisphere);
     void answer(const ViperReply& reply, MonotonicTime now);
+    void refused(const ViperReply& reply, MonotonicTime now);
     [[nodiscard]] bool repeats_what_was_set(const ViperReply& reply) const;
     void fail_step(std::size_t back_to, UsbTrackerState trouble, MonotonicTime now);
     void try_again(std::size_t from, UsbTrackerState trouble);
@@ -46,6 +48,7 @@ private:
     std::vector<Step> steps_;
     SetUpProgress progress_;
     bool filter_stays_on_ = false;
+    bool doubtful_ = false;     ///< it warned, or did not say how it is set
     bool stream_stale_ = false; ///< what came before is worth nothing; cleared with the next command
     StreamBuffer stream_;
     FrameIntake intake_;

@@ -48,7 +48,7 @@ void check_codec(std::span<const std::byte> report) {
     const HidTrackerMessage message = parse_hid_tracker(report);
     if (const auto* pose = std::get_if<HidTrackerPose>(&message)) {
         fuzz::require_sound(pose->frame);
-        fuzz::require(!pose->frame.sensors[0].usable || !(pose->fault || pose->starting),
+        fuzz::require(!pose->frame.sensors[0].usable || !(pose->frame.fault || pose->starting),
                       "a pose that the device disowns is not usable");
     }
 }

@@ -68,10 +68,10 @@ private:
             require(sample.station >= 1 && sample.station <= 128, "a station is numbered from 1");
             check_(sample);
         }
-        const IntakeCounts& counts = session_.intake().counts();
-        require(counts.frames >= frames_ && counts.refused >= refused_, "counts do not go back");
+        const TrackerCounts counts = session_.intake().counts();
+        require(counts.frames >= frames_ && counts.broken >= broken_, "counts do not go back");
         frames_ = counts.frames;
-        refused_ = counts.refused;
+        broken_ = counts.broken;
     }
 
     DeviceSession& session_;
@@ -84,7 +84,7 @@ private:
     std::optional<MonotonicTime> latest_;
     Nanoseconds early_{0};
     std::uint64_t frames_ = 0;
-    std::uint64_t refused_ = 0;
+    std::uint64_t broken_ = 0;
 };
 
 /// As many of the script's next bytes as it has, at most `count`.

@@ -96,14 +96,15 @@ class SocketBus final : public UsbBus {
 public:
     SocketBus(std::string path, UsbTrackerModel model) : path_(std::move(path)), model_(model) {}
 
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> /*but_not*/) override {
         std::optional<Descriptor> connection = connect_to(path_);
         if (!connection) {
             return tl::unexpected(UsbTrackerState::NotConnected);
         }
         return FoundTracker{
-            std::make_unique<SocketTransport>(std::move(*connection), model_ == UsbTrackerModel::Hid),
-            model_};
+            std::make_unique<SocketTransport>(std::move(*connection), model_ == UsbTrackerModel::Hid), model_,
+            path_};
     }
 
 private:

@@ -85,7 +85,7 @@ public:
                    good_[head_station] > before_of(before, 2) + 5;
         });
     }
-    [[nodiscard]] IntakeCounts counts() const { return driver_.counts(); }
+    [[nodiscard]] TrackerCounts counts() const { return driver_.counts(); }
     [[nodiscard]] const std::vector<PoseSample>& samples() const { return samples_; }
 
     /// Each good sample was sent whole, as the mock wrote down.
@@ -176,7 +176,7 @@ TEST(MockTracker, PosesArriveInOrderAndExact) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
         ASSERT_TRUE(bench.until([&] { return bench.samples().size() > 200; }));
-        EXPECT_EQ(bench.counts().refused + bench.counts().duplicated + bench.counts().reordered, 0U);
+        EXPECT_EQ(bench.counts().broken + bench.counts().duplicated + bench.counts().reordered, 0U);
         bench.check_against_log();
     });
 }
@@ -196,11 +196,11 @@ TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
-        using Count = std::uint64_t IntakeCounts::*;
-        const std::vector<std::pair<std::string, Count>> faults{{"drop", &IntakeCounts::lost},
-                                                                {"corrupt", &IntakeCounts::refused},
-                                                                {"duplicate", &IntakeCounts::duplicated},
-                                                                {"reorder", &IntakeCounts::reordered}};
+        using Count = std::uint64_t TrackerCounts::*;
+        const std::vector<std::pair<std::string, Count>> faults{{"drop", &TrackerCounts::lost},
+                                                                {"corrupt", &TrackerCounts::broken},
+                                                                {"duplicate", &TrackerCounts::duplicated},
+                                                                {"reorder", &TrackerCounts::reordered}};
         for (const auto& [fault, count] : faults) {
             SCOPED_TRACE(fault);
             const std::uint64_t before = bench.counts().*count;
@@ -262,11 +262,10 @@ TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
-        const IntakeCounts before = bench.counts();
+        const TrackerCounts before = bench.counts();
         bench.tell("nan");
         EXPECT_TRUE(bench.until([&] {
-            return bench.counts().unusable > before.unusable + 5 ||
-                   bench.counts().refused > before.refused + 5;
+            return bench.counts().unusable > before.unusable + 5 || bench.counts().broken > before.broken + 5;
         }));
         bench.tell("good");
         EXPECT_TRUE(bench.until_streaming());

@@ -15,6 +15,8 @@ namespace frustumscreen {
 
 /// What a VIPER makes of the command that switches its filters off.
 enum class FakeFilter { Obeys, Refuses, SaysNothing, StaysOn, TurnStaysOn };
+/// What a VIPER answers besides.
+enum class FakeAnswers { Plain, WarnsOfSettings, WarnsOfQuestions, RefusesQuestions, FailsItsTest };
 
 struct FakeUsbTracker {
     UsbTrackerModel model = UsbTrackerModel::Viper;
@@ -26,12 +28,16 @@ struct FakeUsbTracker {
     bool deaf = false;           ///< answers nothing
     bool mute = false;           ///< sends no frames
     FakeFilter filter = FakeFilter::Obeys;
+    FakeAnswers manner = FakeAnswers::Plain;
     Nanoseconds answers_after{}; ///< VIPER
+    double slower = 1.0;         ///< so many times less often than it says, its clock too
+    bool clock_stands = false;   ///< PATRIOT, HID
     bool streaming = false;
     std::uint32_t counter = 0;
     std::uint32_t highest = 0; ///< counter of all that were sent
     std::vector<int> connectors{1, 2};
     unsigned distortion = 0;
+    unsigned fault = 0; ///< of its own test
     unsigned position_units = 3;
     /// What becomes of a frame on its way; empty: nothing.
     std::function<std::vector<wire::Wire>(wire::Wire)> mischief;
@@ -44,7 +50,8 @@ struct FakeUsbTracker {
     MonotonicTime next_frame{};
 
     [[nodiscard]] Nanoseconds period() const {
-        return Nanoseconds(model == UsbTrackerModel::Patriot ? 16'666'667 : 8'333'333);
+        return Nanoseconds(
+            std::llround(slower * (model == UsbTrackerModel::Patriot ? 16'666'667 : 8'333'333)));
     }
     /// Different in every frame and sensor, exact in 32 bits; metres.
     [[nodiscard]] static glm::dvec3 position_of(std::uint32_t frame, int connector) {
@@ -60,6 +67,7 @@ struct FakeUsbTracker {
                glm::distance(position_of(frame, sample.station), sample.position_m) < resolution_m();
     }
 
+    [[nodiscard]] std::uint32_t clock() const { return clock_stands ? 7 : counter; }
     [[nodiscard]] double resolution_m() const { return model == UsbTrackerModel::Hid ? 1e-5 : 1e-6; }
 
     /// A HID device says what it is, then streams unasked.
@@ -107,12 +115,12 @@ struct FakeUsbTracker {
                 {connector, {at.x, at.y, at.z}, {0.5F, 0.5F, -0.5F, 0.5F}, distortion, position_units});
         }
         if (model == UsbTrackerModel::Viper) {
-            return {wire::viper_frame(counter, poses)};
+            return {wire::viper_frame(counter, poses, fault << 4U)};
         }
         std::vector<wire::Wire> all;
         for (const wire::Pose& pose : poses) {
             all.push_back(
-                wire::patriot_frame(static_cast<std::uint32_t>(counter * 16.666667), counter, pose));
+                wire::patriot_frame(static_cast<std::uint32_t>(clock() * 16.666667), counter, pose));
         }
         return all;
     }
@@ -123,10 +131,10 @@ struct FakeUsbTracker {
             const glm::dvec3 at = position_of(counter, connector) * 1e5;
             wire::HidPose pose;
             pose.station = static_cast<unsigned>(connector);
-            pose.status = now < boots_until ? 2 : 0;
+            pose.status = now < boots_until ? 2 : fault != 0 ? 4 : 0;
             pose.distortion = distortion;
             pose.counter = counter;
-            pose.time_us = static_cast<std::uint32_t>(counter * 8333.333);
+            pose.time_us = static_cast<std::uint32_t>(clock() * 8333.333);
             pose.position = {static_cast<std::int32_t>(std::lround(at.x)),
                              static_cast<std::int32_t>(std::lround(at.y)),
                              static_cast<std::int32_t>(std::lround(at.z))};
@@ -165,17 +173,24 @@ struct FakeUsbTracker {
             wire::put(payload, std::uint32_t{2});
             return say(4, payload);
         }
-        // The filters of places and of turns are two settings.
-        wire::Wire& setting = settings[command == 1 && word(24) == 1 ? settings.size() - 1 : command];
+        // Nobody documents a question to all sensors, and the filters of turns (1) and places (2) are two.
+        const bool question = action == 1;
+        const bool of_all = command <= 1 && word(20) == 0xFFFFFFFFU;
+        const bool of_both = command == 1 && word(24) == 0;
+        if ((question && (of_all || of_both || manner == FakeAnswers::RefusesQuestions)) ||
+            (action == 0 && manner == FakeAnswers::FailsItsTest)) {
+            wire::put(payload, std::uint32_t{question ? 2U : 3U});
+            return say(4, payload);
+        }
         if (action == 0 && bytes.size() > 32) {
-            setting.assign(bytes.begin() + 28, bytes.end() - 4);
+            settings[command].assign(bytes.begin() + 28, bytes.end() - 4);
         }
-        if (action == 1) {
-            payload = setting;
+        if (question) {
+            payload = settings[command];
         }
-        if (command == 1 && action == 1 &&
+        if (command == 1 && question &&
             (filter == FakeFilter::StaysOn || (filter == FakeFilter::TurnStaysOn && word(24) == 1))) {
-            payload = wire::from_hex("CDCC4C3E CDCC4C3E CDCC4C3F 3333733F");
+            payload = wire::from_hex("02000000 00000000 00000000 00000000 00000000");
         }
         if (command == 7 && keeps_inches && action == 1) {
             payload = wire::from_hex("00000000 02000000");
@@ -183,6 +198,10 @@ struct FakeUsbTracker {
         if (command == 19) {
             streaming = action == 0;
             next_frame = now + period();
+        }
+        if (manner == (question ? FakeAnswers::WarnsOfQuestions : FakeAnswers::WarnsOfSettings)) {
+            payload.assign(180, std::byte{0});
+            return say(5, payload);
         }
         say(3, payload);
     }
@@ -202,7 +221,7 @@ struct FakeUsbTracker {
             say(keeps_inches ? "00U 0\r\n" : "00U 1\r\n");
         }
     }
-    std::array<wire::Wire, 32> settings; ///< VIPER: payloads set, by command; last: the filter of turns
+    std::array<wire::Wire, 32> settings; ///< VIPER: payloads set, by command
 };
 
 class FakeTransport final : public UsbTransport {
@@ -253,7 +272,8 @@ private:
 class FakeBus final : public UsbBus {
 public:
     explicit FakeBus(FakeUsbTracker& device) : device_(device) {}
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> /*but_not*/) override {
         if (!device_.plugged) {
             return tl::unexpected(device_.in_the_way);
         }
@@ -261,7 +281,7 @@ public:
             return tl::unexpected(UsbTrackerState::SetUpRefused);
         }
         device_.opened();
-        return FoundTracker{std::make_unique<FakeTransport>(device_), device_.model};
+        return FoundTracker{std::make_unique<FakeTransport>(device_), device_.model, {}};
     }
 
 private:

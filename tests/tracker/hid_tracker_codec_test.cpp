@@ -26,7 +26,7 @@ TEST(HidTrackerCodec, ReadsTheDocumentsPose) {
     const SensorPose& sensor = pose->frame.sensors[0];
     EXPECT_EQ(pose->frame.count, 1U);
     EXPECT_EQ(sensor.sensor, 1);
-    EXPECT_TRUE(sensor.usable && sensor.present && !pose->starting && !pose->fault);
+    EXPECT_TRUE(sensor.usable && sensor.present && !pose->starting && !pose->frame.fault);
     EXPECT_EQ(pose->frame.counter, 1000U);
     EXPECT_EQ(pose->frame.tick, 2'000'000U);
     EXPECT_LT(glm::distance(sensor.position_m, glm::dvec3(0.1, -0.05, 0.12)), 1e-15);
@@ -124,7 +124,7 @@ TEST(HidTrackerCodec, EveryStatusBitMakesThePoseUnusable) {
             EXPECT_FALSE(pose->frame.sensors[0].usable);
             EXPECT_EQ(pose->frame.sensors[0].present, bit != 0);
             EXPECT_EQ(pose->starting, bit == 1);
-            EXPECT_EQ(pose->fault, bit == 2);
+            EXPECT_EQ(pose->frame.fault, bit == 2);
         }
     }
 }

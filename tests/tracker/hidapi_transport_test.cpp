@@ -148,7 +148,7 @@ TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
         if (::geteuid() == 0 && ::setuid(nobody) != 0) {
             ::_exit(255);
         }
-        const auto found = make_hid_bus(UsbTrackerModel::Hid)->find();
+        const auto found = make_hid_bus(UsbTrackerModel::Hid)->find({});
         ::_exit(found ? 254 : static_cast<int>(found.error()));
     };
     EXPECT_EXIT(search(), ::testing::ExitedWithCode(static_cast<int>(UsbTrackerState::NoPermission)), "");
@@ -156,7 +156,7 @@ TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
 
 TEST(HidapiTransport, ASpaceMouseIsFoundAndNothingElseIs) {
     const PluggedDevice device("256F", "C635", space_mouse_descriptor, {});
-    EXPECT_EQ(make_hid_bus(UsbTrackerModel::Hid)->find().error(), UsbTrackerState::NotConnected);
+    EXPECT_EQ(make_hid_bus(UsbTrackerModel::Hid)->find({}).error(), UsbTrackerState::NotConnected);
     UsbTrackerDriver driver(make_hid_bus(UsbTrackerModel::SpaceMouse), {}, monotonic_now);
     std::vector<PoseSample> samples;
     EXPECT_EQ(driver.step(samples), Nanoseconds::zero());
@@ -172,7 +172,7 @@ TEST(HidapiTransport, ASpaceMouseIsFoundAndNothingElseIs) {
 
 TEST(HidapiTransport, AnotherMakersDeviceIsNoSpaceMouse) {
     const PluggedDevice device("045E", "C635", space_mouse_descriptor, {});
-    EXPECT_EQ(make_hid_bus(UsbTrackerModel::SpaceMouse)->find().error(), UsbTrackerState::NotConnected);
+    EXPECT_EQ(make_hid_bus(UsbTrackerModel::SpaceMouse)->find({}).error(), UsbTrackerState::NotConnected);
 }
 
 } // namespace

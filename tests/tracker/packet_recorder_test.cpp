@@ -265,8 +265,9 @@ private:
 };
 class StreamingBus final : public UsbBus {
 public:
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
-        return FoundTracker{std::make_unique<StreamingTransport>(), UsbTrackerModel::Hid};
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> /*but_not*/) override {
+        return FoundTracker{std::make_unique<StreamingTransport>(), UsbTrackerModel::Hid, {}};
     }
 };
 

@@ -48,12 +48,14 @@ private:
 class RestlessBus final : public UsbBus {
 public:
     explicit RestlessBus(std::atomic<int>& found) : found_(found) {}
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> /*but_not*/) override {
         if (++searches_ % 3 == 2) {
             return tl::unexpected(UsbTrackerState::NotConnected);
         }
         ++found_;
-        return FoundTracker{std::make_unique<RestlessTransport>(searches_, counter_), UsbTrackerModel::Viper};
+        return FoundTracker{
+            std::make_unique<RestlessTransport>(searches_, counter_), UsbTrackerModel::Viper, {}};
     }
 
 private:
@@ -66,7 +68,8 @@ private:
 class SlowBus final : public UsbBus {
 public:
     explicit SlowBus(std::atomic<int>& searches) : searches_(searches) {}
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find() override {
+    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    find(std::span<const std::string> /*but_not*/) override {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         ++searches_;
         return tl::unexpected(UsbTrackerState::NoPermission);

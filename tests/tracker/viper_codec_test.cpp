@@ -50,12 +50,12 @@ TEST(ViperCodec, AFrameWrittenOutByHandIsRead) {
 TEST(ViperCodec, CommandsAreTheBytesOfTheDescription) {
     const ViperCommandBytes stop(ViperCommand::Continuous, ViperAction::Reset);
     const Wire stop_by_hand =
-        wire::from_hex("56505243 18000000 FFFFFFFF 13000000 02000000 FFFFFFFF 00000000 8FDA0000");
+        wire::from_hex("56505243 18000000 FFFFFFFF 13000000 02000000 00000000 00000000 CFCA0000");
     EXPECT_EQ(Wire(stop.bytes().begin(), stop.bytes().end()), stop_by_hand);
     const std::array<std::uint32_t, 2> units{viper_metres, viper_quaternion};
     const ViperCommandBytes set(ViperCommand::Units, ViperAction::Set, std::as_bytes(std::span(units)));
-    const Wire set_by_hand = wire::from_hex("56505243 20000000 FFFFFFFF 07000000 00000000 FFFFFFFF 00000000"
-                                            "03000000 02000000 AB820000");
+    const Wire set_by_hand = wire::from_hex("56505243 20000000 FFFFFFFF 07000000 00000000 00000000 00000000"
+                                            "03000000 02000000 BE730000");
     EXPECT_EQ(Wire(set.bytes().begin(), set.bytes().end()), set_by_hand);
 }
 

@@ -57,13 +57,13 @@ struct Pose {
     unsigned orientation_units = 2;
 };
 
-inline Wire viper_frame(std::uint32_t counter, const std::vector<Pose>& poses) {
+inline Wire viper_frame(std::uint32_t counter, const std::vector<Pose>& poses, std::uint32_t info = 0) {
     Wire wire;
     put(wire, std::array<char, 4>{'V', 'P', 'R', 'P'});
     put(wire, static_cast<std::uint32_t>(20 + 32 * poses.size()));
     put(wire, std::uint32_t{123456});
     put(wire, counter);
-    put(wire, std::uint32_t{0});
+    put(wire, info);
     put(wire, static_cast<std::uint32_t>(poses.size()));
     for (const Pose& pose : poses) {
         put(wire, static_cast<std::uint32_t>(pose.connector - 1) | pose.position_units << 8U |

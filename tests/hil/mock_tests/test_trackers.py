@@ -23,8 +23,8 @@ def long_division(data):
     return struct.pack("<I", remainder)
 
 
-def command(number, action, payload=b"", arg2=0):
-    whole = struct.pack("<4sIIIIII", b"VPRC", 24 + len(payload), 0xFFFFFFFF, number, action, 0xFFFFFFFF, arg2) + payload
+def command(number, action, payload=b"", arg1=0, arg2=0):
+    whole = struct.pack("<4sIIIIII", b"VPRC", 24 + len(payload), 0xFFFFFFFF, number, action, arg1, arg2) + payload
     return whole + long_division(whole)
 
 
@@ -84,17 +84,16 @@ class ViperBytes(unittest.TestCase):
 
     def test_its_two_filters_are_switched_off_each_and_read_back(self):
         def filters():
-            return [struct.unpack("<4f", self.talk.say(command(1, 1, arg2=which))[28:44]) for which in (0, 1)]
+            return [struct.unpack("<I", self.talk.say(command(1, 1, arg2=which))[28:32])[0] for which in (1, 2)]
 
-        off = struct.pack("<4f", 0, 1, 0, 0)
-        on = filters()
+        off = bytes(20)
+        self.assertEqual(filters(), [2, 2])
         self.talk.say(command(1, 0, off, arg2=1))
-        self.assertEqual(filters(), [on[0], (0, 1, 0, 0)])
+        self.assertEqual(filters(), [0, 2])
         self.talk.say(command(1, 0, off))
-        self.assertEqual(filters(), [(0, 1, 0, 0)] * 2)
+        self.assertEqual(filters(), [0, 0])
         self.talk.faults.tell("filter-stays", [])
-        self.assertEqual(filters(), on)
-        self.assertNotIn((0, 1, 0, 0), on)
+        self.assertEqual(filters(), [2, 2])
 
     def test_without_a_set_up_it_sends_inches_and_angles(self):
         self.talk.say(CONTINUOUS_SET)
@@ -119,7 +118,8 @@ class ViperBytes(unittest.TestCase):
         self.assertFalse(self.talk.device.streaming)
 
     def test_what_it_refuses(self):
-        for bad in (command(6, 0, struct.pack("<I", 6)), command(7, 0, b"\0"), command(99, 0), command(7, 3), command(1, 1, arg2=2)):
+        for bad in (command(6, 0, struct.pack("<I", 6)), command(7, 0, b"\0"), command(99, 0), command(7, 3),
+                    command(1, 1), command(1, 1, arg2=3), command(1, 0, bytes(16)), command(0, 1, arg1=0xFFFFFFFF)):
             answer = self.talk.say(bad)
             self.assertEqual(struct.unpack("<I", answer[16:20]), (4,))
             self.assertEqual(struct.unpack("<I", answer[28:32]), (2,))

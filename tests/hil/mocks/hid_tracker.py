@@ -9,7 +9,7 @@ from .tracker import Tracker
 from .usb_device import IN, INTERRUPT, Endpoint
 
 POSE_REPORT, DEVICE_REPORT = 1, 2
-_SENSOR_MISSING, _STARTING = 1, 2  # bits of the status
+_SENSOR_MISSING, _STARTING, _FAULT = 1, 2, 4  # bits of the status
 _FEATURE_KIND = 3
 _VERSION = 1
 _UNIT_UM, _WRONG_UNIT_UM = 10, 25
@@ -68,6 +68,10 @@ class HidTracker(Tracker):
         """USB carries a report as a whole or not at all; what is broken was broken before."""
         return flip(data, random_, begin=1)
 
+    @staticmethod
+    def false_start(random_):
+        return bytes([POSE_REPORT]) + random_.randbytes(33)
+
     def get_report(self, kind, number, length):
         self.commands += 1
         if kind != _FEATURE_KIND or number != DEVICE_REPORT or self.faults.on("nak"):
@@ -94,7 +98,7 @@ class HidTracker(Tracker):
                 for station, pose in poses.items()]
 
     def _report(self, counter, time_s, station, table_from_sensor):
-        status = _STARTING if self.faults.on("slow-boot") else 0
+        status = (_STARTING if self.faults.on("slow-boot") else 0) | (_FAULT if self.faults.on("built-in-test") else 0)
         position, quaternion = (0, 0, 0), (0, 0, 0, 0)
         if table_from_sensor is None:
             status |= _SENSOR_MISSING
@@ -104,4 +108,4 @@ class HidTracker(Tracker):
             if not self.faults.on("nan"):  # integers are always numbers; a rotation of length 0 is none
                 quaternion = [round(c * 32767) for c in place.quaternion]
         distortion = int(self.faults.value("distortion") or 0)
-        return pose_report(station, counter, round(time_s * 1e6), position, quaternion, status, distortion)
+        return pose_report(station, counter, round(self.clock_s(time_s) * 1e6), position, quaternion, status, distortion)

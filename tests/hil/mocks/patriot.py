@@ -75,6 +75,11 @@ class Patriot(Tracker):
         broken[random_.choice((0, 1, 3, 6, 7))] ^= 1 << random_.randrange(8)
         return bytes(broken)
 
+    @classmethod
+    def false_start(cls, random_):
+        """A whole frame, whose quaternion is none: without a checksum a host can notice no more."""
+        return binary_frame(cls.tag, random_.randint(1, 16), "C", random_.randbytes(24) + b"\xFF" * 16)
+
     def received(self, endpoint, data):
         if self.faults.on("slow-boot"):
             return
@@ -150,7 +155,7 @@ class Patriot(Tracker):
         values = {
             POSITION: position,
             QUATERNION: place.quaternion if good else (1.0, 0.0, 0.0, 0.0),
-            TIMESTAMP: (int((time_s - self._clock_zero) * 1000) & 0xFFFFFFFF,),
+            TIMESTAMP: (int((self.clock_s(time_s) - self._clock_zero) * 1000) & 0xFFFFFFFF,),
             FRAME_COUNT: (counter,),
             DISTORTION: (int(self.faults.value("distortion") or 0),),
         }

@@ -6,13 +6,19 @@ import time
 from . import pose_file
 from .faults import FramePath
 from .pose import IDENTITY, compose
-from .usb_device import IN, UsbDevice
+from .usb_device import BULK, IN, Endpoint, UsbDevice
 
+_ABSURD_ENDPOINTS = tuple(Endpoint(address, address % 4, 0xFFFF, 255)
+                          for k in range(15) for address in (k, IN | k)
+                          if address % 4 != BULK)
+_SET_CONFIGURATION = (0, 9)
+_BURST_PERIOD_S = 0.25
 _LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older than that are lost
 
 
 class Tracker(UsbDevice):
-    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`; it sets `streaming` as told."""
+    """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`, `false_start`; it sets `streaming`
+    as told."""
 
     name = "tracker"
 
@@ -30,6 +36,8 @@ class Tracker(UsbDevice):
         self._tracker_from_table = tracker_from_table
         self._path = FramePath(faults, self.break_bytes)
         self._log = log
+        self._clock_s = 0.0
+        self._burst_due = 0.0
         self._in = next((e.address for e in self.endpoints if e.address & IN), None)
 
     # A subclass has these.
@@ -44,7 +52,18 @@ class Tracker(UsbDevice):
     def break_bytes(data, random_):
         raise NotImplementedError
 
+    @staticmethod
+    def false_start(random_):
+        """Noise that begins as a frame does, and in which a host cannot find a good one."""
+        raise NotImplementedError
+
     # For subclasses.
+
+    def clock_s(self, time_s):
+        """The device's own."""
+        if not self.faults.on("clock-stands"):
+            self._clock_s = time_s
+        return self._clock_s
 
     def answer(self, data):
         self.send(self._in, data)
@@ -67,11 +86,12 @@ class Tracker(UsbDevice):
         """For ever: one frame each period, on time; after a delay those that are due follow at once."""
         due = time.monotonic()
         while True:
-            due += 1.0 / self.rate_hz
+            rate_hz = self.faults.value("rate") or self.rate_hz
+            due += 1.0 / rate_hz
             now = time.monotonic()
             if now - due > _LONGEST_CATCH_UP_S:
-                skipped = int((now - due) * self.rate_hz)
-                due += skipped / self.rate_hz
+                skipped = int((now - due) * rate_hz)
+                due += skipped / rate_hz
                 self.counter += skipped if self.streaming else 0
             await asyncio.sleep(max(0.0, due - now))
             self.step(due)
@@ -83,10 +103,43 @@ class Tracker(UsbDevice):
         self.counter = (self.counter + 1) & 0xFFFFFFFF
         if self.faults.on("stall"):
             return
-        for frame in self.frames(self.counter, now, self.poses(now)):
+        frames = self.frames(self.counter, now, self.poses(now))
+        for frame in frames:
             self.made += 1
+            if self.faults.on("false-preambles"):
+                self.answer(self.false_start(self.faults.random))
             for sent in self._path.send(frame):
                 self._send(sent)
+        if self.faults.on("burst") and now >= self._burst_due:
+            self._burst_due = now + _BURST_PERIOD_S
+            self._burst(frames[-1].data)
+
+    def _burst(self, data):
+        count = int(self.faults.value("burst") * 1024) // len(data)
+        if self.endpoints[0].kind == BULK:
+            self.answer(data * count)
+        else:  # as many reports as it keeps for a host
+            for _ in range(min(count, self.most_waiting)):
+                self.answer(data)
+
+    # As its host is told that it is.
+
+    @property
+    def described_endpoints(self):
+        if self.faults.on("no-endpoints"):
+            return ()
+        return _ABSURD_ENDPOINTS if self.faults.on("absurd-endpoints") else self.endpoints
+
+    def configuration_descriptor(self):
+        whole = super().configuration_descriptor()
+        if self.faults.on("absurd-lengths"):  # of the whole, and of its first interface
+            whole = whole[:2] + b"\xFF\xFF" + whole[4:9] + b"\0" + whole[10:]
+        return whole
+
+    def control(self, request, data=b""):
+        if self.faults.on("wrong-configuration") and (request.kind, request.request) == _SET_CONFIGURATION:
+            return None
+        return super().control(request, data)
 
     def _has_host(self):
         return self.link is None or self.link.connected

@@ -76,7 +76,7 @@ class TrackerConsole:
         return {"t_ns": time.monotonic_ns()}
 
     def _good(self):
-        for name in ("unplug", "hang"):
+        for name in ("unplug", "hang", "replug"):
             if self._tracker.faults.on(name):
                 self._begin_or_end(name, False)
         for name in list(self._alarms):
@@ -99,7 +99,25 @@ class TrackerConsole:
                 tracker.link.plug()
         elif name == "hang":
             tracker.hang(begins)
+        elif name == "replug":
+            self._replug(begins)
         elif name == "slow-boot" and begins:
             tracker.start_anew()
         elif name == "wrong-units" and begins:
             tracker.lose_units()
+
+    def _replug(self, goes_on, plugged=True):
+        """Half of the time the cable is out; in the end it is in."""
+        tracker = self._tracker
+        per_s = tracker.faults.value("replug") if goes_on else None
+        if per_s is None:
+            self._disarm("replug")
+            tracker.link.plug()
+            return
+        if plugged:
+            tracker.link.unplug()
+            tracker.start_anew()
+        else:
+            tracker.link.plug()
+        self._alarms["replug"] = asyncio.get_running_loop().call_later(
+            0.5 / per_s, self._replug, True, not plugged)

@@ -157,11 +157,15 @@ class UsbDevice:
         return struct.pack("<BBHBBBBHHHBBBB", 18, _DEVICE, 0x0200, 0, 0, 0, 64, self.vendor_id, self.product_id,
                            self.version_bcd, 1, 2, 3, 1)
 
+    @property
+    def described_endpoints(self):
+        return self.endpoints
+
     def configuration_descriptor(self):
-        body = struct.pack("<BBBBBBBBB", 9, 4, 0, 0, len(self.endpoints), *self.interface_class, 0)
+        body = struct.pack("<BBBBBBBBB", 9, 4, 0, 0, len(self.described_endpoints), *self.interface_class, 0)
         if self.report_descriptor:
             body += self._hid_descriptor()
-        for e in self.endpoints:
+        for e in self.described_endpoints:
             body += struct.pack("<BBBBHB", 7, 5, e.address, e.kind, e.packet_bytes, e.interval)
         return struct.pack("<BBHBBBBB", 9, _CONFIGURATION, 9 + len(body), 1, 1, 0, 0x80, 50) + body
 

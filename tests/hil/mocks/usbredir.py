@@ -25,6 +25,7 @@ OUR_CAPABILITIES = sum(1 << bit for bit in
                        (DEVICE_VERSION, DISCONNECT_ACK, MAX_PACKET_SIZE, IDS_64_BIT, BULK_LENGTH_32_BIT))
 
 _LONGEST_REPORT = 1024
+_SET_CONFIGURATION_REQUEST = 9
 
 
 def header(kind, length, identifier, wide):
@@ -45,7 +46,7 @@ def endpoint_info_body(device, with_packet_sizes):
     kinds, intervals, interfaces, sizes = [255] * 32, [0] * 32, [0] * 32, [0] * 32
     kinds[0] = kinds[16] = 0  # control
     sizes[0] = sizes[16] = 64
-    for e in device.endpoints:
+    for e in device.described_endpoints:
         index = (e.address & 0x0F) + (16 if e.address & IN else 0)
         kinds[index], intervals[index], sizes[index] = e.kind, e.interval, e.packet_bytes
     body = bytes(kinds) + bytes(intervals) + bytes(interfaces)
@@ -161,7 +162,8 @@ class UsbredirLink:
             return  # sent before the host knew that the cable is out
         elif kind in (SET_CONFIGURATION, GET_CONFIGURATION):
             number = body[0] if kind == SET_CONFIGURATION else 1
-            self._send(CONFIGURATION_STATUS, bytes([SUCCESS, number]), identifier)
+            taken = self._device.control(Request(0, _SET_CONFIGURATION_REQUEST, number, 0, 0)) is not None
+            self._send(CONFIGURATION_STATUS, bytes([SUCCESS if taken else STALL, number]), identifier)
         elif kind in (SET_ALT_SETTING, GET_ALT_SETTING):
             self._send(ALT_SETTING_STATUS, bytes([SUCCESS, body[0], 0]), identifier)
         elif kind in (START_INTERRUPT_RECEIVING, STOP_INTERRUPT_RECEIVING):

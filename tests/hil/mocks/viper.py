@@ -16,8 +16,11 @@ from .tracker import Tracker
 from .usb_device import BULK, IN, Endpoint
 
 HEMISPHERE, FILTER, FRAME_RATE, UNITS, SINGLE, CONTINUOUS, WHO_AM_I = 0, 1, 6, 7, 18, 19, 20
-SET, GET, RESET, ACK, NAK = 0, 1, 2, 3, 4
-NAK_BOOTING, NAK_COMMAND = 1, 2
+SET, GET, RESET, ACK, NAK, NAK_WARNING = range(6)
+NAK_GENERAL, NAK_BOOTING, NAK_COMMAND = range(3)
+BOTH, TURNS, PLACES = range(3)  # what a filter is of; both can be set and reset, not asked
+MEDIUM = 2  # of the filters' levels
+ALL_SENSORS = 0xFFFFFFFF  # can be set and reset, not asked
 INCHES, FEET, CENTIMETRES, METRES = range(4)
 DEGREES, RADIANS, QUATERNION = range(3)
 SERIAL = 700001
@@ -36,8 +39,8 @@ def sensor_record(station, position, orientation, units, distortion=0):
     return struct.pack("<I3f4f", info, *position, *orientation)
 
 
-def pose_body(counter, records):
-    return struct.pack("<IIII", SERIAL, counter, 0, len(records)) + b"".join(records)
+def pose_body(counter, records, fault=0):
+    return struct.pack("<IIII", SERIAL, counter, fault << 4, len(records)) + b"".join(records)
 
 
 def answer_frame(command, action, payload=b""):
@@ -82,11 +85,11 @@ class Viper(Tracker):
     strings = ("", "Polhemus", "VIPER (mock)", "mock")
     break_bytes = staticmethod(flip_or_cut)
 
-    # As it is after power came on, by command and filter (0 of places, 1 of turns).
+    # As it is after power came on, by command and what a filter is of.
     _defaults = {
         (HEMISPHERE, 0): struct.pack("<I3f", 0, 1.0, 0.0, 0.0),
-        (FILTER, 0): struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
-        (FILTER, 1): struct.pack("<4f", 0.2, 0.2, 0.8, 0.95),
+        (FILTER, TURNS): struct.pack("<I4f", MEDIUM, 0.0, 0.0, 0.0, 0.0),
+        (FILTER, PLACES): struct.pack("<I4f", MEDIUM, 0.0, 0.0, 0.0, 0.0),
         (FRAME_RATE, 0): struct.pack("<I", 3),
         (UNITS, 0): struct.pack("<II", INCHES, DEGREES),
     }
@@ -115,14 +118,17 @@ class Viper(Tracker):
             self.commands += 1
             self.answer(self._answer(*command))
 
-    def _answer(self, command, action, _arg1, arg2, payload):
+    def _answer(self, command, action, sensor, target, payload):
         if self.faults.on("slow-boot"):
             return answer_frame(command, NAK, nak_payload(NAK_BOOTING, "the system is booting"))
         if self.faults.on("nak"):
             return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "refused"))
         known = False
         answer = b""
-        setting = (command, arg2 if command == FILTER else 0)
+        settings = [(command, which) for which in self._filters(target)] if command == FILTER else [(command, 0)]
+        if action == GET and (self.faults.on("nak-questions") or command in (HEMISPHERE, FILTER)
+                              and (sensor == ALL_SENSORS or len(settings) != 1)):
+            return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "refused"))
         if command == CONTINUOUS and action in (SET, RESET):
             known = True
             self.streaming = action == SET
@@ -131,20 +137,23 @@ class Viper(Tracker):
             answer = struct.pack("<64s32s32s32s32s", b"VIPER mock", b"700001", b"mock", b"mock", b"mock")
         elif command == SINGLE and action == GET:
             known = True
-            answer = pose_body(self.counter, self._records(self.poses(time.monotonic())))
-        elif setting in self.settings and action == SET:
-            known = self._allowed(setting, payload)
-            if known:
-                self.settings[setting] = payload
-        elif setting in self.settings and action == GET:
-            known = True
-            answer = self._in_use(setting)
-        elif setting in self.settings and action == RESET:
-            known = True
-            self.settings[setting] = self._defaults[setting]
+            answer = self._body(self.counter, self.poses(time.monotonic()))
+        elif all(setting in self.settings for setting in settings):
+            known = action in (GET, RESET) or action == SET and self._allowed(settings[0], payload)
+            if known and action == GET:
+                answer = self._in_use(settings[0])
+            elif known:
+                self.settings.update((setting, payload if action == SET else self._defaults[setting])
+                                     for setting in settings)
+        if known and action == SET and self.faults.on("warn"):
+            return answer_frame(command, NAK_WARNING, nak_payload(NAK_GENERAL, "a warning"))
         if known:
             return answer_frame(command, ACK, answer)
         return answer_frame(command, NAK, nak_payload(NAK_COMMAND, "unknown command or payload"))
+
+    @staticmethod
+    def _filters(target):
+        return (TURNS, PLACES) if target == BOTH else (target,)
 
     def _in_use(self, setting):
         if setting[0] == UNITS:
@@ -164,7 +173,18 @@ class Viper(Tracker):
         return True
 
     def frames(self, counter, time_s, poses):
-        return [Frame(framed(b"VPRP", pose_body(counter, self._records(poses))), poses)]
+        return [Frame(framed(b"VPRP", self._body(counter, poses)), poses)]
+
+    @staticmethod
+    def false_start(random_):
+        """The size may be right for its sensors, the longest that an answer has, or none at all."""
+        count = random_.randrange(17)
+        preamble, size = random_.choice(((b"VPRP", 20 + 32 * count), (b"VPRC", 1048), (b"VPRP", 0xFFFFFFFF),
+                                         (b"VPRC", 0)))
+        return preamble + struct.pack("<IIIII", size, SERIAL, 0, 0, count) + random_.randbytes(random_.randrange(40))
+
+    def _body(self, counter, poses):
+        return pose_body(counter, self._records(poses), int(self.faults.value("built-in-test") or 0))
 
     def _records(self, poses):
         distortion = int(self.faults.value("distortion") or 0)
