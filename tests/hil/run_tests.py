@@ -63,7 +63,8 @@ def numbers(text):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test hil", description=__doc__)
-    parser.add_argument("--only", metavar="NAME", help="the tests whose name contains NAME, long ones too")
+    parser.add_argument("--only", metavar="NAME[,NAME...]",
+                        help="the tests whose name contains NAME, long ones too")
     parser.add_argument("--all", action="store_true", help="the long tests too")
     parser.add_argument("--list", action="store_true", help="the tests' names, and nothing else")
     parser.add_argument("--repeat", metavar="N", type=int, default=1,
@@ -82,7 +83,7 @@ def chosen(arguments):
     """The tests to run, made anew: unittest forgets those that it ran."""
     tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
     if arguments.only:
-        return [test for test in tests if arguments.only in test.id()]
+        return [test for test in tests if any(name in test.id() for name in arguments.only.split(","))]
     return [test for test in tests if arguments.all or not is_long(test)]
 
 
