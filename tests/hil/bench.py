@@ -44,7 +44,7 @@ class Mock:
             self.process = subprocess.Popen(
                 [HERE / program, "--usbredir", self.usb, "--control", self._control, *options],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
-        eventually(lambda: self.usb.exists() and self._control.exists(), 10.0, f"{program} does not start")
+        eventually(lambda: self.usb.exists() and self._control.exists(), 60.0, f"{program} does not start")
 
     def tell(self, *words):
         answer = control.tell(str(self._control), " ".join(str(word) for word in words))
@@ -54,7 +54,7 @@ class Mock:
 
     def stop(self):
         self.process.terminate()
-        self.process.wait(10.0)
+        self.process.wait(60.0)
 
 
 class Patience:

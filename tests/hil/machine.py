@@ -2,7 +2,7 @@
 
 Frame    one machine for a whole test run; every start begins with the same file systems.
 Time     seconds that the host granted (`granted_s`), where nothing else is said.
-Threads  one caller, where nothing else is said.
+Threads  one caller.
 Errors   MachineError, with the folder in which the serial log is.
 Source   QEMU Machine Protocol and Guest Agent protocol references, docs of QEMU 7.2.
 """
@@ -14,7 +14,6 @@ import pathlib
 import shlex
 import socket
 import subprocess
-import threading
 import time
 from dataclasses import dataclass, field
 
@@ -30,7 +29,7 @@ class JsonLines:
     """A socket on which one line is one JSON object."""
 
     def __init__(self, path, timeout_s):
-        deadline = time.monotonic() + 20.0
+        deadline = time.monotonic() + 60.0
         while True:
             self._socket = socket.socket(socket.AF_UNIX)
             try:
@@ -114,7 +113,7 @@ class Machine:
             self._monitor.receive()
             self.monitor("qmp_capabilities")
             self._threads = [processor["thread-id"] for processor in self.monitor("query-cpus-fast")]
-            self._given, self._asked, self._asking = Given(0.0, 0.0), self._scheduled(), threading.Lock()
+            self._given, self._asked = Given(0.0, 0.0), self._scheduled()
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
             self.stop()
@@ -180,17 +179,16 @@ class Machine:
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """What the host has given the guest so far, for any thread; asked often, processors that wait or rest one after
-        another, not at once, are seen to do so."""
-        with self._asking:
-            now, scheduled = self._scheduled()
-            before, self._asked = self._asked, (now, scheduled)
-            took = now - before[0]
-            ran = [b[0] - a[0] for a, b in zip(before[1], scheduled)]
-            waited = [b[1] - a[1] for a, b in zip(before[1], scheduled)]
-            self._given = Given(self._given.granted_s + took - max(waited),
-                                self._given.rested_s + max(0.0, min(took - r - w for r, w in zip(ran, waited))))
-            return self._given
+        """What the host has given the guest so far; asked often, processors that wait one after another, not at once, are
+        seen to do so."""
+        now, scheduled = self._scheduled()
+        before, self._asked = self._asked, (now, scheduled)
+        took = now - before[0]
+        ran = [b[0] - a[0] for a, b in zip(before[1], scheduled)]
+        waited = [b[1] - a[1] for a, b in zip(before[1], scheduled)]
+        self._given = Given(self._given.granted_s + took - max(waited),
+                            self._given.rested_s + max(0.0, min(took - r - w for r, w in zip(ran, waited))))
+        return self._given
 
     def granted_s(self):
         return self.given().granted_s

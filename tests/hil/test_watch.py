@@ -5,7 +5,7 @@ from test_misbehaviour import write_strokes
 from watch import froze, watch
 
 ARTIFACT = "amphora"
-MOVING_MS, RESTING_MS = 600, 2000
+MOVING_MS, RESTING_MS = 1000, 2500
 LOOK_S = 4.0
 
 

@@ -9,9 +9,7 @@ Freeze   a picture that stands while the guest rests, or while the guest is give
          that saw it to the beginning of the last one, however slow the looks themselves are.
 """
 
-import contextlib
 import statistics
-import threading
 import time
 from dataclasses import dataclass
 
@@ -20,10 +18,9 @@ from machine import Given
 from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
-ASKED_S = 0.005  # pause between two questions for the clocks
 KEPT_S = 0.2  # pause between two that are kept to be measured
 RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
-FROZEN_RESTED_S = 0.15
+FROZEN_RESTED_S = 0.25
 FROZEN_PACES = 4.0
 
 
@@ -61,38 +58,19 @@ class Watch:
         return statistics.median(paces) if paces else 0.0
 
 
-@contextlib.contextmanager
-def asked_often(machine):
-    """So that its clocks are fine."""
-    enough = threading.Event()
-
-    def ask():
-        while not enough.wait(ASKED_S):
-            machine.given()
-
-    thread = threading.Thread(target=ask)
-    thread.start()
-    try:
-        yield machine.given
-    finally:
-        enough.set()
-        thread.join()
-
-
 def watch(bench, seconds):
     """The exhibit is left alone meanwhile."""
-    looks, pictures = [], []
+    looks, pictures, given = [], [], bench.machine.given
     begun = time.monotonic()
     kept = begun - KEPT_S
-    with asked_often(bench.machine) as given:
-        while time.monotonic() - begun < seconds:
-            begin = given()
-            picture = bench.screendump()
-            looks.append(Look(time.monotonic(), begin, given(), screen.probe(picture)))
-            if time.monotonic() - kept >= KEPT_S:
-                kept = time.monotonic()
-                pictures.append(picture)
-            time.sleep(LOOK_S)
+    while time.monotonic() - begun < seconds:
+        begin = given()
+        picture = bench.screendump()
+        looks.append(Look(time.monotonic(), begin, given(), screen.probe(picture)))
+        if time.monotonic() - kept >= KEPT_S:
+            kept = time.monotonic()
+            pictures.append(picture)
+        time.sleep(LOOK_S)
     return Watch(looks, pictures)
 
 
