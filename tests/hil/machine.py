@@ -179,8 +179,9 @@ class Machine:
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """What the host has given the guest so far; asked often, processors that wait one after another, not at once, are
-        seen to do so."""
+        """What the host has given the guest so far. Asked every 50 ms or so, processors that wait one after another, not at
+        once, are seen to do so; more often is worse, since a wait is counted when it ends, and until then is taken for rest.
+        """
         now, scheduled = self._scheduled()
         before, self._asked = self._asked, (now, scheduled)
         took = now - before[0]
