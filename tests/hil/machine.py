@@ -1,7 +1,8 @@
 """An emulated PC: QEMU without KVM, its monitor (QMP) and the guest's agent.
 
 Frame    one machine for a whole test run; every start begins with the same file systems.
-Threads  one caller.
+Time     seconds that the host granted (`granted_s`), where nothing else is said.
+Threads  one caller, where nothing else is said.
 Errors   MachineError, with the folder in which the serial log is.
 Source   QEMU Machine Protocol and Guest Agent protocol references, docs of QEMU 7.2.
 """
@@ -13,11 +14,12 @@ import pathlib
 import shlex
 import socket
 import subprocess
+import threading
 import time
 from dataclasses import dataclass, field
 
 SECOND_SLOT = 0x10  # of the second graphics card, on the PCI bus
-START_S = 180.0  # until the agent answers; 13 to 30 s on an idle machine of two cores
+START_S = 180.0  # until the agent answers; 13 to 30 s on two cores
 
 
 class MachineError(Exception):
@@ -69,6 +71,14 @@ class JsonLines:
 
 
 @dataclass
+class Given:
+    """Two clocks of the guest that stand while a busy host lets it wait."""
+
+    granted_s: float  # none of its processors waited for the host's
+    rested_s: float  # of that: none of its processors had anything to do
+
+
+@dataclass
 class Ran:
     """What a command in the guest left."""
 
@@ -104,6 +114,7 @@ class Machine:
             self._monitor.receive()
             self.monitor("qmp_capabilities")
             self._threads = [processor["thread-id"] for processor in self.monitor("query-cpus-fast")]
+            self._given, self._asked, self._asking = Given(0.0, 0.0), self._scheduled(), threading.Lock()
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
             self.stop()
@@ -140,12 +151,12 @@ class Machine:
     def _connect_agent(self):
         """The agent answers once the guest's user space is there; what was sent before that may be lost."""
         agent = JsonLines(self.sockets / "agent", 1.0)
-        deadline = time.monotonic() + START_S
+        deadline = self.granted_s() + START_S
         token = int(time.monotonic() * 1000) & 0x7FFFFFFF
         while True:
             if self._process.poll() is not None:
                 raise MachineError("QEMU ended")
-            if time.monotonic() > deadline:
+            if self.granted_s() > deadline:
                 raise MachineError(f"no answer within {START_S:.0f} s")
             token += 1
             try:
@@ -161,11 +172,28 @@ class Machine:
     def monitor(self, command, **arguments):
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
-    def waited_s(self):
-        """For each of the guest's processors, how long it has been ready to run while the host's were all busy (Linux,
-        Documentation/scheduler/sched-stats.rst: run_delay)."""
+    def _scheduled(self):
+        """Now, and for each of the guest's processors the seconds that it ran, and those that it was ready to run while
+        the host's were all busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
         files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
-        return [int(file.read_text(encoding="ascii").split()[1]) * 1e-9 for file in files]
+        words = [file.read_text(encoding="ascii").split() for file in files]
+        return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
+
+    def given(self):
+        """What the host has given the guest so far, for any thread; asked often, processors that wait or rest one after
+        another, not at once, are seen to do so."""
+        with self._asking:
+            now, scheduled = self._scheduled()
+            before, self._asked = self._asked, (now, scheduled)
+            took = now - before[0]
+            ran = [b[0] - a[0] for a, b in zip(before[1], scheduled)]
+            waited = [b[1] - a[1] for a, b in zip(before[1], scheduled)]
+            self._given = Given(self._given.granted_s + took - max(waited),
+                                self._given.rested_s + max(0.0, min(took - r - w for r, w in zip(ran, waited))))
+            return self._given
+
+    def granted_s(self):
+        return self.given().granted_s
 
     def spawn(self, command):
         """Starts a shell command in the guest and returns its process number."""
@@ -175,13 +203,13 @@ class Machine:
     def run(self, command, timeout_s=60.0):
         """Runs a shell command in the guest as root."""
         pid = self.spawn(command)
-        deadline = time.monotonic() + timeout_s
+        deadline = self.granted_s() + timeout_s
         pause_s = 0.01
         while True:
             state = self._agent.answer({"execute": "guest-exec-status", "arguments": {"pid": pid}})
             if state["exited"]:
                 break
-            if time.monotonic() > deadline:
+            if self.granted_s() > deadline:
                 raise MachineError(f"in the guest, after {timeout_s:.0f} s still running: {command}")
             time.sleep(pause_s)
             pause_s = min(2 * pause_s, 0.5)
