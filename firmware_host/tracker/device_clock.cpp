@@ -81,6 +81,7 @@ void DeviceClock::fit() {
         std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
         drift_ = std::clamp(*middle, -most_drift, most_drift);
         wrong_rate_ = drift_ != *middle;
+        block_count_ = wrong_rate_ ? 0 : block_count_; // what is not believed is no past to be outvoted
     }
     height_ns_ = height_of(blocks_[0]);
     for (std::size_t k = 1; k < count; ++k) {
@@ -100,7 +101,8 @@ MonotonicTime DeviceClock::line_at(double device_ns) const {
 
 MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
     const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device does
-    bool same = false;                                              // as the time before
+    const bool doubted = !believed();
+    bool same = false; // as the time before
     if (!last_time_) {
         begin(tick, arrival);
     } else if (step < 0 || jumped(point_of(ticks_ + step, arrival), arrival)) {
@@ -113,12 +115,15 @@ MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
             quick_restarts_ = 0;
         }
     }
-    const Point point = point_of(ticks_, arrival);
-    take(point);
+    take(point_of(ticks_, arrival));
+    if (doubted && believed()) { // its line is of the time in which it was no clock
+        begin(tick, arrival);
+        take(point_of(0, arrival));
+    }
     if (same && believed()) {
         return *last_time_;
     }
-    MonotonicTime time = believed() ? line_at(point.device_ns) : arrival;
+    MonotonicTime time = believed() ? line_at(static_cast<double>(ticks_) * tick_ns_) : arrival;
     if (last_time_ && time <= *last_time_) {
         time = *last_time_ + Nanoseconds(same ? 0 : 1000);
     }

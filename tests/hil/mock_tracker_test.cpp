@@ -250,12 +250,82 @@ TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
     });
 }
 
-TEST(MockTracker, AViperWhoseFilterStaysOnStreamsAndSaysSo) {
-    Bench bench(devices.front(), {"--at", "0s filter-stays"});
-    EXPECT_TRUE(bench.until_state(UsbTrackerState::FilterStaysOn));
-    bench.tell("filter-stays off");
-    bench.tell("unplug 300ms");
-    EXPECT_TRUE(bench.until_streaming());
+/// A fault of one kind of device, and what is said of it.
+struct Said {
+    const Device& device;
+    std::string fault;
+    UsbTrackerState state;
+};
+
+void with_each(const std::vector<Said>& which, const std::function<void(const Said&)>& test) {
+    std::vector<std::jthread> threads;
+    threads.reserve(which.size());
+    for (const Said& said : which) {
+        threads.emplace_back([&] {
+            SCOPED_TRACE(said.device.name + " " + said.fault);
+            test(said);
+        });
+    }
+}
+
+TEST(MockTracker, AViperWhoseSetUpIsNotAsItShouldBeStreamsAndSaysSo) {
+    const Device& viper = devices[0];
+    with_each({{viper, "filter-stays", UsbTrackerState::FilterStaysOn},
+               {viper, "warn", UsbTrackerState::SetUpDoubtful},
+               {viper, "nak-questions", UsbTrackerState::SetUpDoubtful}},
+              [](const Said& said) {
+                  Bench bench(said.device, {"--at", "0s " + said.fault});
+                  EXPECT_TRUE(bench.until_state(said.state));
+                  EXPECT_TRUE(bench.until([&] { return bench.samples().size() > 20; }));
+                  bench.tell(said.fault + " off");
+                  bench.tell("unplug 300ms");
+                  EXPECT_TRUE(bench.until_streaming());
+                  bench.check_against_log();
+              });
+}
+
+TEST(MockTracker, AWrongPaceAClockThatStandsAndAFaultOfItsOwnAreSaidAndPass) {
+    const Device& viper = devices[0];
+    const Device& patriot = devices[1];
+    const Device& hid = devices[3];
+    with_each({{viper, "rate 30", UsbTrackerState::PosesLate},
+               {viper, "rate 8000", UsbTrackerState::PosesLate},
+               {viper, "built-in-test", UsbTrackerState::DeviceFault},
+               {patriot, "clock-stands", UsbTrackerState::PosesLate},
+               {hid, "clock-stands", UsbTrackerState::PosesLate},
+               {hid, "built-in-test", UsbTrackerState::DeviceFault}},
+              [](const Said& said) {
+                  Bench bench(said.device);
+                  ASSERT_TRUE(bench.until_streaming());
+                  bench.tell(said.fault);
+                  EXPECT_TRUE(bench.until_state(said.state));
+                  bench.tell(said.fault.substr(0, said.fault.find(' ')) + " off");
+                  EXPECT_TRUE(bench.until_streaming());
+                  bench.check_against_log();
+              });
+}
+
+TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
+    with_each(devices, [](const Device& device) {
+        Bench bench(device);
+        ASSERT_TRUE(bench.until_streaming());
+        bench.tell("replug 33 3s"); // a hundred times
+        EXPECT_TRUE(bench.until_state(UsbTrackerState::NotConnected));
+        EXPECT_TRUE(bench.until_streaming());
+        using Count = std::uint64_t TrackerCounts::*;
+        const std::vector<std::pair<std::string, Count>> storms{{"burst 64", &TrackerCounts::duplicated},
+                                                                {"false-preambles", &TrackerCounts::broken}};
+        for (const auto& [storm, count] : storms) {
+            SCOPED_TRACE(storm);
+            const std::uint64_t before = bench.counts().*count;
+            bench.tell(storm);
+            EXPECT_TRUE(bench.until([&, &c = count] { return bench.counts().*c > before + 20; }));
+            EXPECT_TRUE(bench.until_streaming()); // meanwhile
+            bench.tell(storm.substr(0, storm.find(' ')) + " off");
+            EXPECT_TRUE(bench.until_streaming());
+        }
+        bench.check_against_log();
+    });
 }
 
 TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
