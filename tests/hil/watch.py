@@ -20,7 +20,7 @@ from screen import CODES
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
 RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
-FROZEN_RESTED_S = 0.25
+FROZEN_S = 0.25
 FROZEN_PACES = 4.0
 
 
@@ -80,4 +80,5 @@ def froze(seen, rests=False):
     print(f"  {'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
           f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; {len(seen.looks)} looks",
           flush=True)
-    return stood.rested_s > FROZEN_RESTED_S or not rests and pace_s > 0.0 and stood.granted_s > FROZEN_PACES * pace_s
+    in_a_circle = not rests and pace_s > 0.0 and stood.granted_s > max(FROZEN_S, FROZEN_PACES * pace_s)
+    return stood.rested_s > FROZEN_S or in_a_circle
