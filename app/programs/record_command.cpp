@@ -167,8 +167,15 @@ Result<void> record(const Request& request, Inputs& inputs) {
         return fail(ErrorKind::BadConfiguration, "tracker.kind is \"none\"; there is nothing to record");
     }
     const MonotonicTime start = monotonic_now();
-    Result<Inputs> made = make_inputs(**settings, devices, std::nullopt, start,
-                                      request.raw ? request.output : std::filesystem::path());
+    std::unique_ptr<PacketRecorder> recorder;
+    if (request.raw) {
+        Result<std::unique_ptr<PacketRecorder>> opened = make_recorder(devices.tracker, request.output);
+        if (!opened) {
+            return tl::unexpected<Error>(opened.error());
+        }
+        recorder = std::move(*opened);
+    }
+    Result<Inputs> made = make_inputs(**settings, devices, std::nullopt, start, std::move(recorder));
     if (!made) {
         return tl::unexpected<Error>(made.error());
     }

@@ -11,6 +11,7 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
@@ -89,6 +90,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
 /// From the end of the loop: a device's thread that does not come back is not waited for.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
 constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
+/// While the machine boots, udev may not have given the card to the exhibit's user yet.
+constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
 /// For so long a service shows why there is nothing to show, before it ends and is started to look for packs
 /// anew.
 constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
@@ -97,19 +100,29 @@ Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
 }
 
-/// As a service, a graphics card whose driver comes late is waited for; a person is told at once.
+/// As a service, a graphics card whose driver comes late is waited for, and for a while one that cannot be
+/// used yet; a person is told at once.
 Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
                                                   const StopSignals& stop_signals, ServiceManager& manager,
                                                   const Journal& journal) {
     std::unique_ptr<Hotplug> hotplug; // once there is something to wait for
+    Sentence noted;
+    const MonotonicTime begin = monotonic_now();
     while (true) {
         Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
-        if (display || display.error().kind != ErrorKind::DeviceLost || !manager.listens()) {
+        if (display || !manager.listens()) {
             return display;
         }
-        const Sentence why(display.error().message);
+        const bool may_come = display.error().kind == ErrorKind::DeviceLost;
+        if (!may_come && monotonic_now() - begin >= longest_boot) {
+            return display;
+        }
         if (!hotplug) {
             hotplug = make_udev_hotplug();
+        }
+        const Sentence why(display.error().message);
+        if (why != noted) {
+            noted = why;
             journal.note(Weight::Warning, why.view(), {{"DEVICE", "display"}});
         }
         manager.status(why);
@@ -141,6 +154,28 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         return std::move(*artifacts); // no chord can be held
     }
     return std::make_unique<StaffShow>(settings, std::move(*artifacts), display.name());
+}
+
+/// As a service, a recording that cannot be made is said, and the exhibit goes on without it.
+Result<Inputs> open_inputs(const Request& request, const Settings& settings, const DevicePlan& devices,
+                           bool is_service, std::optional<Nanoseconds> press_every, MonotonicTime start) {
+    std::unique_ptr<PacketRecorder> recorder;
+    Sentence why_not;
+    if (!request.record.empty()) {
+        Result<std::unique_ptr<PacketRecorder>> made = make_recorder(devices.tracker, request.record);
+        if (made) {
+            recorder = std::move(*made);
+        } else if (is_service) {
+            why_not = format_sentence("nothing is recorded: {}", made.error().message);
+        } else {
+            return tl::unexpected<Error>(made.error());
+        }
+    }
+    Result<Inputs> inputs = make_inputs(settings, devices, press_every, start, std::move(recorder));
+    if (inputs) {
+        inputs->why_not_recorded = why_not;
+    }
+    return inputs;
 }
 
 /// On the table for the staff, where a person would read standard error.
@@ -176,8 +211,7 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
 
 void report(const Request& request, const LoopResult& result) {
     RunStatus status = result.status;
-    status.written_at = std::chrono::system_clock::now();
-    status.resident_mib = resident_mib();
+    stamp(status);
     if (request.json) {
         fmt::print("{}", status_json(status));
         return;
@@ -244,7 +278,7 @@ Result<void> run(const Request& request) {
         press_every = nanoseconds(request.seconds / request.changes);
     }
     const MonotonicTime start = now();
-    Result<Inputs> inputs = make_inputs(**settings, devices, press_every, start, request.record);
+    Result<Inputs> inputs = open_inputs(request, **settings, devices, manager.listens(), press_every, start);
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }

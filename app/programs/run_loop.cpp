@@ -65,7 +65,7 @@ public:
 
     [[nodiscard]] Result<LoopResult> run() {
         MonotonicTime now = start_;
-        watch_.begin(start_, options_.fast);
+        watch_.begin(start_, options_.fast, status_file_);
         MonotonicTime next_status = start_ + between_statuses;
         while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
             if (Result<void> drawn = frame(now); !drawn) {
@@ -88,7 +88,9 @@ public:
 private:
     [[nodiscard]] Result<void> frame(MonotonicTime now) {
         const MonotonicTime begin = monotonic_now();
+        watch_.enters("asks its devices");
         poll(now);
+        watch_.enters("draws");
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
@@ -101,14 +103,17 @@ private:
             for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
                 display_.changed({part.x, part.y, part.width, part.height});
             }
+            watch_.enters("waits for the display");
             const Result<MonotonicTime> shown = display_.present(now);
             if (!shown) {
                 return tl::unexpected<Error>(shown.error());
             }
             light_delay_.flipped(now, *shown);
             presented_ = now;
+            result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
         }
         const double ms = milliseconds_since(begin);
+        watch_.enters("tells how it is");
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }
@@ -125,6 +130,8 @@ private:
         }
         shown_ = situation;
         shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        result_.status.presented.settled = state.settled;
+        watch_.enters("rests until the next display time");
         take_still(now, state);
         return {};
     }
@@ -226,10 +233,15 @@ private:
         status.p95_ms = times_.quantile(0.95);
         status.p99_ms = times_.quantile(0.99);
         status.uptime_s = to_seconds(now - start_);
+        status.presented.table_from_prop = shown_.table_from_prop;
+        status.presented.eye_m = shown_.eye_m;
+        status.shown_code = watch_.shown_code();
+        status.health = watch_.health();
+        status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
         status.display = Sentence(display_.state());
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
-        status.recording = Sentence(inputs_.recorder ? inputs_.recorder->state() : std::string_view{});
+        status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
     }
 
     [[nodiscard]] bool told_to_stop() const { return options_.stop != nullptr && options_.stop->received(); }
@@ -277,7 +289,10 @@ private:
 Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs, Show& show,
                             const LoopOptions& options, StatusFile& status_file, RunWatch& watch,
                             MonotonicTime start) {
-    return Loop(settings, display, inputs, show, options, status_file, watch, start).run();
+    Result<LoopResult> result =
+        Loop(settings, display, inputs, show, options, status_file, watch, start).run();
+    watch.end();
+    return result;
 }
 
 } // namespace frustumscreen

@@ -5,9 +5,12 @@
 /// costs no frame.
 #pragma once
 
+#include "app/geometry/transform.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
+#include "firmware_host/service/watchdog_policy.h"
+#include "firmware_host/tracker/tracker.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -15,6 +18,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,9 +59,24 @@ struct PackLeftOut {
     std::string reason;
 };
 
+/// The picture that was handed to the display last, and what it shows.
+struct PresentedPicture {
+    std::optional<std::uint8_t> code; ///< app/render/probe.h; nothing = the picture lights its corner
+    RigidTransform table_from_prop;   ///< as drawn
+    glm::dvec3 eye_m{0.0};            ///< table frame
+    bool settled = false;             ///< nothing in it fades
+};
+
 struct RunStatus {
-    std::chrono::system_clock::time_point written_at; ///< set by who writes it
-    std::span<const PackLeftOut> left_out;            ///< lives as long as the show
+    std::chrono::system_clock::time_point written_at; ///< these four are set by who writes it: `stamp`
+    MonotonicTime written_at_monotonic;
+    Sentence boot_id;
+    double resident_mib = 0.0;
+    Health health = Health::Well;
+    PresentedPicture presented;
+    std::optional<std::uint8_t> shown_code; ///< read back last from what the display shows
+    TrackerCounts tracker_counts;
+    std::span<const PackLeftOut> left_out; ///< lives as long as the show
     std::string_view artifact;
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;
@@ -78,7 +97,6 @@ struct RunStatus {
     std::uint64_t late = 0;        ///< display times that passed without a new frame
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
-    double resident_mib = 0.0;
     Sentence display; ///< how the devices are; empty where there is nothing to say
     Sentence tracker;
     Sentence panel;
@@ -88,6 +106,8 @@ struct RunStatus {
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);
+/// When and where it is written, and how much memory this process has then.
+void stamp(RunStatus& status);
 
 /// Of this process; 0 where the system does not say.
 [[nodiscard]] double resident_mib();
@@ -100,6 +120,9 @@ public:
     StatusFile(const StatusFile&) = delete;
     StatusFile& operator=(const StatusFile&) = delete;
     void post(const RunStatus& status);
+    /// The one who posts hangs, or does so no longer: the latest status is written anew. Any thread.
+    void note_hang(bool hangs);
+    [[nodiscard]] bool wanted() const { return !file_.empty(); }
 
 private:
     void work();
@@ -108,6 +131,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;
+    bool hangs_ = false;
     bool pending_ = false;
     bool closing_ = false;
     std::jthread writer_;

@@ -8,9 +8,34 @@
 
 namespace frustumscreen {
 
-void RunWatch::begin(MonotonicTime now, bool simulated_time) {
-    if (const auto interval = manager_.watchdog_interval(); interval && !simulated_time) {
-        watchdog_.emplace(*interval, now);
+namespace {
+
+/// Of a policy that feeds nobody.
+constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
+
+} // namespace
+
+void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_file) {
+    if (simulated_time) {
+        return;
+    }
+    if (const auto interval = manager_.watchdog_interval(); interval || status_file.wanted()) {
+        watchdog_.emplace(interval.value_or(usual_interval), now);
+    }
+    hang_watch_.emplace(loop_patience, [this, &status_file](std::optional<const char*> part) {
+        const Sentence line =
+            part ? format_sentence(
+                       "watchdog: the picture hangs: nothing was heard of the exhibit for {} s, while it {}",
+                       loop_patience / std::chrono::seconds(1), *part)
+                 : Sentence("watchdog: the exhibit is heard of again");
+        journal_.note(part ? Weight::Error : Weight::Notice, line.view(), {{"DEVICE", "watchdog"}});
+        status_file.note_hang(part.has_value());
+    });
+}
+
+void RunWatch::enters(const char* part) {
+    if (hang_watch_) {
+        hang_watch_->enters(part);
     }
 }
 
@@ -24,7 +49,8 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
     }
     watchdog_->presented(now);
     if (watchdog_->wants_code(now)) {
-        watchdog_->read_back(now, {!has_code, has_code ? code_of(display) : std::nullopt});
+        shown_code_ = has_code ? code_of(display) : std::nullopt;
+        watchdog_->read_back(now, {!has_code, shown_code_});
     }
 }
 

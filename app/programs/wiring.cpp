@@ -1,5 +1,6 @@
 #include "app/programs/wiring.h"
 
+#include "app/render/probe.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/display/kms_display.h"
@@ -129,6 +130,28 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
     return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
 }
 
+} // namespace
+
+static_assert(probe_pixels == code_pixels, "the display shows the probe as it is, however it scales");
+
+Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
+    const DisplaySettings& display = settings.display;
+    if (!headless && display.kind == DisplayKind::Kms) {
+        OutputWish wish;
+        const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
+        wish.connector = named(display.connector);
+        wish.width = display.mode.width;
+        wish.height = display.mode.height;
+        wish.refresh_hz = display.mode.refresh_hz;
+        wish.force = display.force;
+        wish.picture_width = settings.projector.pinhole.width;
+        wish.picture_height = settings.projector.pinhole.height;
+        wish.picture_hz = settings.projector.refresh_hz;
+        return KmsDisplay::create(named(display.card), wish);
+    }
+    return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
+}
+
 Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
     if (!has_packets(kind)) {
         return fail(
@@ -146,36 +169,11 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
     return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
 }
 
-} // namespace
-
-Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
-    const DisplaySettings& display = settings.display;
-    if (!headless && display.kind == DisplayKind::Kms) {
-        OutputWish wish;
-        const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
-        wish.connector = named(display.connector);
-        wish.width = display.mode.width;
-        wish.height = display.mode.height;
-        wish.refresh_hz = display.mode.refresh_hz;
-        wish.force = display.force;
-        wish.picture_width = settings.projector.pinhole.width;
-        wish.picture_height = settings.projector.pinhole.height;
-        return KmsDisplay::create(named(display.card), wish);
-    }
-    return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
-}
-
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                            std::optional<Nanoseconds> press_every, MonotonicTime start,
-                           const std::filesystem::path& record) {
+                           std::unique_ptr<PacketRecorder> recorder) {
     Inputs inputs;
-    if (!record.empty()) {
-        Result<std::unique_ptr<PacketRecorder>> recorder = make_recorder(plan.tracker, record);
-        if (!recorder) {
-            return tl::unexpected<Error>(recorder.error());
-        }
-        inputs.recorder = std::move(*recorder);
-    }
+    inputs.recorder = std::move(recorder);
     if (plan.tracker != TrackerKind::None) {
         Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start, inputs.recorder.get());
         if (!tracker) {

@@ -24,13 +24,17 @@ namespace frustumscreen {
 /// What the exhibit listens to.
 struct Inputs {
     std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
-    std::unique_ptr<Tracker> tracker;         ///< none: the prop stands at the table's centre
-    std::unique_ptr<Panel> panel;             ///< none: nothing is pressed
+    Sentence why_not_recorded;        ///< of packets that were to be recorded; empty: none, or they are
+    std::unique_ptr<Tracker> tracker; ///< none: the prop stands at the table's centre
+    std::unique_ptr<Panel> panel;     ///< none: nothing is pressed
 };
+/// A new file for the tracker's packets.
+[[nodiscard]] Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind,
+                                                                    const std::filesystem::path& path);
 /// What the plan has, no more. `press_every`: press 'next artifact' evenly in place of the panel's script.
-/// `record`: a new file for the tracker's packets; empty: none.
+/// `recorder`, if any, has the tracker's packets.
 [[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                                          std::optional<Nanoseconds> press_every, MonotonicTime start,
-                                         const std::filesystem::path& record = {});
+                                         std::unique_ptr<PacketRecorder> recorder = nullptr);
 
 } // namespace frustumscreen

@@ -1,4 +1,5 @@
 /// A projector's mode as a person writes it: "1280x800@60", "1280x800" or "preferred".
+/// "Preferred" is the picture's own size where the projector has it, else the projector's preferred mode.
 ///
 /// Threads  values.
 #pragma once
@@ -10,7 +11,7 @@
 namespace frustumscreen {
 
 struct DisplayMode {
-    int width = 0; ///< pixels; 0 = the projector's preferred mode
+    int width = 0; ///< pixels; 0 = "preferred"
     int height = 0;
     double refresh_hz = 0.0; ///< 0 = any
 };

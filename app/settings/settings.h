@@ -36,11 +36,12 @@ enum class DisplayKind { Kms, Surfaceless };
 [[nodiscard]] std::string_view name_of(DisplayKind kind);
 struct DisplaySettings {
     DisplayKind kind = DisplayKind::Kms;
-    std::string card = "any"; ///< kms: a path or "card0"; "any" = the first with something connected
-    std::string connector =
-        "any";          ///< kms: as the kernel names it, "HDMI-A-1"; "any" = whichever has a projector
+    /// Kms: a path or "card0"; "any" = the first with a projector, also one that comes later.
+    std::string card = "any";
+    /// Kms: as the kernel names it, "HDMI-A-1"; "any" = whichever has a projector.
+    std::string connector = "any";
     DisplayMode mode;   ///< kms
-    bool force = false; ///< kms: `mode` even where the projector does not name it
+    bool force = false; ///< kms: even where the projector does not name the mode; see config/kiosk.toml
 };
 
 struct TableSettings {

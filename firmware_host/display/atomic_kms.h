@@ -4,28 +4,32 @@
 /// Source   the kernel's userspace API for KMS, "Atomic Mode Setting"; libdrm.
 #pragma once
 
+#include "firmware_host/display/flip_events.h"
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/kms_device.h"
+#include "firmware_host/display/output_properties.h"
 
 #include <optional>
-#include <vector>
 
 namespace frustumscreen {
 
 class AtomicKms final : public KmsDevice {
 public:
-    explicit AtomicKms(const KmsCard& card);
+    explicit AtomicKms(const KmsCard& card) : file_(card.file()), flips_(file_) {}
     ~AtomicKms() override;
     AtomicKms(const AtomicKms&) = delete;
     AtomicKms& operator=(const AtomicKms&) = delete;
 
-    [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, FramebufferId shown,
+    [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer darken() override;
-    [[nodiscard]] bool become_master() override;
-    [[nodiscard]] std::optional<Flipped> wait_flip(Nanoseconds at_most) override;
-    [[nodiscard]] bool flips_keep_time() const override { return flips_keep_time_; }
+    [[nodiscard]] bool become_master() override { return take_screen(file_); }
+    [[nodiscard]] std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
+        return flips_.wait(at_most);
+    }
+    [[nodiscard]] bool flips_keep_time() const override { return flips_.keep_time(); }
+    [[nodiscard]] std::string_view shortcoming() const override { return shortcoming_; }
     [[nodiscard]] MonotonicTime now() const override { return monotonic_now(); }
 
 private:
@@ -37,15 +41,16 @@ private:
         std::uint32_t plane_framebuffer = 0; ///< the property's number
     };
     [[nodiscard]] std::optional<Route> route_to(std::uint32_t connector) const;
-    void read_flips();
+    /// One commit that lights `route` and turns off the rest; `settings`: of the connector.
+    [[nodiscard]] KmsAnswer light(const Route& route, const ScannedOut& shown, std::uint64_t ticket,
+                                  std::span<const PropertySetting> settings) const;
     void forget_mode();
 
     int file_;
-    bool monotonic_flips_ = false;
-    bool flips_keep_time_ = false;
+    FlipEvents flips_;
     std::optional<Route> route_;
     std::uint32_t mode_blob_ = 0;
-    std::vector<Flipped> flips_; ///< read and not handed out yet
+    std::string_view shortcoming_;
 };
 
 } // namespace frustumscreen

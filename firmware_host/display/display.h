@@ -34,8 +34,8 @@ public:
     [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return now + period;
     }
-    /// The first pixels of the top row as the projector shows them now, RGBA codes. False: nothing is shown,
-    /// or not pixel for pixel; then the framebuffer has what was presented.
+    /// The first pixels of the top row, `code_pixels` at most, as they are shown now, RGBA codes. False:
+    /// nothing is shown; then the framebuffer has what was presented.
     [[nodiscard]] virtual bool read_shown(std::span<std::byte> /*rgba*/) const { return false; }
     /// What was presented is on, or there is nothing that it could be on.
     [[nodiscard]] virtual bool settled() const { return true; }

@@ -119,4 +119,22 @@ std::string gl_driver_name() {
     return text(GL_RENDERER) + ", " + text(GL_VERSION);
 }
 
+/// Mesa's three.
+bool draws_on_processor(std::string_view driver_name) {
+    return driver_name.starts_with("llvmpipe") || driver_name.starts_with("softpipe") ||
+           driver_name.starts_with("Software Rasterizer");
+}
+
+bool has_gl_extension(std::string_view name) {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint k = 0; k < count; ++k) {
+        const GLubyte* listed = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(k));
+        if (listed != nullptr && name == reinterpret_cast<const char*>(listed)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace frustumscreen

@@ -43,5 +43,9 @@ private:
 
 /// The driver's own name and version; of the current context.
 [[nodiscard]] std::string gl_driver_name();
+/// Does a driver of this name draw on the processor?
+[[nodiscard]] bool draws_on_processor(std::string_view driver_name);
+/// Of the current context.
+[[nodiscard]] bool has_gl_extension(std::string_view name);
 
 } // namespace frustumscreen

@@ -1,5 +1,7 @@
 #include "firmware_host/display/kms_card.h"
 
+#include "firmware_host/display/connected_elsewhere.h"
+#include "firmware_host/display/kms_handles.h"
 #include "firmware_host/display/kms_properties.h"
 
 #include <fcntl.h>
@@ -7,45 +9,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <utility>
-
-extern "C" {
-#include <xf86drm.h>
-#include <xf86drmMode.h>
-}
 
 namespace frustumscreen {
 
 namespace {
 
-using Resources = std::unique_ptr<drmModeRes, decltype(&drmModeFreeResources)>;
-using Connector = std::unique_ptr<drmModeConnector, decltype(&drmModeFreeConnector)>;
-
 constexpr const char* folder = "/dev/dri";
+constexpr const char* connectors_folder = "/sys/class/drm";
 constexpr std::uint64_t link_is_bad = 1; ///< DRM_MODE_LINK_STATUS_BAD
-
-ModeTiming timing_of(const drmModeModeInfo& mode) {
-    ModeTiming timing;
-    timing.clock_khz = mode.clock;
-    timing.width = mode.hdisplay;
-    timing.hsync_start = mode.hsync_start;
-    timing.hsync_end = mode.hsync_end;
-    timing.htotal = mode.htotal;
-    timing.hskew = mode.hskew;
-    timing.height = mode.vdisplay;
-    timing.vsync_start = mode.vsync_start;
-    timing.vsync_end = mode.vsync_end;
-    timing.vtotal = mode.vtotal;
-    timing.vscan = mode.vscan;
-    timing.flags = mode.flags;
-    timing.preferred = (mode.type & DRM_MODE_TYPE_PREFERRED) != 0;
-    return timing;
-}
 
 bool is_built_in(std::uint32_t type) {
     return type == DRM_MODE_CONNECTOR_LVDS || type == DRM_MODE_CONNECTOR_eDP ||
@@ -79,25 +54,26 @@ std::vector<std::string> card_paths() {
 
 } // namespace
 
-Result<KmsCard> KmsCard::open(std::string_view name) {
+Result<KmsCard> KmsCard::open(std::string_view name, const OutputWish& wish) {
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
     Result<KmsCard> best =
         fail(ErrorKind::DeviceLost,
              fmt::format("display: no graphics card in {}; load its driver, or run with --headless", folder));
-    for (const std::string& path : card_paths()) {
+    CardRank best_rank{};
+    const std::vector<std::string> paths = card_paths();
+    for (const std::string& path : paths) {
         Result<KmsCard> card = open_path(path);
         if (card) {
-            card->wanted_.clear();
-            const std::vector<ConnectorSeen> seen = card->look(false).connectors;
-            if (std::any_of(seen.begin(), seen.end(),
-                            [](const ConnectorSeen& one) { return one.plugged == Plugged::Yes; })) {
-                return card;
+            card->any_ = true;
+            const CardRank rank = paths.size() > 1 ? rank_of(card->look(true), wish) : CardRank{};
+            if (!best || rank < best_rank) {
+                best_rank = rank;
+                best = std::move(card);
             }
-        }
-        if (!best) {
-            best = std::move(card); // or the reason why there is none
+        } else if (!best && best.error().kind == ErrorKind::DeviceLost) {
+            best = std::move(card); // the reason why there is none; that one may not be opened says most
         }
     }
     return best;
@@ -113,17 +89,13 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
                                         : "is it the card's name, and is its driver loaded?"));
     }
     KmsCard card(file, path);
-    const Resources resources(drmModeGetResources(file), drmModeFreeResources);
+    const KmsResources resources = resources_of(file);
     if (!resources || resources->count_crtcs == 0 || resources->count_connectors == 0) {
         return fail(ErrorKind::DeviceLost, // the one that has may come later
                     fmt::format("display: the graphics card {} has no connectors; name another one", path));
     }
-    if (drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
-        drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) != 0) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("display: the driver of {} has no atomic modesetting; another card is needed", path));
-    }
+    card.atomic_ = drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
+                   drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) == 0;
     return card;
 }
 
@@ -134,28 +106,29 @@ KmsCard::~KmsCard() {
 }
 
 KmsCard::KmsCard(KmsCard&& other) noexcept
-    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)),
-      wanted_(std::move(other.wanted_)) {}
+    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)), any_(other.any_),
+      atomic_(other.atomic_) {}
 
 KmsCard& KmsCard::operator=(KmsCard&& other) noexcept {
     std::swap(file_, other.file_);
     std::swap(path_, other.path_);
-    std::swap(wanted_, other.wanted_);
+    std::swap(any_, other.any_);
+    std::swap(atomic_, other.atomic_);
     return *this;
 }
 
 CardSeen KmsCard::look(bool thoroughly) const {
     CardSeen seen;
-    const Resources resources(drmModeGetResources(file_), drmModeFreeResources);
+    const KmsResources resources = resources_of(file_);
     if (!resources) {
         seen.state = state();
         return seen;
     }
     for (int k = 0; k < resources->count_connectors; ++k) {
         const std::uint32_t id = resources->connectors[k];
-        const Connector connector(thoroughly ? drmModeGetConnector(file_, id)
-                                             : drmModeGetConnectorCurrent(file_, id),
-                                  drmModeFreeConnector);
+        const KmsConnector connector(thoroughly ? drmModeGetConnector(file_, id)
+                                                : drmModeGetConnectorCurrent(file_, id),
+                                     drmModeFreeConnector);
         if (!connector || connector->connector_type == DRM_MODE_CONNECTOR_WRITEBACK) {
             continue;
         }
@@ -179,9 +152,30 @@ bool take_screen(int card) {
     return drmIsMaster(card) != 0 || drmSetMaster(card) == 0;
 }
 
-/// Of a card that does not answer: it, or another one, may be there anew.
 CardState KmsCard::state() const {
-    return open(wanted_) ? CardState::Back : CardState::Gone;
+    return open(any_ ? std::string_view() : path_, {}) ? CardState::Back : CardState::Gone;
+}
+
+bool OtherCards::have_projector() {
+    std::vector<std::string> connected = connected_connectors(connectors_folder);
+    if (connected == looked_at_) {
+        return false;
+    }
+    bool all_opened = true;
+    for (const std::string& path : card_paths()) {
+        if (path == own_path_ || !has_connected(connected, path, wish_.connector)) {
+            continue;
+        }
+        const Result<KmsCard> card = KmsCard::open_path(path);
+        if (card && rank_of(card->look(true), wish_) < CardRank::NothingCertain) {
+            return true;
+        }
+        all_opened = all_opened && card.has_value();
+    }
+    if (all_opened) {
+        looked_at_ = std::move(connected);
+    }
+    return false;
 }
 
 } // namespace frustumscreen

@@ -1,7 +1,8 @@
 /// An open graphics card: its file, its name, and what is connected to it.
 ///
 /// Threads  `look` on any one thread while the render thread sets modes: the kernel takes both.
-/// Errors   no card, no permission, a card without screens or without atomic modesetting.
+/// Errors   no permission (a person acts, or udev is not done yet): BadConfiguration; no card, or one without
+///          screens: DeviceLost.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -9,14 +10,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
 class KmsCard {
 public:
-    /// `name`: a path, or "card1", or empty for the first one to which something is connected, else the
-    /// first.
-    [[nodiscard]] static Result<KmsCard> open(std::string_view name);
+    /// `name`: a path, or "card1", or empty for the first one of the best `CardRank`.
+    [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputWish& wish);
     ~KmsCard();
     KmsCard(KmsCard&& other) noexcept;
     KmsCard& operator=(KmsCard&& other) noexcept;
@@ -25,18 +26,37 @@ public:
 
     [[nodiscard]] int file() const { return file_; }
     [[nodiscard]] const std::string& path() const { return path_; }
+    /// False: modes are set by the kernel's older calls.
+    [[nodiscard]] bool is_atomic() const { return atomic_; }
     /// What is connected. `thoroughly`: asks the projectors, which takes up to some 100 ms for each; else
     /// what the kernel knows already.
     [[nodiscard]] CardSeen look(bool thoroughly) const;
 
 private:
-    KmsCard(int file, std::string path) : file_(file), path_(path), wanted_(std::move(path)) {}
+    friend class OtherCards;
+    KmsCard(int file, std::string path) : file_(file), path_(std::move(path)) {}
     [[nodiscard]] static Result<KmsCard> open_path(const std::string& path);
+    /// Of a card that does not answer: it, or another one, may be there anew.
     [[nodiscard]] CardState state() const;
 
     int file_ = -1;
     std::string path_;
-    std::string wanted_; ///< as asked for
+    bool any_ = false; ///< another one would do
+    bool atomic_ = false;
+};
+
+/// Looks whether another card has a projector, without disturbing the cards: one is opened only when what
+/// the kernel says of its connectors has changed.
+class OtherCards {
+public:
+    OtherCards(std::string own_path, OutputWish wish)
+        : own_path_(std::move(own_path)), wish_(std::move(wish)) {}
+    [[nodiscard]] bool have_projector();
+
+private:
+    std::string own_path_;
+    OutputWish wish_;
+    std::vector<std::string> looked_at_; ///< connectors to which something was connected, in vain
 };
 
 /// Makes this process the one that may set modes on an open card: true if no other one is. The kernel lets

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -28,6 +29,13 @@ enum class KmsAnswer : std::uint8_t {
 /// A framebuffer's number with the kernel.
 using FramebufferId = std::uint32_t;
 
+/// What is scanned out: all of a framebuffer, at that place of the screen; black around it.
+struct ScannedOut {
+    FramebufferId framebuffer = 0;
+    PixelSize size;
+    PixelPlace place;
+};
+
 struct Flipped {
     MonotonicTime time;
     std::uint64_t ticket = 0; ///< of the call that asked for it
@@ -37,9 +45,9 @@ class KmsDevice {
 public:
     virtual ~KmsDevice() = default;
     /// Shows the framebuffer in this mode on this connector and turns off everything else on the card; a flip
-    /// follows.
+    /// follows. Refused where the card cannot scale it to its place, too.
     [[nodiscard]] virtual KmsAnswer light(std::uint32_t connector, const ModeTiming& mode,
-                                          FramebufferId shown, std::uint64_t ticket) = 0;
+                                          const ScannedOut& shown, std::uint64_t ticket) = 0;
     /// Shows another framebuffer of the same size from the next refresh on; a flip follows.
     [[nodiscard]] virtual KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) = 0;
     /// Turns off what `light` turned on.
@@ -48,8 +56,11 @@ public:
     [[nodiscard]] virtual bool become_master() = 0;
     /// The next flip that is done, waited for at most so long; 0 = not at all.
     [[nodiscard]] virtual std::optional<Flipped> wait_flip(Nanoseconds at_most) = 0;
-    /// Do the flips of what is lit come in time with its refreshes? An emulated card's come at once.
+    /// Do the flips of what is lit come in time with its refreshes? An emulated card's come at once. Known
+    /// from the first flip after `light` on at the earliest: false until then.
     [[nodiscard]] virtual bool flips_keep_time() const = 0;
+    /// A clause on what may be wrong with what is lit and cannot be set from here; empty: nothing.
+    [[nodiscard]] virtual std::string_view shortcoming() const { return {}; }
     [[nodiscard]] virtual MonotonicTime now() const = 0;
 };
 

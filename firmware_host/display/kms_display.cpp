@@ -1,5 +1,8 @@
 #include "firmware_host/display/kms_display.h"
 
+#include "firmware_host/display/atomic_kms.h"
+#include "firmware_host/display/legacy_kms.h"
+
 #include <GLES3/gl31.h>
 #include <fmt/format.h>
 
@@ -7,8 +10,19 @@
 
 namespace frustumscreen {
 
+namespace {
+
+std::unique_ptr<KmsDevice> make_device(const KmsCard& card) {
+    if (card.is_atomic()) {
+        return std::make_unique<AtomicKms>(card);
+    }
+    return std::make_unique<LegacyKms>(card);
+}
+
+} // namespace
+
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name, const OutputWish& wish) {
-    Result<KmsCard> card = KmsCard::open(card_name);
+    Result<KmsCard> card = KmsCard::open(card_name, wish);
     if (!card) {
         return tl::unexpected<Error>(card.error());
     }
@@ -18,19 +32,32 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
             fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
                         card->path()));
     }
-    Result<std::unique_ptr<GbmScreen>> screen =
-        GbmScreen::create(card->file(), {wish.picture_width, wish.picture_height});
+    Result<std::unique_ptr<CardScreen>> screen =
+        CardScreen::create(card->file(), {wish.picture_width, wish.picture_height});
     if (!screen) {
         return tl::unexpected<Error>(screen.error());
     }
-    return std::unique_ptr<KmsDisplay>(new KmsDisplay(std::move(*card), std::move(*screen), wish));
+    return std::unique_ptr<KmsDisplay>(
+        new KmsDisplay(std::move(*card), card_name.empty(), std::move(*screen), wish));
 }
 
-KmsDisplay::KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish)
-    : card_(std::move(card)), screen_(std::move(screen)), kms_(card_),
+KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen,
+                       const OutputWish& wish)
+    : card_(std::move(card)), wish_(wish),
+      other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), wish)) : std::nullopt),
+      screen_(std::move(screen)), kms_(make_device(card_)),
       presenter_(
-          kms_, [this](PixelSize size) { return screen_->make_pair(size); }, wish),
-      watch_([this](bool thoroughly) { return card_.look(thoroughly); }, make_udev_hotplug()) {}
+          *kms_, [this](PixelSize size) { return screen_->make_pair(size); }, wish),
+      watch_([this](bool thoroughly) { return look(thoroughly); }, make_udev_hotplug()) {}
+
+CardSeen KmsDisplay::look(bool thoroughly) {
+    CardSeen seen = card_.look(thoroughly);
+    if (other_cards_ && seen.state == CardState::There && choose_connector(seen, wish_) == nullptr &&
+        other_cards_->have_projector()) {
+        seen.state = CardState::Elsewhere;
+    }
+    return seen;
+}
 
 Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
     glFinish(); // in the dark too: the exhibit's pace and its watchdog do not depend on a projector

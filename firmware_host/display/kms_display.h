@@ -6,15 +6,14 @@
 ///
 /// Time     CLOCK_MONOTONIC, from the card's page flips.
 /// Threads  the one that created it: the context is current there. A thread of its own asks what is
-/// connected. Errors   at the start: no card, no permission, no atomic modesetting, no OpenGL ES 3. Later
-/// none but a card that
-///          is back after it was gone; `state` says the rest.
+/// ///          connected.
+/// Errors   at the start: no card, no permission, no OpenGL ES 3. Later none but a card that is back after it
+///          was gone, that hangs, or another one that has the projector now; `state` says the rest.
 #pragma once
 
-#include "firmware_host/display/atomic_kms.h"
+#include "firmware_host/display/card_screen.h"
 #include "firmware_host/display/connector_watch.h"
 #include "firmware_host/display/display.h"
-#include "firmware_host/display/gbm_scanout.h"
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/presenter.h"
 
@@ -48,11 +47,15 @@ public:
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 
 private:
-    KmsDisplay(KmsCard card, std::unique_ptr<GbmScreen> screen, const OutputWish& wish);
+    KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputWish& wish);
+    /// What is connected, on the watch's thread.
+    [[nodiscard]] CardSeen look(bool thoroughly);
 
     KmsCard card_;
-    std::unique_ptr<GbmScreen> screen_;
-    AtomicKms kms_;
+    OutputWish wish_;
+    std::optional<OtherCards> other_cards_; ///< the watch's thread alone; nothing: this card was asked for
+    std::unique_ptr<CardScreen> screen_;
+    std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;
     bool presented_ = false;
     PixelPlace changed_;   ///< empty: not told

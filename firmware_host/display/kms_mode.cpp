@@ -17,7 +17,7 @@ namespace {
 
 /// 59.94, 59.81 and 60 Hz are the same wish, 50 and 60 are not.
 constexpr double same_refresh_hz = 0.5;
-constexpr double usual_refresh_hz = 60.0;
+constexpr double usual_refresh_hz = 60.0; ///< where a mode is made here and none is asked for
 
 /// CTA-861's formats 4 and 16: projectors that take HDMI know these to the pixel.
 constexpr ModeTiming hd_720{74250, 1280, 1390, 1430, 1650, 0,
@@ -31,17 +31,43 @@ bool is_usable(const ModeTiming& mode) {
     return mode.width > 0 && mode.height > 0 && refresh_hz(mode) > 0.0 && (mode.flags & mode_stereo) == 0;
 }
 
+bool is_halved(const ModeTiming& mode) {
+    return (mode.flags & (mode_interlaced | mode_doublescan)) != 0;
+}
+
+double off_rate(const ModeTiming& mode, const OutputWish& wish) {
+    return std::abs(refresh_hz(mode) - (wish.refresh_hz > 0.0 ? wish.refresh_hz : wish.picture_hz));
+}
+
 /// Smaller is nearer: whole pictures before half ones, then size and shape, then refresh.
 auto distance(const ModeTiming& mode, const OutputWish& wish) {
     const int width = wish.width > 0 ? wish.width : wish.picture_width;
     const int height = wish.height > 0 ? wish.height : wish.picture_height;
-    const double hz = wish.refresh_hz > 0.0 ? wish.refresh_hz : usual_refresh_hz;
-    const bool halved = (mode.flags & (mode_interlaced | mode_doublescan)) != 0;
     const double size = width > 0 && height > 0
                             ? std::abs(std::log(static_cast<double>(mode.width) / width)) +
                                   std::abs(std::log(static_cast<double>(mode.height) / height))
                             : 0.0;
-    return std::make_tuple(halved, size, std::abs(refresh_hz(mode) - hz));
+    return std::make_tuple(is_halved(mode), size, off_rate(mode, wish));
+}
+
+/// Smaller is better, where a mode is asked for: that one, the preferred one, the nearest.
+auto rank_asked(const ModeTiming& mode, const OutputWish& wish) {
+    const bool asked = fulfils(mode, wish);
+    return std::make_tuple(!asked, !asked && !mode.preferred, distance(mode, wish));
+}
+
+/// Smaller is better, where none is asked for: the picture's size at its rate (of these the preferred one) or
+/// at another, the preferred one, the nearest.
+auto rank_unasked(const ModeTiming& mode, const OutputWish& wish) {
+    const bool fits =
+        mode.width == wish.picture_width && mode.height == wish.picture_height && !is_halved(mode);
+    const bool in_time = fits && off_rate(mode, wish) <= 2.0 * same_refresh_hz;
+    return std::make_tuple(!fits, !in_time, !mode.preferred, distance(mode, wish));
+}
+
+int rank_of(const ConnectorSeen& connector) {
+    const int certainty = connector.plugged == Plugged::Yes ? 0 : connector.plugged == Plugged::No ? 4 : 2;
+    return certainty + (connector.built_in ? 1 : 0);
 }
 
 } // namespace
@@ -57,32 +83,43 @@ double refresh_hz(const ModeTiming& mode) {
     return mode.vscan > 1 ? hz / mode.vscan : hz;
 }
 
+bool is_lit_blindly(const ConnectorSeen& connector, const OutputWish& wish) {
+    return connector.plugged == Plugged::No && wish.force && wish.width > 0 &&
+           connector.name == wish.connector;
+}
+
 const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wish) {
     const ConnectorSeen* best = nullptr;
-    const auto rank = [](const ConnectorSeen& connector) {
-        return (connector.plugged == Plugged::Yes ? 0 : 2) + (connector.built_in ? 1 : 0);
-    };
     for (const ConnectorSeen& connector : card.connectors) {
         const bool named = wish.connector.empty() || connector.name == wish.connector;
-        if (!named || connector.plugged == Plugged::No || modes_to_try(connector, wish).empty()) {
-            continue;
-        }
-        if (best == nullptr || rank(connector) < rank(*best)) {
+        const bool there = connector.plugged != Plugged::No || is_lit_blindly(connector, wish);
+        if (named && there && !modes_to_try(connector, wish).empty() &&
+            (best == nullptr || rank_of(connector) < rank_of(*best))) {
             best = &connector;
         }
     }
     return best;
 }
 
+CardRank rank_of(const CardSeen& card, const OutputWish& wish) {
+    const ConnectorSeen* best = choose_connector(card, wish);
+    if (best != nullptr && best->plugged == Plugged::Yes) {
+        return best->built_in ? CardRank::Panel : CardRank::Projector;
+    }
+    const bool could_be =
+        wish.connector.empty() ||
+        std::any_of(card.connectors.begin(), card.connectors.end(),
+                    [&wish](const ConnectorSeen& seen) { return seen.name == wish.connector; });
+    return could_be ? CardRank::NothingCertain : CardRank::WithoutTheConnectorNamed;
+}
+
 std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputWish& wish) {
     std::vector<ModeTiming> modes;
     std::copy_if(connector.modes.begin(), connector.modes.end(), std::back_inserter(modes), is_usable);
-    const auto rank = [&wish](const ModeTiming& mode) {
-        const bool wished = wish.width > 0 && fulfils(mode, wish);
-        return std::make_tuple(!wished, !wished && !mode.preferred, distance(mode, wish));
-    };
-    std::stable_sort(modes.begin(), modes.end(),
-                     [&rank](const ModeTiming& a, const ModeTiming& b) { return rank(a) < rank(b); });
+    std::stable_sort(modes.begin(), modes.end(), [&wish](const ModeTiming& a, const ModeTiming& b) {
+        return wish.width > 0 ? rank_asked(a, wish) < rank_asked(b, wish)
+                              : rank_unasked(a, wish) < rank_unasked(b, wish);
+    });
     const bool there = !modes.empty() && fulfils(modes.front(), wish);
     if (wish.force && wish.width > 0 && !there) {
         const double hz = wish.refresh_hz > 0.0 ? wish.refresh_hz : usual_refresh_hz;
@@ -97,7 +134,7 @@ bool fulfils(const ModeTiming& mode, const OutputWish& wish) {
     const bool size = wish.width == 0 || (mode.width == wish.width && mode.height == wish.height);
     const bool rate =
         wish.refresh_hz == 0.0 || std::abs(refresh_hz(mode) - wish.refresh_hz) <= same_refresh_hz;
-    return size && rate && (mode.flags & (mode_interlaced | mode_doublescan)) == 0;
+    return size && rate && !is_halved(mode);
 }
 
 ModeTiming make_mode(int width, int height, double refresh_hz) {

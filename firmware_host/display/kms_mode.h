@@ -55,8 +55,9 @@ struct ConnectorSeen {
     [[nodiscard]] bool operator==(const ConnectorSeen&) const = default;
 };
 
-/// Back: gone, and now there anew, so that only a new start takes it up.
-enum class CardState : std::uint8_t { There, Gone, Back };
+/// Back: gone, and now there anew. Elsewhere: nothing can be lit, and another card has a projector. Only a
+/// new start takes these up.
+enum class CardState : std::uint8_t { There, Gone, Back, Elsewhere };
 
 struct CardSeen {
     CardState state = CardState::There;
@@ -68,19 +69,29 @@ struct CardSeen {
 /// What the settings ask for.
 struct OutputWish {
     std::string connector; ///< empty = whichever has a projector
-    int width = 0;         ///< of the mode; 0 = the projector's preferred one
+    int width = 0;         ///< of the mode; 0 = the picture's, else the projector's preferred one
     int height = 0;
     double refresh_hz = 0.0; ///< 0 = any
-    bool force = false;      ///< use the mode even where the projector does not name it
-    int picture_width = 0;   ///< the exhibit's; nearest to it where nothing else decides
+    bool force = false; ///< use the mode even where the projector does not name it, and light the connector
+                        ///< named even where it says that nothing is connected
+    int picture_width = 0; ///< the exhibit's; nearest to it where nothing else decides
     int picture_height = 0;
+    double picture_hz = 60.0;
 };
+
+/// Is this the connector that is lit by force though it says that nothing is connected?
+[[nodiscard]] bool is_lit_blindly(const ConnectorSeen& connector, const OutputWish& wish);
 
 /// The connector to light; nothing: no projector is there. One that is certainly connected goes before one
 /// that cannot say, one of the outside before a built-in panel, else the first.
 [[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wish);
 
-/// The modes to try, best first: the one asked for, the preferred one, the rest by nearness.
+/// Which of several cards to take: the one with the smallest number, of equal ones the first.
+enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTheConnectorNamed };
+[[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputWish& wish);
+
+/// The modes to try, best first: the one asked for; if none is, those of the picture's own size, then the
+/// preferred one; the rest by nearness.
 [[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputWish& wish);
 
 /// Does `mode` fulfil what the settings ask for?

@@ -1,6 +1,7 @@
 #include "firmware_host/display/kms_properties.h"
 
 #include <memory>
+#include <utility>
 
 extern "C" {
 #include <xf86drm.h>
@@ -18,10 +19,18 @@ KmsProperties::KmsProperties(int card, std::uint32_t object, std::uint32_t kind)
     for (std::uint32_t k = 0; k < list->count_props; ++k) {
         const std::unique_ptr<drmModePropertyRes, decltype(&drmModeFreeProperty)> property(
             drmModeGetProperty(card, list->props[k]), drmModeFreeProperty);
-        if (property) {
-            all_.push_back({property->prop_id, list->prop_values[k],
-                            (property->flags & DRM_MODE_PROP_IMMUTABLE) != 0, property->name});
+        if (!property) {
+            continue;
         }
+        KmsProperty one{property->prop_id,
+                        list->prop_values[k],
+                        (property->flags & DRM_MODE_PROP_IMMUTABLE) != 0,
+                        property->name,
+                        {}};
+        for (int c = 0; (property->flags & DRM_MODE_PROP_ENUM) != 0 && c < property->count_enums; ++c) {
+            one.choices.push_back({property->enums[c].name, property->enums[c].value});
+        }
+        all_.push_back(std::move(one));
     }
 }
 

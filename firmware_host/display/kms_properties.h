@@ -6,18 +6,25 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace frustumscreen {
 
+/// One of the values that a property may have.
+struct KmsChoice {
+    std::string name;
+    std::uint64_t value = 0;
+};
+
 struct KmsProperty {
     std::uint32_t id = 0;
     std::uint64_t value = 0;
     bool immutable = false;
     std::string name;
+    std::vector<KmsChoice> choices; ///< of an enumeration
 };
 
 class KmsProperties {
@@ -26,6 +33,7 @@ public:
     KmsProperties(int card, std::uint32_t object, std::uint32_t kind);
 
     [[nodiscard]] std::uint32_t object() const { return object_; }
+    [[nodiscard]] std::span<const KmsProperty> all() const { return all_; }
     [[nodiscard]] const KmsProperty* find(std::string_view name) const;
     /// 0 where there is none.
     [[nodiscard]] std::uint64_t value(std::string_view name) const;

@@ -22,6 +22,10 @@ struct PixelPlace {
     [[nodiscard]] bool operator==(const PixelPlace&) const = default;
 };
 
+/// Of the picture's top row: they bear a code that a watchdog reads and are shown pixel for pixel at the
+/// screen's top left, however the picture is scaled (the same as `probe_pixels` of app/render/probe.h).
+inline constexpr int code_pixels = 8;
+
 /// The smallest one around both; an empty one adds nothing.
 [[nodiscard]] inline PixelPlace around(const PixelPlace& a, const PixelPlace& b) {
     if (a.empty() || b.empty()) {

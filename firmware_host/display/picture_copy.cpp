@@ -1,11 +1,13 @@
 #include "firmware_host/display/picture_copy.h"
 
+#include "firmware_host/display/egl_context.h"
 #include "firmware_host/gl/gl_program.h"
 
 #include <GLES2/gl2.h>
 #include <GLES2/gl2ext.h>
 #include <GLES3/gl31.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -45,18 +47,6 @@ void main() {
 }
 )";
 
-bool has_extension(std::string_view name) {
-    GLint count = 0;
-    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
-    for (GLint k = 0; k < count; ++k) {
-        const GLubyte* listed = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(k));
-        if (listed != nullptr && name == reinterpret_cast<const char*>(listed)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 GlSampler make_sampler(GLint filter) {
     GlSampler sampler = GlSampler::generate();
     glSamplerParameteri(sampler.get(), GL_TEXTURE_MIN_FILTER, filter);
@@ -69,7 +59,7 @@ GlSampler make_sampler(GLint filter) {
 } // namespace
 
 Result<PictureCopy> PictureCopy::create() {
-    const bool codes_as_they_are = has_extension("GL_EXT_texture_sRGB_decode");
+    const bool codes_as_they_are = has_gl_extension("GL_EXT_texture_sRGB_decode");
     GlSampler codes = make_sampler(GL_NEAREST);
     if (codes_as_they_are) {
         glSamplerParameteri(codes.get(), GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
@@ -90,33 +80,53 @@ PictureCopy::PictureCopy(GlProgram exact, GlProgram scaled, GlSampler codes, GlS
     : exact_(std::move(exact)), scaled_(std::move(scaled)), codes_(std::move(codes)),
       light_(std::move(light)) {}
 
-void PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
-                       const PixelPlace& part) const {
-    const PixelSize size{picture.width(), picture.height()};
-    const PixelPlace place = letterbox(size, target);
-    const bool same = size == target;
-    if (part == PixelPlace{0, 0, size.width, size.height} &&
-        !(place == PixelPlace{0, 0, target.width, target.height})) {
-        glDisable(GL_SCISSOR_TEST);
-        glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
-        glClear(GL_COLOR_BUFFER_BIT);
-    }
-    const auto first_row = [&](const PixelPlace& of) {
-        return top == TopRow::First ? of.y : target.height - of.y - of.height;
-    };
-    const PixelPlace changed = part_on_screen(part, size, place);
+/// The whole picture at `place`, of which the pixels of `part` are written; rows counted as the target's.
+struct PictureCopy::Pass {
+    bool exact = true;
+    TopRow top = TopRow::First;
+    PixelPlace place;
+    PixelPlace part;
+};
+
+void PictureCopy::draw(const PictureFramebuffer& picture, const Pass& pass) const {
     glEnable(GL_SCISSOR_TEST);
-    glScissor(changed.x, first_row(changed), changed.width, changed.height);
-    glViewport(place.x, first_row(place), place.width, place.height);
-    const GLuint program = (same ? exact_ : scaled_).get();
+    glScissor(pass.part.x, pass.part.y, pass.part.width, pass.part.height);
+    glViewport(pass.place.x, pass.place.y, pass.place.width, pass.place.height);
+    const GLuint program = (pass.exact ? exact_ : scaled_).get();
     glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "top_is_last"), top == TopRow::Last ? 1 : 0);
+    glUniform1i(glGetUniformLocation(program, "top_is_last"), pass.top == TopRow::Last ? 1 : 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, picture.texture());
-    glBindSampler(0, (same ? codes_ : light_).get());
+    glBindSampler(0, (pass.exact ? codes_ : light_).get());
     glBindVertexArray(vertices_.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+PixelPlace PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
+                             const PixelPlace& part) const {
+    const PixelSize size{picture.width(), picture.height()};
+    const PixelPlace screen{0, 0, target.width, target.height};
+    const PixelPlace place = letterbox(size, target);
+    const bool same = size == target;
+    PixelPlace drawn = part_on_screen(part, size, place);
+    if (part == PixelPlace{0, 0, size.width, size.height} && !(place == screen)) {
+        glDisable(GL_SCISSOR_TEST);
+        glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+        glClear(GL_COLOR_BUFFER_BIT);
+        drawn = screen;
+    }
+    const auto in_target = [&](const PixelPlace& of) {
+        const int first_row = top == TopRow::First ? of.y : target.height - of.y - of.height;
+        return PixelPlace{of.x, first_row, of.width, of.height};
+    };
+    draw(picture, {same, top, in_target(place), in_target(part_on_screen(part, size, place))});
+    if (same) {
+        return drawn;
+    }
+    const PixelPlace code{0, 0, std::min({code_pixels, size.width, target.width}), 1};
+    draw(picture, {true, top, in_target({0, 0, size.width, size.height}), in_target(code)});
+    return around(drawn, code);
 }
 
 } // namespace frustumscreen

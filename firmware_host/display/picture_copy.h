@@ -1,7 +1,8 @@
 /// Copies the exhibit's picture into what a screen shows.
 ///
 /// Of the same size, every sRGB code arrives as it is; of another one, the picture is scaled in linear light
-/// to as large as it fits, with black around it.
+/// to as large as it fits, with black around it, and the first `code_pixels` of its top row are written into
+/// the screen's top left corner as they are.
 ///
 /// Threads  a context of its own is current that shares the picture's texture: it leaves other state behind.
 /// Errors   the driver does not take the shaders.
@@ -25,10 +26,13 @@ public:
 
     /// Into the framebuffer bound, whose colour is 8 bits a channel and holds codes as they are written.
     /// `part`: of the picture, what the framebuffer has not yet; all of it: what lies around it is blackened
-    /// too.
-    void draw(const PictureFramebuffer& picture, PixelSize target, TopRow top, const PixelPlace& part) const;
+    /// too. What was drawn into, row 0 at the top.
+    PixelPlace draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
+                    const PixelPlace& part) const;
 
 private:
+    struct Pass;
+    void draw(const PictureFramebuffer& picture, const Pass& pass) const;
     PictureCopy(GlProgram exact, GlProgram scaled, GlSampler codes, GlSampler light);
 
     GlProgram exact_;  ///< codes to codes

@@ -1,11 +1,11 @@
 #include "firmware_host/display/presenter.h"
 
 #include "firmware_host/base/format_sentence.h"
+#include "firmware_host/display/output_sentence.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace frustumscreen {
@@ -13,6 +13,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
+constexpr std::string_view projector_is_elsewhere =
+    "a projector is at another graphics card; the exhibit must be started anew to take it up";
 
 } // namespace
 
@@ -25,12 +27,14 @@ void Presenter::connected(CardSeen seen) {
     looked_ = true;
     try_again_.reset();
     unfit_.clear();
-    if (seen_.state != CardState::There) {
+    if (seen_.state == CardState::Elsewhere) {
+        lose(projector_is_elsewhere);
+    } else if (seen_.state != CardState::There) {
         lose("the graphics card is gone; the exhibit goes on in the dark");
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        say_why_dark();
+        state_ = why_dark(seen_, wish_);
     }
 }
 
@@ -39,6 +43,9 @@ Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set
         return fail(ErrorKind::DeviceLost,
                     "display: the graphics card is there again; the exhibit must be started anew "
                     "to take it up");
+    }
+    if (seen_.state == CardState::Elsewhere) {
+        return fail(ErrorKind::DeviceLost, fmt::format("display: {}", projector_is_elsewhere));
     }
     if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
         stuck_since_.reset();
@@ -78,8 +85,8 @@ Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set
 }
 
 bool Presenter::read_shown(std::span<std::byte> rgba) const {
-    const bool exact = scanout_ && scanout_->size() == PixelSize{wish_.picture_width, wish_.picture_height};
-    return lit_ && lit_->shown && exact && scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
+    return lit_ && lit_->shown && scanout_ &&
+           scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
 }
 
 /// Once for each flip: a card that hangs must not hold up every frame.
@@ -129,7 +136,9 @@ bool Presenter::still_right() const {
     const auto connector =
         std::find_if(seen_.connectors.begin(), seen_.connectors.end(),
                      [this](const ConnectorSeen& seen) { return seen.id == lit_->connector; });
-    if (connector == seen_.connectors.end() || connector->plugged == Plugged::No || connector->link_bad) {
+    if (connector == seen_.connectors.end() || connector->link_bad ||
+        lit_->blindly != is_lit_blindly(*connector, wish_) ||
+        (connector->plugged == Plugged::No && !lit_->blindly)) {
         return false;
     }
     if (connector->plugged == Plugged::Unknown && choose_connector(seen_, wish_) != &*connector) {
@@ -155,7 +164,7 @@ void Presenter::darken() {
     if (answer != KmsAnswer::Done && answer != KmsAnswer::Refused) {
         went_wrong(answer);
     } else {
-        say_why_dark();
+        state_ = why_dark(seen_, wish_);
     }
 }
 
@@ -176,21 +185,32 @@ void Presenter::light() {
         }
     }
     unfit_.clear();
-    state_ = format_sentence(
-        "the graphics card takes no mode of the projector at {}; the exhibit goes on in the dark",
-        connector->name);
+    state_ = why_refused(*connector, wish_, no_memory_.view());
 }
 
 /// False: another mode may work.
 bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
-    if (!make_scanout({mode.width, mode.height})) {
+    const PixelSize picture{wish_.picture_width, wish_.picture_height};
+    const PixelSize screen{mode.width, mode.height};
+    if (card_scales_ && !(picture == screen)) {
+        if (light(connector, mode, picture)) {
+            return true;
+        }
+        card_scales_ = false; // or this mode cannot be had at all; the copy scales as well
+    }
+    return light(connector, mode, screen);
+}
+
+bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize framebuffer) {
+    if (!make_scanout(framebuffer)) {
         return false;
     }
-    const KmsAnswer answer = device_.light(connector.id, mode, fill(), ++ticket_);
+    const PixelPlace place = letterbox(framebuffer, {mode.width, mode.height});
+    const KmsAnswer answer = device_.light(connector.id, mode, {fill(), framebuffer, place}, ++ticket_);
     if (answer == KmsAnswer::Done) {
         const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
                             (wish_.force && mode == modes_to_try(connector, wish_).front());
-        lit_ = Lit{connector.id, connector.name, mode, wished};
+        lit_ = Lit{connector.id, connector.name, mode, wished, is_lit_blindly(connector, wish_)};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         state_ = format_sentence("the projector at {} is about to be lit", connector.name);
@@ -211,7 +231,11 @@ void Presenter::flip() {
         return;
     }
     if (answer == KmsAnswer::Refused && !lit_->flips) {
-        unfit_.push_back(lit_->mode);
+        if (scanout_->size() == PixelSize{lit_->mode.width, lit_->mode.height}) {
+            unfit_.push_back(lit_->mode);
+        } else {
+            card_scales_ = false;
+        }
     }
     went_wrong(answer);
 }
@@ -222,8 +246,10 @@ bool Presenter::make_scanout(PixelSize size) {
     }
     Result<std::unique_ptr<ScanoutPair>> made = make_scanout_(size);
     if (!made) {
+        no_memory_ = Sentence(made.error().message);
         return false;
     }
+    no_memory_ = {};
     if (!shown_before_) {
         shown_before_ = std::move(scanout_);
     }
@@ -271,33 +297,7 @@ void Presenter::lose(std::string_view why) {
 }
 
 void Presenter::say_lit() {
-    state_ = format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}", lit_->name,
-                             lit_->mode.width, lit_->mode.height, refresh_hz(lit_->mode),
-                             lit_->wished ? "" : ", because it cannot do the mode in the settings");
-}
-
-void Presenter::say_why_dark() {
-    const auto& all = seen_.connectors;
-    const auto named = [this](const ConnectorSeen& seen) { return seen.name == wish_.connector; };
-    const auto plugged = [this, &named](const ConnectorSeen& seen) {
-        return seen.plugged == Plugged::Yes && (wish_.connector.empty() || named(seen));
-    };
-    const auto mute = std::find_if(all.begin(), all.end(), plugged);
-    if (choose_connector(seen_, wish_) != nullptr) {
-        state_ = format_sentence("the projector is about to be lit");
-    } else if (mute != all.end()) {
-        state_ = format_sentence("the projector at {} names no mode; set display.mode and display.force",
-                                 mute->name);
-    } else if (!wish_.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
-        std::string names;
-        for (const ConnectorSeen& seen : all) {
-            names += (names.empty() ? "" : ", ") + seen.name;
-        }
-        state_ = format_sentence("the graphics card has no connector {}; it has {}", wish_.connector, names);
-    } else {
-        state_ = format_sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes",
-                                 wish_.connector.empty() ? "" : " to ", wish_.connector);
-    }
+    state_ = sentence_of({lit_->name, lit_->mode, lit_->wished, lit_->blindly, device_.shortcoming()});
 }
 
 } // namespace frustumscreen

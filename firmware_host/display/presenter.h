@@ -2,10 +2,13 @@
 ///
 /// Without a projector pictures are taken and shown to nobody; when one comes, the next picture lights it.
 ///
+/// A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
+/// picture is scaled on its way into memory.
+///
 /// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
 /// Threads  the render thread.
-/// Errors   a card that is back after it was gone, or that takes no picture for `stuck_given_up`: only a new
-///          start can take it up.
+/// Errors   a card that is back after it was gone, or that takes no picture for `stuck_given_up`, or a
+///          projector at another card: only a new start can take it up.
 #pragma once
 
 #include "firmware_host/base/sentence.h"
@@ -42,7 +45,7 @@ public:
     /// The first picture is shown, or it is known that no projector takes one now.
     [[nodiscard]] bool settled() const { return lit_ ? lit_->shown : looked_ && !about_to_light(); }
     /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
-    /// false: none is lit, or with a picture scaled.
+    /// false: none is lit.
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
     [[nodiscard]] std::string_view state() const { return state_.view(); }
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
@@ -54,9 +57,10 @@ private:
         std::uint32_t connector = 0;
         std::string name;
         ModeTiming mode;
-        bool wished = true; ///< it is the mode that the settings ask for
-        bool shown = false; ///< its first picture was flipped to
-        bool flips = false; ///< it has shown more than its first picture
+        bool wished = true;   ///< it is the mode that the settings ask for
+        bool blindly = false; ///< the connector says that nothing is connected
+        bool shown = false;   ///< its first picture was flipped to
+        bool flips = false;   ///< it has shown more than its first picture
     };
     struct Queued {
         MonotonicTime at;
@@ -74,6 +78,7 @@ private:
     void darken();
     void light();
     [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode);
+    [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize framebuffer);
     void flip();
     [[nodiscard]] bool make_scanout(PixelSize size);
     /// Brings the framebuffer that is not shown up to date.
@@ -82,7 +87,6 @@ private:
     void went_wrong(KmsAnswer answer);
     void lose(std::string_view why);
     void say_lit();
-    void say_why_dark();
 
     KmsDevice& device_;
     MakeScanout make_scanout_;
@@ -97,6 +101,8 @@ private:
     std::optional<MonotonicTime> try_again_;   ///< not before
     std::optional<MonotonicTime> stuck_since_; ///< the card took no picture since
     bool looked_ = false;                      ///< what is connected is known
+    bool card_scales_ = true;                  ///< not known yet to refuse
+    Sentence no_memory_;            ///< why the last framebuffers could not be made; empty: they could
     std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown

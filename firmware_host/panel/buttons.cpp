@@ -22,8 +22,17 @@ void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<
         } else if (down[k] != button.level) {
             button.level = down[k];
             button.level_since = now;
+            if (edge(button) && !button.chatters && !button.stuck) {
+                button.chatters = true;
+                button.pressed = false;
+                events.push_back({now, static_cast<int>(k), PressKind::Chatters});
+            }
         }
-        settle(now, k, events);
+        if (button.chatters) {
+            calm_down(now, k, events);
+        } else {
+            settle(now, k, events);
+        }
         hold(now, k, events);
     }
     hold_chord(now, events);
@@ -53,10 +62,37 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.stuck = false;
 }
 
+/// True: one edge too many. What bounces within the debounce time is one edge.
+bool Buttons::edge(Button& button) {
+    const MonotonicTime time = button.level_since;
+    const std::size_t latest = (button.edge_count + button.edges.size() - 1) % button.edges.size();
+    if (button.edge_count > 0 && time - button.edges[latest] < times_.debounce) {
+        return false;
+    }
+    MonotonicTime& oldest = button.edges[button.edge_count % button.edges.size()];
+    const bool too_many = button.edge_count >= button.edges.size() && time - oldest <= times_.chatter_window;
+    oldest = time;
+    ++button.edge_count;
+    return too_many;
+}
+
+/// One that is still at last is as at the first sample: where it is down it says nothing until it was up.
+void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
+    Button& button = buttons_[which];
+    if (now - button.level_since < times_.quiet) {
+        return;
+    }
+    button = {.level = button.level,
+              .down = button.level,
+              .level_since = button.level_since,
+              .down_since = button.level_since};
+    events.push_back({button.level_since + times_.quiet, static_cast<int>(which), PressKind::Freed});
+}
+
 /// What a button that stays down comes to mean.
 void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
-    if (!button.down || button.stuck) {
+    if (!button.down || button.stuck || button.chatters) {
         return;
     }
     const int number = static_cast<int>(which);
@@ -102,6 +138,10 @@ std::optional<MonotonicTime> Buttons::due() const {
         consider(*chord + times_.chord);
     }
     for (const Button& button : buttons_) {
+        if (button.chatters) {
+            consider(button.level_since + times_.quiet);
+            continue;
+        }
         if (button.level != button.down) {
             consider(button.level_since + times_.debounce);
         }
@@ -117,6 +157,11 @@ std::optional<MonotonicTime> Buttons::due() const {
 
 bool Buttons::any_stuck() const {
     return std::any_of(buttons_.begin(), buttons_.end(), [](const Button& button) { return button.stuck; });
+}
+
+bool Buttons::any_chatters() const {
+    return std::any_of(buttons_.begin(), buttons_.end(),
+                       [](const Button& button) { return button.chatters; });
 }
 
 } // namespace frustumscreen

@@ -14,6 +14,24 @@ std::string_view sentence_of(Health health) {
         return "the picture that is presented is not the one that was drawn";
     case Health::ThreadHangs:
         return "a device's thread hangs";
+    case Health::Hangs:
+        return "the exhibit's own thread hangs";
+    }
+    return "";
+}
+
+std::string_view word_of(Health health) {
+    switch (health) {
+    case Health::Well:
+        return "well";
+    case Health::NoPicture:
+        return "no_picture";
+    case Health::FrozenCode:
+        return "frozen";
+    case Health::ThreadHangs:
+        return "thread_hangs";
+    case Health::Hangs:
+        return "hangs";
     }
     return "";
 }

@@ -21,9 +21,12 @@ enum class Health : std::uint8_t {
     NoPicture,   ///< nothing was presented for too long
     FrozenCode,  ///< what was presented does not change, or has no code
     ThreadHangs, ///< a device's thread broke its promise
+    Hangs,       ///< the exhibit's own thread is not heard of; told by another (hang_watch.h)
 };
 /// What is wrong, in one sentence; of Well too.
 [[nodiscard]] std::string_view sentence_of(Health health);
+/// The same in one word, for another program: well, no_picture, frozen, thread_hangs, hangs.
+[[nodiscard]] std::string_view word_of(Health health);
 
 /// What was read back from a picture that was presented.
 struct ReadBack {

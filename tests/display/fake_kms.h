@@ -40,22 +40,31 @@ public:
         std::uint32_t connector = 0;
         ModeTiming mode;
         FramebufferId framebuffer = 0;
+        PixelSize size;
+        PixelPlace place;
     };
 
-    KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, FramebufferId shown,
+    KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                     std::uint64_t ticket) override {
+        if (!scales && !(shown.place == PixelPlace{0, 0, shown.size.width, shown.size.height})) {
+            ++scalings_refused;
+            return KmsAnswer::Refused;
+        }
         ++lights;
         if (const KmsAnswer answer = answer_to_modeset(mode); answer != KmsAnswer::Done) {
             return answer;
         }
-        queue(Shown{connector, mode, shown}, ticket);
+        setting_a_mode_ = true;
+        queue(Shown{connector, mode, shown.framebuffer, shown.size, shown.place}, ticket);
         return KmsAnswer::Done;
     }
     KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override {
         if (gone || !master || !screen) {
             return gone ? KmsAnswer::Gone : !master ? KmsAnswer::NotMaster : KmsAnswer::Refused;
         }
-        if (std::find(no_flips.begin(), no_flips.end(), screen->mode) != no_flips.end()) {
+        const bool scaled = !(screen->place == PixelPlace{0, 0, screen->size.width, screen->size.height});
+        if (std::find(no_flips.begin(), no_flips.end(), screen->mode) != no_flips.end() ||
+            (no_scaled_flips && scaled)) {
             return KmsAnswer::Refused;
         }
         if (!queued_.empty() || busy > 0) {
@@ -92,16 +101,23 @@ public:
         longest_wait = std::max(longest_wait, Nanoseconds(done.at - time));
         time = std::max(time, done.at);
         screen = done.what;
+        setting_a_mode_ = false;
         flipped = done.at;
         return Flipped{done.at, done.ticket};
     }
-    bool flips_keep_time() const override { return keeps_time; }
+    /// While a mode is being set the kernel cannot say.
+    bool flips_keep_time() const override { return keeps_time && !setting_a_mode_; }
+    std::string_view shortcoming() const override { return lacks; }
     MonotonicTime now() const override { return time; }
 
     MonotonicTime time = from_microseconds(1'000'000);
     std::optional<Shown> screen; ///< what the projector shows
     std::vector<ModeTiming> refused;
     std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
+    std::string_view lacks;           ///< what is told of what is lit
+    bool scales = false;              ///< framebuffers of another size than the mode's
+    bool no_scaled_flips = false;
+    int scalings_refused = 0;
     bool gone = false;
     bool master = true;
     bool held_by_another = false;
@@ -139,6 +155,7 @@ private:
         queued_.push_back({keeps_time ? MonotonicTime(refreshes * one_refresh) : time, ticket, what});
     }
     std::deque<Queued> queued_;
+    bool setting_a_mode_ = false;
 };
 
 /// Counts the pictures that are filled in; every pair has framebuffers of its own.

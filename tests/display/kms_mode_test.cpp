@@ -31,12 +31,35 @@ TEST(KmsMode, RefreshIsThatOfThePicture) {
     EXPECT_EQ(refresh_hz({}), 0.0);
 }
 
-TEST(KmsMode, ThePreferredOneIsFirstIfNothingIsAskedFor) {
+TEST(KmsMode, WhereNothingIsAskedForThePicturesOwnSizeGoesBeforeThePreferredMode) {
     const auto modes = modes_to_try(
-        with({a_mode(1280, 800, 60.0), a_mode(1920, 1080, 60.0, true), a_mode(640, 480, 60.0)}), wish());
+        with({a_mode(3840, 2160, 30.0, true), a_mode(1280, 800, 60.0), a_mode(640, 480, 60.0)}), wish());
     ASSERT_EQ(modes.size(), 3U);
-    EXPECT_EQ(modes[0].width, 1920);
-    EXPECT_EQ(modes[1].width, 1280) << "then by nearness to the picture";
+    EXPECT_EQ(modes[0].width, 1280);
+    EXPECT_EQ(modes[1].width, 3840) << "then the preferred one";
+    EXPECT_EQ(modes[2].width, 640);
+    const auto without = modes_to_try(
+        with({a_mode(1024, 768, 60.0), a_mode(1920, 1080, 60.0, true), a_mode(640, 480, 60.0)}), wish());
+    EXPECT_EQ(without[0].width, 1920) << "no mode of the picture's size";
+    EXPECT_EQ(without[1].width, 1024) << "then by nearness to the picture";
+}
+
+TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) {
+    const auto first = [](std::vector<ModeTiming> modes, const OutputWish& asked = wish()) {
+        return modes_to_try(with(std::move(modes)), asked)[0];
+    };
+    EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 75.0), a_mode(1280, 800, 60.0)})), 60.0, 0.1);
+    EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 120.0, true), a_mode(1280, 800, 60.0)})), 60.0, 0.1);
+    EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 60.0), a_mode(1280, 800, 59.81, true)})), 59.81, 0.01)
+        << "VESA's two timings of it: the projector says which is its own";
+    EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 50.0), a_mode(1280, 800, 75.0, true)})), 75.0, 0.1);
+    const ModeTiming halved = a_mode(1280, 800, 60.0, true, mode_interlaced);
+    EXPECT_EQ(first({halved, a_mode(1024, 768, 60.0)}), halved) << "preferred, but not for its size";
+    EXPECT_EQ(first({halved, a_mode(1280, 800, 75.0)}).flags, 0U);
+    OutputWish slower = wish();
+    slower.picture_hz = 50.0;
+    EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 60.0, true), a_mode(1280, 800, 50.0)}, slower)), 50.0,
+                0.1);
 }
 
 TEST(KmsMode, TheOneAskedForGoesBeforeThePreferredOne) {
@@ -137,6 +160,35 @@ TEST(KmsMode, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) 
     OutputWish forced = wish(1280, 800);
     forced.force = true;
     EXPECT_EQ(chosen({off, mute}, forced), "DP-1");
+    forced.connector = "HDMI-A-1";
+    EXPECT_EQ(chosen({there, mute, off}, forced), "HDMI-A-1") << "named and forced: whatever it says";
+    forced.width = 0;
+    EXPECT_EQ(chosen({there, mute, off}, forced), "none") << "no mode to force";
+}
+
+TEST(KmsMode, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
+    ConnectorSeen panel = a_projector(1, "eDP-1");
+    panel.built_in = true;
+    ConnectorSeen off = a_projector(2, "HDMI-A-1");
+    off.plugged = Plugged::No;
+    ConnectorSeen unsure = a_projector(3, "VGA-1");
+    unsure.plugged = Plugged::Unknown;
+    ConnectorSeen mute = a_projector(4, "DP-1");
+    mute.modes.clear();
+    EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), wish()), CardRank::Projector);
+    EXPECT_EQ(rank_of(a_card({off, panel}), wish()), CardRank::Panel);
+    for (const ConnectorSeen& nothing_certain : {off, unsure, mute}) {
+        EXPECT_EQ(rank_of(a_card({nothing_certain}), wish()), CardRank::NothingCertain);
+    }
+    EXPECT_EQ(rank_of(a_card({}), wish()), CardRank::NothingCertain);
+    OutputWish named = wish();
+    named.connector = "HDMI-A-1";
+    EXPECT_EQ(rank_of(a_card({off, a_projector(5, "DP-2")}), named), CardRank::NothingCertain);
+    EXPECT_EQ(rank_of(a_card({a_projector(5, "DP-2")}), named), CardRank::WithoutTheConnectorNamed);
+    EXPECT_EQ(rank_of(a_card({a_projector()}), named), CardRank::Projector);
+    EXPECT_LT(CardRank::Projector, CardRank::Panel);
+    EXPECT_LT(CardRank::Panel, CardRank::NothingCertain);
+    EXPECT_LT(CardRank::NothingCertain, CardRank::WithoutTheConnectorNamed);
 }
 
 } // namespace

@@ -1,103 +1,12 @@
-#include "firmware_host/display/egl_context.h"
-#include "firmware_host/display/picture_copy.h"
+#include "tests/display/copying.h"
 
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace frustumscreen {
 namespace {
-
-using Texel = std::array<unsigned char, 4>;
-
-/// A screen's framebuffer: 8 bits a channel, codes as they are written.
-class Screen {
-public:
-    explicit Screen(PixelSize size) : size_(size) {
-        glGenFramebuffers(1, &framebuffer_);
-        glGenRenderbuffers(1, &colour_);
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-        glBindRenderbuffer(GL_RENDERBUFFER, colour_);
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
-        glDisable(GL_SCISSOR_TEST);
-        glClearColor(1.0F, 0.0F, 1.0F, 1.0F); // whatever was there before
-        glClear(GL_COLOR_BUFFER_BIT);
-    }
-    ~Screen() {
-        glDeleteFramebuffers(1, &framebuffer_);
-        glDeleteRenderbuffers(1, &colour_);
-    }
-    Screen(const Screen&) = delete;
-    Screen& operator=(const Screen&) = delete;
-
-    [[nodiscard]] std::vector<Texel> read() const {
-        std::vector<Texel> texels(static_cast<std::size_t>(size_.width) *
-                                  static_cast<std::size_t>(size_.height));
-        glReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
-        return texels;
-    }
-
-private:
-    PixelSize size_;
-    unsigned framebuffer_ = 0;
-    unsigned colour_ = 0;
-};
-
-class Copying : public testing::Test {
-protected:
-    Copying() : drawing_(EglContext::without_screen()) {
-        EXPECT_TRUE(drawing_);
-        copying_ = drawing_->sharing().value();
-        EXPECT_TRUE(copying_->make_current());
-        copy_ = PictureCopy::create().value();
-        EXPECT_TRUE(drawing_->make_current());
-    }
-    ~Copying() override {
-        EXPECT_TRUE(copying_->make_current());
-        copy_.reset();
-    }
-
-    /// Every pixel has a colour of its own; row 0 is the top row.
-    static Texel colour_of(int x, int y) {
-        return {static_cast<unsigned char>(x), static_cast<unsigned char>(y),
-                static_cast<unsigned char>((x * 7 + y * 13) % 256), 255};
-    }
-    static PictureFramebuffer picture_of(int width, int height, Texel (*colour)(int, int) = colour_of) {
-        PictureFramebuffer picture = PictureFramebuffer::create(width, height).value();
-        std::vector<Texel> texels;
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                texels.push_back(colour(x, y));
-            }
-        }
-        glBindTexture(GL_TEXTURE_2D, picture.texture());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
-        glFinish();
-        return picture;
-    }
-    std::vector<Texel> copied(const PictureFramebuffer& picture, PixelSize size, TopRow top,
-                              std::optional<PixelPlace> part = std::nullopt) {
-        EXPECT_TRUE(copying_->make_current());
-        std::vector<Texel> texels;
-        {
-            const Screen screen(size);
-            copy_->draw(picture, size, top,
-                        part.value_or(PixelPlace{0, 0, picture.width(), picture.height()}));
-            EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-            texels = screen.read();
-        }
-        EXPECT_TRUE(drawing_->make_current());
-        return texels;
-    }
-
-    Result<EglContext> drawing_;
-    std::optional<EglContext> copying_;
-    std::optional<PictureCopy> copy_;
-};
 
 TEST_F(Copying, OfTheSameSizeEveryCodeArrivesAsItIsAndTheTopRowFirst) {
     const PictureFramebuffer picture = picture_of(256, 256);
@@ -128,12 +37,44 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
             const bool inside = y >= 10 && y < 90;
             for (int x = 0; x < 128; ++x) {
                 const Texel& texel = screen[static_cast<std::size_t>(128 * y + x)];
+                if ((top == TopRow::First ? y : 99 - y) == 0 && x < code_pixels) {
+                    continue;
+                }
                 EXPECT_NEAR(texel[0], inside ? 200 : 0, 1) << x << ", " << y;
                 EXPECT_NEAR(texel[1], inside ? 100 : 0, 1);
                 EXPECT_NEAR(texel[2], inside ? 50 : 0, 1);
             }
         }
     }
+}
+
+TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
+    // app/render/probe.h: greys of code 1 and 2. The rest is bright, so that interpolation would show.
+    const PictureFramebuffer picture = picture_of(64, 40, [](int x, int y) {
+        const auto code = static_cast<unsigned char>(y > 0 || x >= code_pixels ? 250 : x % 3 == 0 ? 2 : 1);
+        return Texel{code, code, code, 255};
+    });
+    const PixelPlace away{30, 20, 5, 5};
+    const PixelPlace whole{0, 0, 64, 40};
+    // Bars above, bars at the sides, none, smaller than the picture, and as it is.
+    for (const PixelSize size : {PixelSize{128, 100}, {200, 80}, {128, 80}, {32, 20}, {64, 40}, {5, 30}}) {
+        for (const TopRow top : {TopRow::First, TopRow::Last}) {
+            for (const PixelPlace& part : {whole, away}) {
+                const std::vector<Texel> screen = copied(picture, size, top, part);
+                const int row = top == TopRow::First ? 0 : size.height - 1;
+                const bool there = part == whole || !(size == PixelSize{64, 40});
+                for (int x = 0; there && x < std::min(code_pixels, size.width); ++x) {
+                    const unsigned char code = x % 3 == 0 ? 2 : 1;
+                    EXPECT_EQ(screen[static_cast<std::size_t>(size.width * row + x)],
+                              (Texel{code, code, code, 255}))
+                        << x << " of " << size.width << " x " << size.height;
+                }
+            }
+        }
+    }
+    const std::vector<Texel> larger = copied(picture, {128, 80}, TopRow::First);
+    EXPECT_GT(larger[2 * code_pixels + 1][0], 2) << "the picture goes on beside it";
+    EXPECT_GT(larger[128][0], 2) << "and below";
 }
 
 TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
@@ -145,14 +86,20 @@ TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
             const std::vector<Texel> some = copied(picture, size, top, part);
             const PixelPlace place = letterbox({64, 40}, size);
             const PixelPlace there = part_on_screen(part, {64, 40}, place);
+            const PixelPlace code{0, 0, size == PixelSize{64, 40} ? 0 : code_pixels, 1};
+            EXPECT_EQ(drawn_, code.empty() ? there : around(there, code));
             int inside = 0;
             for (int row = 0; row < size.height; ++row) {
                 const int y = top == TopRow::First ? row : size.height - 1 - row;
                 for (int x = 0; x < size.width; ++x) {
-                    const bool in = x >= there.x && x < there.x + there.width && y >= there.y &&
-                                    y < there.y + there.height;
+                    const auto lies_in = [x, y](const PixelPlace& area) {
+                        return x >= area.x && x < area.x + area.width && y >= area.y &&
+                               y < area.y + area.height;
+                    };
+                    const bool in = lies_in(there);
                     const auto at = static_cast<std::size_t>(size.width * row + x);
-                    ASSERT_EQ(some[at], in ? whole[at] : (Texel{255, 0, 255, 255})) << x << ", " << y;
+                    ASSERT_EQ(some[at], in || lies_in(code) ? whole[at] : (Texel{255, 0, 255, 255}))
+                        << x << ", " << y;
                     inside += in ? 1 : 0;
                 }
             }
@@ -168,8 +115,8 @@ TEST_F(Copying, ScalesInLinearLight) {
         return Texel{code, code, code, 255};
     });
     const std::vector<Texel> screen = copied(picture, {64, 32}, TopRow::First);
-    for (const Texel& texel : screen) {
-        EXPECT_NEAR(texel[0], 187.5, 1.0);
+    for (std::size_t k = code_pixels; k < screen.size(); ++k) {
+        EXPECT_NEAR(screen[k][0], 187.5, 1.0);
     }
 }
 

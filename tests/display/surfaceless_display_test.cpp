@@ -46,5 +46,20 @@ TEST(SurfacelessDisplay, CanBeMadeAgainAfterItIsGone) {
     }
 }
 
+TEST(SurfacelessDisplay, KnowsDriversThatDrawOnTheProcessorByTheirNames) {
+    // GL_RENDERER as Mesa 22.3 says it.
+    for (const std::string_view name : {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe"}) {
+        EXPECT_TRUE(draws_on_processor(name)) << name;
+    }
+    for (const std::string_view name : {"V3D 4.2", "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", "NVC1",
+                                        "virgl (llvmpipe (LLVM 15.0.6, 256 bits))", ""}) {
+        EXPECT_FALSE(draws_on_processor(name)) << name;
+    }
+    const auto display = SurfacelessDisplay::create(8, 8);
+    ASSERT_TRUE(display);
+    EXPECT_TRUE(has_gl_extension("GL_OES_EGL_image")) << "every Mesa driver has it";
+    EXPECT_FALSE(has_gl_extension("GL_OES_EGL_imag"));
+}
+
 } // namespace
 } // namespace frustumscreen

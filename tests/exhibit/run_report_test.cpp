@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace frustumscreen {
@@ -71,6 +72,76 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     std::filesystem::remove(file);
     StatusFile nowhere{std::filesystem::path()};
     nowhere.post({});
+}
+
+TEST(RunReport, EveryFieldOfTheStatusHasItsRowInThePage) {
+    const Result<Bytes> page = read_file(FRUSTUMSCREEN_SOURCE_DIR "/docs/status.md");
+    ASSERT_TRUE(page);
+    RunStatus status;
+    stamp(status);
+    const nlohmann::json json = nlohmann::json::parse(status_json(status));
+    for (const auto& [key, value] : json.items()) {
+        EXPECT_NE(as_text(*page).find("\n| `" + key + "` | "), std::string_view::npos) << key;
+        if (value.is_object()) {
+            for (const auto& [inner, each] : value.items()) {
+                EXPECT_NE(as_text(*page).find("`" + inner + "`"), std::string_view::npos)
+                    << key << "." << inner;
+            }
+        }
+    }
+}
+
+TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
+    RunStatus status;
+    status.health = Health::FrozenCode;
+    status.presented = {
+        std::uint8_t{7}, {glm::dquat(0.5, 0.5, 0.5, 0.5), {0.1, 0.2, 0.3}}, {0.0, -0.5, 0.25}, true};
+    status.shown_code = std::uint8_t{6};
+    status.tracker_counts.lost = 3;
+    status.tracker_counts.broken = 4;
+    status.tracker_counts.clock_drift = 25e-6;
+    stamp(status);
+    const MonotonicTime after = monotonic_now();
+    const nlohmann::json json = nlohmann::json::parse(status_json(status));
+    EXPECT_EQ(json.at("health"), "frozen");
+    EXPECT_EQ(json.at("presented").at("code"), 7);
+    EXPECT_EQ(json.at("presented").at("prop_m"), (std::vector{0.1, 0.2, 0.3}));
+    EXPECT_EQ(json.at("presented").at("prop_wxyz"), (std::vector{0.5, 0.5, 0.5, 0.5}));
+    EXPECT_EQ(json.at("presented").at("eye_m"), (std::vector{0.0, -0.5, 0.25}));
+    EXPECT_EQ(json.at("presented").at("settled"), true);
+    EXPECT_EQ(json.at("shown_code"), 6);
+    EXPECT_EQ(json.at("tracker_counts").at("lost"), 3);
+    EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
+    EXPECT_EQ(json.at("tracker_counts").at("clock_drift_ppm"), 25.0);
+    EXPECT_LE(json.at("monotonic_ns"), after.time_since_epoch().count());
+    EXPECT_GT(json.at("monotonic_ns"), (after - std::chrono::minutes(1)).time_since_epoch().count());
+    std::string boot;
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), boot);
+    EXPECT_EQ(json.at("boot_id"), boot);
+}
+
+TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("hang_" + std::to_string(::getpid()) + ".json");
+    const auto comes = [&file](std::string_view health) {
+        for (const MonotonicTime end = monotonic_now() + std::chrono::seconds(60); monotonic_now() < end;) {
+            const Result<Bytes> bytes = read_file(file);
+            if (bytes && nlohmann::json::parse(as_text(*bytes)).at("health") == health) {
+                return true;
+            }
+        }
+        return false;
+    };
+    {
+        StatusFile status_file(file);
+        status_file.post({});
+        EXPECT_TRUE(comes("well"));
+        status_file.note_hang(true);
+        EXPECT_TRUE(comes("hangs"));
+        status_file.note_hang(false);
+        EXPECT_TRUE(comes("well"));
+    }
+    std::filesystem::remove(file);
 }
 
 TEST(RunReport, TextThatIsNotUtf8DoesNotSpoilTheStatus) {

@@ -1,11 +1,12 @@
 """The test bench: the emulated kiosk, the mocked devices at its USB ports, and what a test asks of them.
 
 Frame    poses are of the table; pixels of the picture, the top left pixel's centre at (0.5, 0.5).
-Time     seconds of the host's monotonic clock.
+Time     time-outs: seconds that the host granted the guest (Machine.granted_s), times how slow that guest is.
 Threads  one caller.
 """
 
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -22,11 +23,14 @@ from vnc_viewer import VncViewer
 HERE = pathlib.Path(__file__).resolve().parent
 CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
+SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
 CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
+PLACE_TOLERANCE_M = 0.0005  # what is presented is filtered: it comes to rest this near to what was sent
+TURN_TOLERANCE = math.radians(0.2)
 OTHER_TRACKERS = ("patriot", "hid")  # beside the VIPER that most tests use; unplugged until a test wants them
 
 
@@ -40,7 +44,7 @@ class Mock:
             self.process = subprocess.Popen(
                 [HERE / program, "--usbredir", self.usb, "--control", self._control, *options],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
-        eventually(lambda: self.usb.exists() and self._control.exists(), 10.0, f"{program} does not start")
+        eventually(lambda: self.usb.exists() and self._control.exists(), 60.0, f"{program} does not start")
 
     def tell(self, *words):
         answer = control.tell(str(self._control), " ".join(str(word) for word in words))
@@ -50,27 +54,35 @@ class Mock:
 
     def stop(self):
         self.process.terminate()
-        self.process.wait(10.0)
+        self.process.wait(60.0)
 
 
 class Patience:
-    """How much longer than on an idle machine of two cores everything takes here: from the time of the guest's start."""
+    """How long to wait: by the time that the guest was granted, and longer where it took longer to start."""
 
     usual_start_s = 30.0
     factor = 1.0
+    clock = time.monotonic
 
 
 def eventually(condition, timeout_s, otherwise):
     """Waits until `condition()` is true and returns what it returned; else AssertionError with a sentence."""
     timeout_s *= Patience.factor
-    deadline = time.monotonic() + timeout_s
+    deadline = Patience.clock() + timeout_s
     while True:
         found = condition()
         if found:
             return found
-        if time.monotonic() > deadline:
+        if Patience.clock() > deadline:
             raise AssertionError(f"{otherwise() if callable(otherwise) else otherwise} (after {timeout_s:.0f} s)")
         time.sleep(0.05)
+
+
+def near(placed, pose, eye_m):
+    """Is the status file's `presented` drawn for this pose, (x, y, z, qw, qx, qy, qz), and eye?"""
+    turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(placed["prop_wxyz"], pose[3:])))))
+    return (math.dist(placed["prop_m"], pose[:3]) < PLACE_TOLERANCE_M and turned < TURN_TOLERANCE
+            and math.dist(placed["eye_m"], eye_m) < PLACE_TOLERANCE_M)
 
 
 class Bench:
@@ -80,6 +92,7 @@ class Bench:
         self.out = out
         self._program = build / "bin" / "frustumscreen"
         self._packs = packs
+        self._rendered = {}
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
         self.looked_at = "screen"  # or "second"
@@ -94,13 +107,15 @@ class Bench:
         return (self.tracker, self.buttons, *self.other_trackers.values())
 
     def start(self):
+        """Returns the seconds that it took."""
         begun = time.monotonic()
         self.machine.start()
-        took_s = time.monotonic() - begun
-        Patience.factor = max(1.0, took_s / Patience.usual_start_s)
-        return took_s
+        Patience.clock = self.machine.granted_s
+        Patience.factor = max(1.0, self.machine.granted_s() / Patience.usual_start_s)
+        return time.monotonic() - begun
 
     def stop(self):
+        Patience.clock = time.monotonic
         self.machine.stop()
         for mock in self._mocks():
             mock.stop()
@@ -134,6 +149,10 @@ class Bench:
                                             f"'{found[0] and found[0].get(key)}'")
         return found[0]
 
+    def journal(self):
+        """What the exhibit has said since the machine started."""
+        return self.machine.run(f"journalctl -b -o cat --no-pager -u {UNIT}").output
+
     def main_process(self):
         """The exhibit's process number; 0: it does not run."""
         return int(self.machine.check(f"systemctl show --value -p MainPID {UNIT}"))
@@ -150,22 +169,33 @@ class Bench:
     def probe(self):
         return screen.probe(self.screendump())
 
-    def steady_picture(self, timeout_s=20.0):
-        """The picture once nothing but its probe changes for a second, or what is as long for this machine."""
-        last = [screen.lit(self.screendump()), time.monotonic()]
-        rest_s = 1.0 * Patience.factor
+    def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0):
+        """The picture on the screen once the exhibit says that it presented one of this pose, with nothing fading: that
+        one or a later one."""
+        last = [None]
 
-        def steady():
+        def presented():
+            last[0] = (self.status() or {}).get("presented")
+            found = last[0] and last[0]["settled"] and last[0]["code"] is not None and near(last[0], pose, eye_m)
+            return last[0] if found else None
+
+        code = eventually(presented, timeout_s, lambda: f"no picture is presented of {pose}, at last {last[0]}")["code"]
+
+        def shown():
             picture = self.screendump()
-            rows = screen.lit(picture)
-            if rows != last[0]:
-                last[:] = [rows, time.monotonic()]
-            return picture if time.monotonic() - last[1] > rest_s else None
+            seen = screen.probe(picture)
+            return picture if seen is not None and (seen - code) % screen.CODES < screen.CODES // 2 else None
 
-        return eventually(steady, timeout_s, "the picture does not come to rest")
+        return eventually(shown, timeout_s, f"picture {code} was presented, but neither it nor a later one is shown")
 
     def rendered(self, poses, artifact, eye_m=EYE_M):
         """What `frustumscreen render` draws on this machine for each of the poses: (x, y, z, qw, qx, qy, qz)."""
+        missing = [pose for pose in poses if (pose, artifact, eye_m) not in self._rendered]
+        for pose, picture in zip(missing, self._render(missing, artifact, eye_m) if missing else []):
+            self._rendered[pose, artifact, eye_m] = picture
+        return [self._rendered[pose, artifact, eye_m] for pose in poses]
+
+    def _render(self, poses, artifact, eye_m):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]

@@ -1,5 +1,6 @@
 /// Laid before the exhibit in the emulated machine (LD_PRELOAD): makes a call into a library wait for as long
-/// as a file is there, as a broken driver would.
+/// as a file is there, as a broken driver would; where the file has a number in it, for so many milliseconds,
+/// once.
 ///
 /// /run/hil/hang-gl    the next glClear, on the render thread
 /// /run/hil/hang-usb   the next bulk transfer, on the tracker's thread
@@ -7,11 +8,18 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <fstream>
+
 namespace {
 
 constexpr unsigned nap_us = 50000;
 
 void wait_while_there(const char* file) {
+    unsigned once_ms = 0;
+    if (::access(file, F_OK) == 0 && std::ifstream(file) >> once_ms) {
+        ::unlink(file);
+        ::usleep(1000 * once_ms);
+    }
     while (::access(file, F_OK) == 0) {
         ::usleep(nap_us);
     }

@@ -49,6 +49,8 @@ version=\$(ls kernel/lib/modules)
 mkdir -p "\$root/usr/lib/modules"
 mv "kernel/lib/modules/\$version" "\$root/usr/lib/modules/"
 chroot "\$root" depmod "\$version"
+bash "$here/guest_vkms.sh" "\$version" "$work/vkms.ko" &
+vkms=\$!
 needed() { # paths below kernel/, in the order of loading
     for module; do
         chroot "\$root" modprobe --set-version "\$version" --show-depends "\$module" | sed -n 's#^insmod .*/kernel/##p'
@@ -65,6 +67,8 @@ while read -r module; do
     mkdir -p "\$root/usr/lib/modules/\$version/kernel/\$(dirname "\$module")"
     cp "all/\$module" "\$root/usr/lib/modules/\$version/kernel/\$module"
 done <keep
+wait \$vkms
+install -D -m 644 -t "\$root/usr/lib/modules/\$version/updates" vkms.ko
 chroot "\$root" depmod "\$version"
 cp "kernel/boot/vmlinuz-\$version" vmlinuz
 HOOK

@@ -4,17 +4,29 @@ import math
 import unittest
 
 import screen
-from bench import CONNECTOR, UNIT, Bench
+import watch
+from bench import CONNECTOR, UNIT, UPRIGHT, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
 PIXELS = 2.0  # between what is shown and what is rendered offline
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
 
 
+def long(test):
+    """A test, or a class of tests, that `./test hil` leaves out without --all."""
+    test.is_long = True
+    return test
+
+
+def is_long(test):
+    return getattr(test, "is_long", False) or getattr(getattr(test, test._testMethodName, None), "is_long", False)
+
+
 class HilTest(unittest.TestCase):
     """All tests share one machine; each begins with every device well, the first artifact, the prop at the centre."""
 
     bench: Bench
+    longest_s = 0.0  # that a picture stood in any of them
 
     def setUp(self):
         bench = self.bench
@@ -24,7 +36,7 @@ class HilTest(unittest.TestCase):
             bench.buttons.tell("release", pin)
         bench.place(CENTRE_M)
         bench.place_head()
-        bench.machine.run(f"rm -rf /run/hil; echo detect > {CONNECTOR}")
+        bench.machine.run(f"rm -rf /run/hil; mkdir -m 777 /run/hil; echo detect > {CONNECTOR}")
         if bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
             bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start --no-block {UNIT}")
         bench.status_says("tracker", "is running", START_S)
@@ -36,6 +48,24 @@ class HilTest(unittest.TestCase):
         if self.bench.status()["artifact"] != artifact:
             self.bench.buttons.tell("press", 1, "300ms")
             self.bench.status_says("artifact", artifact)
+
+    def hang(self, what, ms=""):
+        """guest_hang.cpp makes the next call that is named so wait: so long, or for ever."""
+        self.bench.machine.check(f"echo {ms} > /run/hil/new; mv /run/hil/new /run/hil/hang-{what}")
+
+    def watch(self, seconds, rests=False):
+        """Looks at the screen for so long: no picture may stand too long."""
+        seen = watch.watch(self.bench, seconds)
+        froze = watch.froze(seen, rests)
+        self.assertFalse(froze, "the picture froze")
+        return seen
+
+    def assert_at(self, place_m, rotation=UPRIGHT, artifact=None):
+        """The prop lies there: the picture is where `render` draws it."""
+        pose = (*place_m, *rotation)
+        picture = self.bench.picture_of(pose)
+        artifact = artifact or self.bench.status()["artifact"]
+        self.assert_same_place(picture, self.bench.rendered([pose], artifact)[0])
 
     def assert_same_place(self, picture, truth):
         """What is lit in both lies within PIXELS: centroid, box and outline."""

@@ -27,7 +27,7 @@ def library_packages(program):
 def root(program, say):
     """The folder with vmlinuz, initrd.img and root.squashfs; made if its recipe or the libraries changed."""
     packages = [*library_packages(program), FONTS]
-    recipe = b"".join((HERE / name).read_bytes() for name in ("guest_root.sh", "guest_init"))
+    recipe = b"".join((HERE / name).read_bytes() for name in ("guest_root.sh", "guest_vkms.sh", "guest_init"))
     key = hashlib.sha256(recipe + " ".join(packages).encode()).hexdigest()[:16]
     folder = CACHE / f"root-{key}"
     if not (folder / "root.squashfs").exists():

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Hardware in the loop: makes the guest, starts it once, runs the tests in it. `./test hil` calls this."""
+"""Hardware in the loop: makes the guest, starts it, runs the tests in it. `./test hil` calls this."""
 
 import argparse
+import os
 import pathlib
 import shutil
-import signal
 import sys
 import time
 import unittest
@@ -12,20 +12,17 @@ from concurrent.futures import ThreadPoolExecutor
 
 import image
 from bench import Bench
-from hil_test import HilTest
+from family import Ended, Family
+from hil_test import HilTest, is_long
+from repeat import Load, Run, as_text
 
-HERE = pathlib.Path(__file__).resolve().parent
 # in this order: what the later ones rely on comes first
-MODULES = ("boot", "pose", "trackers", "buttons", "unplug", "misbehaviour", "latency", "display", "restart", "kernel")
+MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "display", "vblank",
+           "restart", "kernel")
 
 
 def say(text):
     print(f"== {text}", flush=True)
-
-
-def named(tests, name):
-    """The tests whose name contains `name`."""
-    return [test for test in tests if name in test.id()]
 
 
 def flat(suite):
@@ -60,11 +57,21 @@ class Verdicts(unittest.TextTestResult):
             self._keep(test, err)
 
 
+def numbers(text):
+    return [int(word) for word in text.split(",")]
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test hil", description=__doc__)
-    parser.add_argument("--only", metavar="NAME", help="the tests whose name contains NAME")
+    parser.add_argument("--only", metavar="NAME[,NAME...]",
+                        help="the tests whose name contains NAME, long ones too")
+    parser.add_argument("--all", action="store_true", help="the long tests too")
     parser.add_argument("--list", action="store_true", help="the tests' names, and nothing else")
-    parser.add_argument("--keep", action="store_true", help="leave the machine up, and say how to get a shell in it")
+    parser.add_argument("--repeat", metavar="N", type=int, default=1,
+                        help="N times, each with a fresh machine; a table at the end")
+    parser.add_argument("--load", metavar="N[,N...]", default="0", type=numbers,
+                        help="with so many busy loops beside it; of several, one after another")
+    parser.add_argument("--keep", action="store_true", help="leave the last machine up, and say how to get a shell in it")
     parser.add_argument("--build", type=pathlib.Path, default=image.CHECKOUT / "build" / "release",
                         help="take the programs from this build folder")
     parser.add_argument("--out", type=pathlib.Path, default=image.CHECKOUT / "out" / "hil",
@@ -72,13 +79,43 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def main():
-    arguments = parse_arguments()
-    loader = unittest.TestLoader()
-    tests = [test for name in MODULES if (HERE / f"test_{name}.py").exists()
-             for test in flat(loader.loadTestsFromName(f"test_{name}"))]
+def chosen(arguments):
+    """The tests to run, made anew: unittest forgets those that it ran."""
+    tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
     if arguments.only:
-        tests = named(tests, arguments.only)
+        return [test for test in tests if any(name in test.id() for name in arguments.only.split(","))]
+    return [test for test in tests if arguments.all or not is_long(test)]
+
+
+def made(build):
+    """What the guest starts from: root, payload, packs."""
+    making = ThreadPoolExecutor().submit(image.root, build / "bin" / "frustumscreen", say)
+    packs = image.packs(build, say)  # the one waits for the network, the other for the processor
+    return making.result(), image.payload(build, packs), packs
+
+
+def run(tests, bench, keep):
+    """Whether all passed, and what was seen on the way."""
+    HilTest.bench, HilTest.longest_s = bench, 0.0
+    try:
+        say("starting the machine")
+        say(f"it is up after {bench.start():.0f} s")
+        begun = time.monotonic()
+        result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
+        took_s = time.monotonic() - begun
+        say(f"{result.testsRun} tests in {took_s:.0f} s; logs in {bench.out}")
+        wrong = [test.id() for test, _ in (*result.failures, *result.errors)]
+        return Run(os.getloadavg()[1], took_s, HilTest.longest_s, wrong)
+    finally:
+        if keep:
+            print(bench.how_to_enter())
+        else:
+            bench.stop()
+
+
+def main(family):
+    arguments = parse_arguments()
+    tests = chosen(arguments)
     if arguments.list:
         print("\n".join(test.id() for test in tests))
         return 0
@@ -88,29 +125,26 @@ def main():
 
     build, out = arguments.build.resolve(), arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
-    out.mkdir(parents=True)
-    with ThreadPoolExecutor() as both:  # one waits for the network, the other for the processor
-        making = both.submit(image.root, build / "bin" / "frustumscreen", say)
-        packs = image.packs(build, say)
-        root = making.result()
-    payload = image.payload(build, packs)
-    HilTest.bench = Bench(root, payload, build, packs, out)
-    passed = False
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the machine does not outlive its tests
-    try:
-        say("starting the machine")
-        say(f"it is up after {HilTest.bench.start():.0f} s")
-        begun = time.monotonic()
-        result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
-        say(f"{result.testsRun} tests in {time.monotonic() - begun:.0f} s; logs in {out}")
-        passed = result.wasSuccessful()
-    finally:
-        if arguments.keep:
-            print(HilTest.bench.how_to_enter())
-        else:
-            HilTest.bench.stop()
-    return 0 if passed else 1
+    root, payload, packs = made(build)
+    runs = [(loops, number) for loops in arguments.load for number in range(1, arguments.repeat + 1)]
+    table = []
+    for loops, number in runs:
+        folder = out if len(runs) == 1 else out / f"load_{loops}_run_{number}"
+        folder.mkdir(parents=True)
+        family.keep = arguments.keep and (loops, number) == runs[-1]
+        with Load(loops):
+            done = run(chosen(arguments), Bench(root, payload, build, packs, folder), family.keep)
+        table.append((loops, number, done))
+        if len(runs) > 1:
+            (out / "table.txt").write_text(as_text(table), encoding="utf-8")
+            print(as_text(table), flush=True)
+    return 1 if any(done.wrong for _, _, done in table) else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        with Family() as whole:
+            sys.exit(main(whole))
+    except Ended as ended:
+        print(f"hil: ended by {ended}", file=sys.stderr, flush=True)
+        os._exit(ended.status)  # a thread that waited for a program might go on to the next one

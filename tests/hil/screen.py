@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 LIT = 12  # sRGB codes above this are lit: more than the probe's greys (app/render/probe.h) and rounding
 PROBE_PIXELS = 8
+CODES = 1 << PROBE_PIXELS
 
 
 @dataclass

@@ -5,7 +5,8 @@ import statistics
 import time
 
 import screen
-from hil_test import HilTest
+from bench import UPRIGHT, Patience
+from hil_test import CENTRE_M, HilTest
 
 STEPS = 20
 STEP_M = 0.01
@@ -15,11 +16,12 @@ GIVE_UP_S = 5.0
 
 class Latency(HilTest):
     def test_packet_to_picture(self):
-        latencies_ms, looks_ms = [], []
+        latencies_ms, looks_ms, place_m = [], [], CENTRE_M
         for number in range(STEPS):
-            before = screen.centroid(screen.lit(self.bench.steady_picture()), self.bench.machine.width)
-            self.bench.place((STEP_M * (1 + number % 2), 0.0, 0.0))
-            deadline = time.monotonic() + GIVE_UP_S
+            before = screen.centroid(screen.lit(self.bench.picture_of((*place_m, *UPRIGHT))), self.bench.machine.width)
+            place_m = (STEP_M * (1 + number % 2), 0.0, 0.0)
+            self.bench.place(place_m)
+            deadline = Patience.clock() + GIVE_UP_S
             while True:
                 begin = time.monotonic()
                 picture = self.bench.screendump()
@@ -27,7 +29,7 @@ class Latency(HilTest):
                 at = screen.centroid(screen.lit(picture), picture.width)
                 if at is not None and abs(at[0] - before[0]) > MOVED_PX:
                     break
-                self.assertLess(seen, deadline, "the picture does not follow the tracker")
+                self.assertLess(Patience.clock(), deadline, "the picture does not follow the tracker")
             sent = self.bench.tracker.tell("status")["changed"]["t_ns"] * 1e-9
             latencies_ms.append(1e3 * (seen - sent))
             looks_ms.append(1e3 * (seen - begin))

@@ -11,8 +11,7 @@ import operator
 
 import screen
 from bench import EYE_M, UPRIGHT, eventually
-from hil_test import HilTest
-from watch import watch
+from hil_test import HilTest, long
 
 ARTIFACT = "amphora"
 REACH_M = 0.12
@@ -23,10 +22,8 @@ STEP_M = 0.002  # between two pictures along the line: 1.6 pixels
 TURNS = 24
 BESIDE_PX = 2  # between what is shown and the nearest of the pictures
 BESIDE_SHARE = 0.01  # of the lit pixels
-LEAST_FREEZE_S = 0.25
-FREEZE_FRAMES = 3
-RESTING_S = 1.0  # where no poses come, the picture rests: a new code each second
 FAULT_S = 4.0
+AFTER_S = 2.0
 CALM_S = 1.5
 
 RUNNING = "is running"
@@ -37,6 +34,10 @@ FAULTS = {
     "duplicate": (("duplicate 0.5",), RUNNING, True),
     "reorder": (("reorder 0.3",), RUNNING, True),
     "distortion": (("distortion 200",), "metal", True),
+    "warn": (("warn", "unplug 1s"), "warned while it was set up", True),
+    "nak_questions": (("nak-questions", "unplug 1s"), "does not say how it is set", True),
+    "filter_stays": (("filter-stays", "unplug 1s"), "own filter cannot be switched off", True),
+    "built_in_test": (("built-in-test",), "a fault of its own", True),
     "stall": (("stall",), "stopped sending", False),
     "hang": (("hang",), "stopped sending|refuses its set-up", False),
     "nan": (("nan",), "can be used", False),
@@ -45,6 +46,7 @@ FAULTS = {
     "slow_boot": (("slow-boot",), "booting", False),
     "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
+LONG = ("reorder", "warn", "nak_questions", "filter_stays", "wrong_units")  # the drivers' own tests have these too
 
 
 def write_strokes(path):
@@ -121,32 +123,28 @@ class Misbehaviour(HilTest):
             self.bench.tracker.tell(command)
         self.bench.status_says("tracker", says)
         if poses_come:
+            self.settle(self.allowed.sent, "the prop is not followed")
             self.look(FAULT_S, self.allowed.sent)
         else:
-            self.look(FAULT_S, self.allowed.fading, RESTING_S)
+            self.look(FAULT_S, self.allowed.fading, rests=True)
             self.settle(self.allowed.turning, "without poses the artifact does not turn at the table's centre")
-            self.look(CALM_S, self.allowed.turning, RESTING_S)
+            self.look(CALM_S, self.allowed.turning)
         self.bench.tracker.tell("good")
         self.bench.status_says("tracker", RUNNING)
         self.settle(self.allowed.sent, "the prop is not followed again")
-        self.look(FAULT_S, self.allowed.sent)
+        self.look(AFTER_S, self.allowed.sent)
 
     def settle(self, is_right, otherwise):
         eventually(lambda: is_right(screen.lit(self.bench.screendump())), 10.0, otherwise)
 
-    def look(self, seconds, is_right, resting_s=0.0):
-        seen = watch(self.bench, seconds)
-        for look in seen.looks:
-            if not is_right(look.lit):
+    def look(self, seconds, is_right, rests=False):
+        """No picture freezes meanwhile, and each is right."""
+        for picture in self.watch(seconds, rests).pictures:
+            if not is_right(screen.lit(picture)):
                 folder = self.bench.evidence_of(self)
                 folder.mkdir(exist_ok=True)
-                screen.write_png(folder / "not_sent.png", look.picture)
+                screen.write_png(folder / "not_sent.png", picture)
                 self.fail(f"a pose is shown that was not sent: {folder / 'not_sent.png'}")
-        median_s = self.bench.status()["frame_ms"]["p50"] * 1e-3
-        limit_s = max(LEAST_FREEZE_S, FREEZE_FRAMES * median_s) + resting_s
-        self.assertLessEqual(seen.longest_gap_s, limit_s, "the picture froze")
-        print(f"  {seen.pictures} pictures, the longest {1e3 * seen.longest_gap_s:.0f} of {1e3 * limit_s:.0f} ms",
-              flush=True)
 
 
 def _test(name):
@@ -154,4 +152,4 @@ def _test(name):
 
 
 for _name in FAULTS:
-    setattr(Misbehaviour, f"test_{_name}", _test(_name))
+    setattr(Misbehaviour, f"test_{_name}", long(_test(_name)) if _name in LONG else _test(_name))

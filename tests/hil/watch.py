@@ -1,52 +1,84 @@
-"""Looking at the screen for a while: when a new picture came, and what it lit.
+"""Looking at the screen for a while: which pictures came, how long one of them stood, and what some of them lit.
 
 A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
 different codes are two pictures, even where nothing moves.
 
-Time     seconds of the host's monotonic clock; a screendump is as old as the time it took. A gap is without what the
-         guest's processors waited for the host's meanwhile (Machine.waited_s): nothing in the guest could end it sooner.
+Freeze   a picture that stands while the guest rests, or while the guest is given the time of several pictures: two clocks
+         (Machine.given) that stand while a busy host lets the guest wait, so that its load is not the exhibit's freeze.
+         The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
+         that saw it to the beginning of the last one, however slow the looks themselves are.
 """
 
+import statistics
 import time
 from dataclasses import dataclass
 
 import screen
+from machine import Given
+from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
-MEASURE_S = 0.2  # pause between two whose lit part is measured
+KEPT_S = 0.2  # pause between two that are kept to be measured
+RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
+FROZEN_S = 0.25
+FROZEN_PACES = 4.0
 
 
 @dataclass
 class Look:
-    picture: screen.Picture
-    lit: list  # as screen.lit
+    time_s: float  # by the monotonic clock, at its end
+    begin: Given
+    end: Given
+    code: int  # None: none can be read
 
 
 @dataclass
 class Watch:
-    longest_gap_s: float  # between two new pictures, or from the last one to the end; see above
-    pictures: int  # how many new ones were seen
     looks: list
+    pictures: list  # some of those seen
+
+    def stood(self, rests=False):
+        """How long one picture stood; `rests`: how much longer than a picture may while nothing moves."""
+        longest, first, since = Given(0.0, 0.0), None, None
+        for look in self.looks:
+            if first is None or look.code not in (first.code, None):
+                first, since = look, None
+            if since is None and look.time_s >= first.time_s + (RESTING_S if rests else 0.0):
+                since = look  # the next picture is due
+            if since is not None:
+                longest = Given(max(longest.granted_s, look.begin.granted_s - since.end.granted_s),
+                                max(longest.rested_s, look.begin.rested_s - since.end.rested_s))
+        return longest
+
+    def pace_s(self):
+        """How long the guest took for a picture: the median; 0: hardly any was seen."""
+        coded = [look for look in self.looks if look.code is not None]
+        first = [look for before, look in zip(coded, coded[1:]) if look.code != before.code]
+        paces = [(b.end.granted_s - a.end.granted_s) / ((b.code - a.code) % CODES) for a, b in zip(first, first[1:])]
+        return statistics.median(paces) if paces else 0.0
 
 
 def watch(bench, seconds):
     """The exhibit is left alone meanwhile."""
-    begin = now = time.monotonic()
-    changed, measured = (begin, bench.machine.waited_s()), begin - MEASURE_S
-    code, gap, pictures, looks = None, 0.0, 0, []
-
-    def gap_until_now():
-        return now - changed[0] - max(b - a for a, b in zip(changed[1], bench.machine.waited_s()))
-
-    while now - begin < seconds:
+    looks, pictures, given = [], [], bench.machine.given
+    begun = time.monotonic()
+    kept = begun - KEPT_S
+    while time.monotonic() - begun < seconds:
+        begin = given()
         picture = bench.screendump()
-        now = time.monotonic()
-        seen = screen.probe(picture)
-        if seen is not None and seen != code:
-            gap = max(gap, gap_until_now())
-            code, pictures, changed = seen, pictures + 1, (now, bench.machine.waited_s())
-        if now - measured >= MEASURE_S:
-            measured = now
-            looks.append(Look(picture, screen.lit(picture)))
+        looks.append(Look(time.monotonic(), begin, given(), screen.probe(picture)))
+        if time.monotonic() - kept >= KEPT_S:
+            kept = time.monotonic()
+            pictures.append(picture)
         time.sleep(LOOK_S)
-    return Watch(max(gap, gap_until_now()), pictures, looks)
+    return Watch(looks, pictures)
+
+
+def froze(seen, rests=False):
+    """Whether a picture froze; says the figures."""
+    stood, pace_s = seen.stood(rests), seen.pace_s()
+    print(f"  {'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
+          f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; {len(seen.looks)} looks",
+          flush=True)
+    in_a_circle = not rests and pace_s > 0.0 and stood.granted_s > max(FROZEN_S, FROZEN_PACES * pace_s)
+    return stood.rested_s > FROZEN_S or in_a_circle

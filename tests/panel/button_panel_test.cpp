@@ -18,6 +18,7 @@ struct FakeChip {
     std::array<std::atomic<bool>, 3> lit{};
     std::atomic<bool> plugged{true};
     std::atomic<int> opened{0};
+    std::string remark;
 };
 
 class FakeLines final : public ButtonLines {
@@ -41,6 +42,8 @@ public:
         std::copy(lit.begin(), lit.end(), chip_.lit.begin());
         return {};
     }
+
+    [[nodiscard]] std::string_view remark() const override { return chip_.remark; }
 
 private:
     FakeChip& chip_;
@@ -97,6 +100,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = milliseconds(1);
+    times.chatter_window = Nanoseconds(0); // nobody presses too often here
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
@@ -143,6 +147,43 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
         ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));
     }
     EXPECT_TRUE(lit(false, false, false));
+}
+
+TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
+    FakeChip chip;
+    ButtonTimes times;
+    times.debounce = milliseconds(1);
+    times.quiet = milliseconds(300);
+    ButtonPanel panel(opener(chip), 3, times);
+    panel.light(0b111U);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
+    const auto chatters = [&] { return panel.state().find("a button chatters and is ignored") == 0; };
+    ASSERT_TRUE(until(panel, events, [&] {
+        chip.down[1] = !chip.down[1];
+        std::this_thread::sleep_for(milliseconds(10));
+        return chatters();
+    }));
+    ASSERT_TRUE(until(panel, events, [&] { return !chip.lit[1].load(); }));
+    EXPECT_TRUE(chip.lit[0] && chip.lit[2]);
+    chip.down[1] = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
+    ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
+}
+
+TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsStuck) {
+    FakeChip chip;
+    chip.remark = "a lamp cannot be lit";
+    ButtonTimes times;
+    times.debounce = milliseconds(1);
+    times.stuck = milliseconds(50);
+    ButtonPanel panel(opener(chip), 3, times);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
+    chip.down[0] = true;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state().find("a button is stuck") == 0; }));
+    chip.down[0] = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
 }
 
 TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {

@@ -34,8 +34,15 @@ protected:
         KioskFolder::TearDown();
     }
     void start(const std::string& more = {}, const std::string& tracker = "replay",
-               const char* screen = "--headless") {
+               std::vector<std::string> options = {"--headless"}) {
         write_settings(tracker, more);
+        const std::string config = folder / "kiosk.toml";
+        options.insert(options.begin(), {"frustumscreen", "run", "--config", config});
+        std::vector<char*> arguments;
+        for (std::string& option : options) {
+            arguments.push_back(option.data());
+        }
+        arguments.push_back(nullptr);
         process = ::fork();
         ASSERT_GE(process, 0);
         if (process == 0) {
@@ -44,11 +51,12 @@ protected:
             ::unsetenv("WATCHDOG_PID");
             ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
             const std::string errors = folder / "err.txt";
-            const std::string config = folder / "kiosk.toml";
             std::freopen(errors.c_str(), "w", stderr);
             std::freopen("/dev/null", "w", stdout);
-            ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", "frustumscreen", "run", "--config",
-                    config.c_str(), screen, nullptr);
+            if (user) {
+                static_cast<void>(::setgid(*user) + ::setuid(*user));
+            }
+            ::execv(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", arguments.data());
             ::_exit(127);
         }
     }
@@ -73,9 +81,20 @@ protected:
         }
         return false;
     }
-    std::string errors() const {
-        std::ifstream file(folder / "err.txt");
+    std::string text_of(const char* name) const {
+        std::ifstream file(folder / name);
         return {std::istreambuf_iterator<char>(file), {}};
+    }
+    std::string errors() const { return text_of("err.txt"); }
+    /// Waits until a file in the folder has this in it.
+    bool comes(const char* name, const std::string& words) const {
+        for (const auto give_up = Clock::now() + seconds(60); Clock::now() < give_up;) {
+            if (text_of(name).find(words) != std::string::npos) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
     }
     /// Its exit status, waited for; -1 = a signal ended it.
     int ending() {
@@ -85,6 +104,7 @@ protected:
     }
 
     NotifySocket socket;
+    std::optional<uid_t> user; ///< whom the exhibit runs as; nothing = as the test does
     pid_t process = 0;
 };
 
@@ -143,7 +163,7 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
 }
 
 TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
-    start("[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n", "replay", nullptr);
+    start("[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n", "replay", {});
     for (int look = 0; look < 2; ++look) { // it goes on asking for time
         ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
     }
@@ -151,6 +171,59 @@ TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
                         "directory; is it the card's name, and is its driver loaded?\n");
     ::kill(process, SIGTERM);
     EXPECT_EQ(ending(), -1);
+}
+
+TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
+    constexpr uid_t nobody = 65534;
+    const fs::path card = folder / "card";
+    std::ofstream(card).put('\n');
+    fs::permissions(card, fs::perms::none);
+    fs::permissions(folder, fs::perms::all);
+    if (::geteuid() == 0) {
+        user = nobody;
+        fs::permissions(socket.path(), fs::perms::all);
+    }
+    start("[display]\nkind = \"kms\"\ncard = \"" + card.string() + "\"\n", "replay", {});
+    for (int look = 0; look < 2; ++look) {
+        ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
+    }
+    EXPECT_EQ(errors(), "frustumscreen: display: " + card.string() +
+                            " cannot be opened: Permission denied; the exhibit's user must be in the group "
+                            "video\n");
+    fs::permissions(card, fs::perms::all); // udev is done; that it is no card is another matter
+    EXPECT_TRUE(comes("err.txt", "has no connectors")) << errors();
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), -1);
+}
+
+TEST_F(RunService, ARecordingThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
+    start("", "usb",
+          {"--headless", "--record", folder / "no-such-folder/fault.packets", "--status-file",
+           folder / "status.json"});
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    EXPECT_TRUE(comes("err.txt", "frustumscreen: recording: nothing is recorded: ")) << errors();
+    EXPECT_TRUE(comes("status.json", "\"recording\": \"nothing is recorded: "));
+    EXPECT_TRUE(fed_within(seconds(10)));
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), 0);
+}
+
+TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
+    start("", "replay", {"--headless", "--status-file", folder / "status.json"});
+    ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
+    ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text_of("status.json");
+    if (!hang(process)) {
+        GTEST_SKIP() << "this machine lets nobody trace";
+    }
+    EXPECT_TRUE(
+        comes("err.txt", "watchdog: the picture hangs: nothing was heard of the exhibit for 4 s, while it "))
+        << errors();
+    EXPECT_TRUE(comes("status.json", "\"health\": \"hangs\""));
+    ::ptrace(PTRACE_DETACH, process, nullptr, nullptr);
+    EXPECT_TRUE(comes("err.txt", "watchdog: the exhibit is heard of again")) << errors();
+    EXPECT_TRUE(comes("status.json", "\"health\": \"well\""));
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), 0);
 }
 
 TEST_F(RunService, WithoutAPackShowsWhyAndStops) {

@@ -46,7 +46,7 @@ protected:
         ::unsetenv("WATCHDOG_PID");
         manager.emplace();
         watch.emplace(*manager, journal);
-        watch->begin(now, false);
+        watch->begin(now, false, nowhere);
     }
     void TearDown() override {
         ::unsetenv("NOTIFY_SOCKET");
@@ -67,6 +67,7 @@ protected:
         return meals;
     }
 
+    StatusFile nowhere{std::filesystem::path()};
     NotifySocket socket;
     std::optional<ServiceManager> manager;
     Journal journal{"frustumscreen"};

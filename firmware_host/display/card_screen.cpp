@@ -1,0 +1,53 @@
+#include "firmware_host/display/card_screen.h"
+
+#include "firmware_host/display/dumb_scanout.h"
+#include "firmware_host/display/gbm_scanout.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize picture_size) {
+    Result<DrawingGpu> gpu = DrawingGpu::choose_for(card);
+    if (!gpu) {
+        return tl::unexpected<Error>(gpu.error());
+    }
+    Result<PictureFramebuffer> picture = PictureFramebuffer::create(picture_size.width, picture_size.height);
+    if (!picture) {
+        return tl::unexpected<Error>(picture.error());
+    }
+    Result<EglContext> copying = gpu->context().sharing();
+    if (!copying) {
+        return tl::unexpected<Error>(copying.error());
+    }
+    Result<PictureCopy> copy = [&] {
+        const CopyingNow now(*copying, gpu->context());
+        return PictureCopy::create();
+    }();
+    if (!copy) {
+        return tl::unexpected<Error>(copy.error());
+    }
+    std::unique_ptr<CardScreen> screen(
+        new CardScreen(card, std::move(*gpu), std::move(*picture), std::move(*copying), std::move(*copy)));
+    screen->warm_up();
+    return screen;
+}
+
+/// Drivers compile a program when it is first drawn with, for the formats that it is drawn with: here, not
+/// when a projector comes. What cannot be made now is told when a projector asks for it.
+void CardScreen::warm_up() const {
+    const PixelSize exact{picture_.width(), picture_.height()};
+    const PixelSize scaled{std::max(exact.width / 2, 1), std::max(exact.height / 2, 1)};
+    for (const PixelSize size : {exact, scaled}) {
+        if (const Result<std::unique_ptr<ScanoutPair>> pair = make_pair(size)) {
+            static_cast<void>((*pair)->fill(0, {0, 0, exact.width, exact.height}));
+        }
+    }
+}
+
+Result<std::unique_ptr<ScanoutPair>> CardScreen::make_pair(PixelSize size) const {
+    return gpu_.card_memory() != nullptr ? make_gbm_scanout(*this, size) : make_dumb_scanout(*this, size);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,62 @@
+/// The exhibit's picture on a graphics card: what draws it, and its way into framebuffers that the card
+/// shows.
+///
+/// Threads  the render thread. The copying has a context of its own, so that the renderer's state stays as it
+///          is.
+/// Errors   no GBM and no EGL; framebuffers that the card cannot make.
+#pragma once
+
+#include "firmware_host/display/drawing_gpu.h"
+#include "firmware_host/display/kms_device.h"
+#include "firmware_host/display/picture_copy.h"
+#include "firmware_host/display/picture_framebuffer.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+class CardScreen {
+public:
+    /// `card` stays open for as long as this lives. The picture's context is current afterwards.
+    [[nodiscard]] static Result<std::unique_ptr<CardScreen>> create(int card, PixelSize picture);
+
+    [[nodiscard]] const PictureFramebuffer& picture() const { return picture_; }
+    /// Errors   a clause, for the output's state.
+    [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_pair(PixelSize size) const;
+
+    // For the framebuffers:
+    [[nodiscard]] int card() const { return card_; }
+    [[nodiscard]] const DrawingGpu& gpu() const { return gpu_; }
+    [[nodiscard]] const EglContext& copying() const { return copying_; }
+    [[nodiscard]] const PictureCopy& copy() const { return copy_; }
+
+private:
+    CardScreen(int card, DrawingGpu gpu, PictureFramebuffer picture, EglContext copying, PictureCopy copy)
+        : card_(card), gpu_(std::move(gpu)), picture_(std::move(picture)), copying_(std::move(copying)),
+          copy_(std::move(copy)) {}
+    void warm_up() const;
+
+    int card_;
+    DrawingGpu gpu_;
+    PictureFramebuffer picture_;
+    EglContext copying_;
+    PictureCopy copy_;
+};
+
+/// The copying's context for as long as this lives, the picture's afterwards.
+class CopyingNow {
+public:
+    explicit CopyingNow(const CardScreen& screen) : CopyingNow(screen.copying(), screen.gpu().context()) {}
+    CopyingNow(const EglContext& copying, const EglContext& after)
+        : after_(after), current_(copying.make_current()) {}
+    ~CopyingNow() { static_cast<void>(after_.make_current()); }
+    CopyingNow(const CopyingNow&) = delete;
+    CopyingNow& operator=(const CopyingNow&) = delete;
+    [[nodiscard]] bool current() const { return current_; }
+
+private:
+    const EglContext& after_;
+    bool current_;
+};
+
+} // namespace frustumscreen

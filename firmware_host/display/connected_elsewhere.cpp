@@ -1,0 +1,31 @@
+#include "firmware_host/display/connected_elsewhere.h"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+namespace frustumscreen {
+
+std::vector<std::string> connected_connectors(const std::filesystem::path& folder) {
+    std::vector<std::string> connected;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        std::string status;
+        if (std::ifstream file(entry->path() / "status"); file >> status && status == "connected") {
+            connected.push_back(entry->path().filename().string());
+        }
+    }
+    std::sort(connected.begin(), connected.end());
+    return connected;
+}
+
+bool has_connected(std::span<const std::string> connected, const std::filesystem::path& card,
+                   std::string_view connector) {
+    const std::string first = card.filename().string() + "-";
+    return std::any_of(connected.begin(), connected.end(), [&](const std::string& one) {
+        return one.starts_with(first) && (connector.empty() || one.substr(first.size()) == connector);
+    });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,44 @@
+/// What draws the picture: the graphics card that shows it, where it can; else another GPU of this machine;
+/// else the processor.
+///
+/// Mesa pairs the display and the GPU of many boards by itself (kmsro: vc4 and v3d of a Raspberry Pi, most
+/// ARM boards). What is left are cards that only display, without such a pair (bochs, ast, mgag200, udl,
+/// gud), in a machine with a GPU of its own.
+///
+/// Threads  the render thread; afterwards the context is current.
+/// Errors   no GBM and no EGL at all.
+/// Source   Mesa, src/gbm/backends/dri (a card without a driver is drawn for by kms_swrast) and
+///          src/gallium/winsys/kmsro.
+#pragma once
+
+#include "firmware_host/display/egl_context.h"
+
+#include <memory>
+#include <utility>
+
+struct gbm_device;
+
+namespace frustumscreen {
+
+class DrawingGpu {
+public:
+    /// `card`: the card that shows, which stays open.
+    [[nodiscard]] static Result<DrawingGpu> choose_for(int card);
+
+    [[nodiscard]] const EglContext& context() const { return context_; }
+    /// The card's own memory; nullptr: what is drawn must be copied into it.
+    [[nodiscard]] gbm_device* card_memory() const { return shows_ ? device_.get() : nullptr; }
+
+private:
+    using Device = std::unique_ptr<gbm_device, void (*)(gbm_device*)>;
+    DrawingGpu(Device device, EglContext context, bool shows)
+        : device_(std::move(device)), context_(std::move(context)), shows_(shows) {}
+    [[nodiscard]] static Result<DrawingGpu> on(Device device, bool shows);
+    [[nodiscard]] static Result<DrawingGpu> on_render_node(const char* path);
+
+    Device device_; ///< nullptr: the processor draws
+    EglContext context_;
+    bool shows_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,39 @@
+/// The flips that a graphics card reports on its file, and whether they keep time with its refreshes.
+///
+/// Threads  the render thread; `wait` blocks for as long as it is told to.
+/// Source   struct drm_event_vblank; DRM_IOCTL_CRTC_GET_SEQUENCE (drm_vblank.c: EINVAL while a mode is being
+///          set, EOPNOTSUPP where there are no vertical blanks).
+#pragma once
+
+#include "firmware_host/display/kms_device.h"
+
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+class FlipEvents {
+public:
+    explicit FlipEvents(int card);
+
+    /// Flips of this CRTC alone are of interest from now on; a commit that turns others off brings theirs
+    /// too. Whether they keep time is asked anew, when one was seen: until then a mode is being set.
+    void expect_of(std::uint32_t crtc);
+    /// One that the card does not report, because its call returned when it was done.
+    void add(const Flipped& flipped) { seen_.push_back(flipped); }
+    /// The next flip, waited for at most so long; 0 = not at all.
+    [[nodiscard]] std::optional<Flipped> wait(Nanoseconds at_most);
+    [[nodiscard]] bool keep_time() const { return keep_time_.value_or(false); }
+
+private:
+    void read();
+    void ask_whether_they_keep_time();
+
+    int card_;
+    std::uint32_t crtc_ = 0;
+    bool monotonic_ = false;
+    std::optional<bool> keep_time_; ///< nothing: the kernel could not say yet
+    std::vector<Flipped> seen_;     ///< and not handed out yet
+};
+
+} // namespace frustumscreen

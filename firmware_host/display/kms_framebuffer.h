@@ -1,0 +1,20 @@
+/// A piece of a graphics card's memory as a framebuffer that the kernel can show, 8 bits a channel, without
+/// alpha.
+///
+/// Threads  the render thread.
+/// Errors   0: the card does not take it.
+#pragma once
+
+#include "firmware_host/display/kms_device.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// `handle`: the memory's GEM handle on this card; `stride`: bytes of a row.
+[[nodiscard]] FramebufferId add_framebuffer(int card, PixelSize size, std::uint32_t handle,
+                                            std::uint32_t stride);
+/// 0 is none.
+void remove_framebuffer(int card, FramebufferId framebuffer);
+
+} // namespace frustumscreen

@@ -1,0 +1,20 @@
+/// The way from a graphics card's memory to a connector.
+///
+/// Threads  the render thread.
+/// Errors   none: what the card does not say is not there.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen {
+
+struct KmsCrtc {
+    std::uint32_t id = 0;
+    int index = 0; ///< in the card's list
+};
+
+/// CRTCs that can feed the connector; the one that does already first: a program before may have set it up.
+[[nodiscard]] std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector);
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+/// KMS without atomic commits, for the drivers that have none (nouveau as Debian ships it, radeon, gma500).
+///
+/// Setting a mode waits until it is set, up to some 100 ms; the flip that has to follow it is told then.
+///
+/// Threads  the render thread.
+/// Source   the kernel's userspace API for KMS: SETCRTC, PAGE_FLIP; libdrm.
+#pragma once
+
+#include "firmware_host/display/flip_events.h"
+#include "firmware_host/display/kms_card.h"
+#include "firmware_host/display/kms_device.h"
+
+namespace frustumscreen {
+
+class LegacyKms final : public KmsDevice {
+public:
+    explicit LegacyKms(const KmsCard& card) : file_(card.file()), flips_(file_) {}
+
+    [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
+                                  std::uint64_t ticket) override;
+    [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override;
+    [[nodiscard]] KmsAnswer darken() override;
+    [[nodiscard]] bool become_master() override { return take_screen(file_); }
+    [[nodiscard]] std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
+        return flips_.wait(at_most);
+    }
+    [[nodiscard]] bool flips_keep_time() const override { return flips_.keep_time(); }
+    [[nodiscard]] std::string_view shortcoming() const override { return shortcoming_; }
+    [[nodiscard]] MonotonicTime now() const override { return monotonic_now(); }
+
+private:
+    int file_;
+    FlipEvents flips_;
+    std::uint32_t crtc_ = 0; ///< that feeds what is lit; 0 = nothing is
+    std::string_view shortcoming_;
+};
+
+} // namespace frustumscreen

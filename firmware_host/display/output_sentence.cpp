@@ -1,0 +1,79 @@
+#include "firmware_host/display/output_sentence.h"
+
+#include "firmware_host/base/format_sentence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The kernel's way to believe that something is connected (Documentation/fb/modedb.rst).
+std::string kernel_argument(std::string_view connector, int width, int height, double hz) {
+    return fmt::format("video={}:{}x{}@{}e", connector, width, height,
+                       hz > 0.0 ? std::lround(hz) : std::lround(OutputWish{}.picture_hz));
+}
+
+} // namespace
+
+Sentence sentence_of(const LitOutput& output) {
+    const ModeTiming& mode = output.mode;
+    const double hz = refresh_hz(mode);
+    if (output.blindly) {
+        return format_sentence(
+            "{} is lit, {} x {} at {:.4g} Hz, though it says that nothing is connected; if "
+            "it stays dark, start the kernel with {}",
+            output.connector, mode.width, mode.height, hz,
+            kernel_argument(output.connector, mode.width, mode.height, hz));
+    }
+    return format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}{}{}", output.connector,
+                           mode.width, mode.height, hz,
+                           output.wished ? "" : ", because it cannot do the mode in the settings",
+                           output.shortcoming.empty() ? "" : "; ", output.shortcoming);
+}
+
+Sentence why_dark(const CardSeen& card, const OutputWish& wish) {
+    const auto& all = card.connectors;
+    const auto named = [&wish](const ConnectorSeen& seen) { return seen.name == wish.connector; };
+    const auto plugged = [&wish, &named](const ConnectorSeen& seen) {
+        return seen.plugged == Plugged::Yes && (wish.connector.empty() || named(seen));
+    };
+    const auto mute = std::find_if(all.begin(), all.end(), plugged);
+    if (choose_connector(card, wish) != nullptr) {
+        return format_sentence("the projector is about to be lit");
+    }
+    if (mute != all.end()) {
+        return format_sentence("the projector at {} names no mode; set display.mode and display.force",
+                               mute->name);
+    }
+    if (!wish.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
+        std::string names;
+        for (const ConnectorSeen& seen : all) {
+            names += (names.empty() ? "" : ", ") + seen.name;
+        }
+        return format_sentence("the graphics card has no connector {}; it has {}", wish.connector, names);
+    }
+    return format_sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes{}",
+                           wish.connector.empty() ? "" : " to ", wish.connector,
+                           wish.force ? "; name display.connector to light one that cannot say that it is "
+                                        "there"
+                                      : "");
+}
+
+Sentence why_refused(const ConnectorSeen& connector, const OutputWish& wish, std::string_view reason) {
+    const std::string_view before = reason.empty() ? "" : ": ";
+    if (is_lit_blindly(connector, wish)) {
+        return format_sentence(
+            "the graphics card does not light {}, which says that nothing is connected{}{}; "
+            "start the kernel with {}",
+            connector.name, before, reason,
+            kernel_argument(connector.name, wish.width, wish.height, wish.refresh_hz));
+    }
+    return format_sentence("the graphics card takes no mode of the projector at {}{}{}; the exhibit goes on "
+                           "in the dark",
+                           connector.name, before, reason);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,37 @@
+/// The way of the picture into memory that the GPU that draws cannot reach: drawn into a renderbuffer of the
+/// screen's size and read back from there.
+///
+/// Shape    memory as KMS wants it: rows from the top, `stride` bytes each, pixels of four bytes: blue,
+/// green,
+///          red, nothing.
+/// Threads  the copying's context is current in every call and at the end.
+/// Errors   the driver does not read back in this order, or has no memory.
+/// Source   EXT_read_format_bgra.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/display/picture_copy.h"
+#include "firmware_host/gl/gl_handle.h"
+
+#include <cstddef>
+#include <span>
+
+namespace frustumscreen {
+
+class ReadBack {
+public:
+    [[nodiscard]] static Result<ReadBack> create(PixelSize screen);
+
+    /// Writes into `memory` what it has not yet: `part` of the picture.
+    void fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelPlace& part,
+              std::span<std::byte> memory, std::size_t stride) const;
+
+private:
+    explicit ReadBack(PixelSize screen);
+
+    PixelSize screen_;
+    GlFramebuffer framebuffer_ = GlFramebuffer::generate();
+    GlRenderbuffer colour_ = GlRenderbuffer::generate();
+};
+
+} // namespace frustumscreen

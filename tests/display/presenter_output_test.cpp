@@ -1,0 +1,177 @@
+// Which output the presenter lights, how, and what it says of it.
+#include "tests/display/presented_exhibit.h"
+
+namespace frustumscreen {
+namespace {
+
+TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
+    Exhibit exhibit;
+    exhibit.kms.scales = true;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(1920, 1080, 60.0, true)};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frame({10, 20, 30, 40});
+    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{0, 0, 1280, 800}));
+    exhibit.frames(5);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1920);
+    EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{1280, 800})) << "memory of the picture's size";
+    EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{96, 0, 1728, 1080})) << "black at the sides";
+    EXPECT_EQ(exhibit.memory.pairs, 1);
+    projector.modes = {a_mode(1024, 768, 60.0, true)};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{0, 64, 1024, 640}));
+    EXPECT_EQ(exhibit.memory.pairs, 1) << "another mode needs no new memory";
+}
+
+TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
+    Exhibit exhibit;
+    ConnectorSeen projector = a_projector();
+    for (const int width : {1920, 1600, 1920}) {
+        projector.modes = {a_mode(width, 1080, 60.0, true)};
+        exhibit.presenter.connected(a_card({projector}));
+        exhibit.frames(5);
+        ASSERT_TRUE(exhibit.kms.screen);
+        EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{width, 1080}));
+        EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{0, 0, width, 1080}));
+        EXPECT_EQ(exhibit.memory.alive, 1);
+    }
+    EXPECT_EQ(exhibit.kms.scalings_refused, 1);
+}
+
+TEST(PresenterOutput, ScalesByItselfWhereTheCardTakesOnlyOnePictureToScale) {
+    Exhibit exhibit;
+    exhibit.kms.scales = true;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(1920, 1080, 60.0, true)};
+    exhibit.kms.no_scaled_flips = true;
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(60);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1920) << "the mode itself is fit";
+    EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{1920, 1080}));
+    EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+}
+
+OutputWish forced_on_hdmi() {
+    OutputWish wish = wish_for_the_preferred();
+    wish.connector = "HDMI-A-1";
+    wish.width = 1280;
+    wish.height = 800;
+    wish.refresh_hz = 60.0;
+    wish.force = true;
+    return wish;
+}
+
+ConnectorSeen unseen_projector() {
+    ConnectorSeen projector = a_projector();
+    projector.plugged = Plugged::No;
+    projector.modes.clear();
+    return projector;
+}
+
+TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsConnected) {
+    Exhibit exhibit(forced_on_hdmi());
+    exhibit.presenter.connected(a_card({unseen_projector()}));
+    exhibit.frames(5);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode, make_mode(1280, 800, 60.0));
+    EXPECT_TRUE(exhibit.says("though it says that nothing is connected")) << exhibit.presenter.state();
+    EXPECT_TRUE(exhibit.says("video=HDMI-A-1:1280x800@60e")) << exhibit.presenter.state();
+    exhibit.presenter.connected(a_card({unseen_projector()}));
+    exhibit.frames(100);
+    EXPECT_EQ(exhibit.kms.lights, 1) << "it stays lit";
+    exhibit.presenter.connected(a_card({a_projector()})); // it speaks after all
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.kms.screen->mode, a_projector().modes.front());
+    EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
+    exhibit.presenter.connected(a_card({unseen_projector()}));
+    exhibit.frames(5);
+    EXPECT_TRUE(exhibit.kms.screen) << "off, or silent: it is lit all the same";
+    EXPECT_TRUE(exhibit.says("though it says"));
+}
+
+TEST(PresenterOutput, SaysWhichKernelArgumentForcesAConnectorThatTheCardDoesNotLight) {
+    Exhibit exhibit(forced_on_hdmi());
+    exhibit.kms.refused = {make_mode(1280, 800, 60.0)};
+    exhibit.presenter.connected(a_card({unseen_projector()}));
+    exhibit.frames(5);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_TRUE(exhibit.says("does not light HDMI-A-1")) << exhibit.presenter.state();
+    EXPECT_TRUE(exhibit.says("start the kernel with video=HDMI-A-1:1280x800@60e"))
+        << exhibit.presenter.state();
+}
+
+TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
+    Exhibit exhibit;
+    exhibit.memory.none_left = true;
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.presenter.state(), "the graphics card takes no mode of the projector at HDMI-A-1: no "
+                                         "memory; the exhibit goes on in the dark");
+    exhibit.memory.none_left = false;
+    exhibit.kms.refused = a_projector().modes;
+    exhibit.frames(100);
+    EXPECT_FALSE(exhibit.says("no memory")) << "that is over: " << exhibit.presenter.state();
+    EXPECT_TRUE(exhibit.says("takes no mode"));
+}
+
+TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {
+    Exhibit exhibit;
+    exhibit.kms.lacks = "its range is unknown";
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(5);
+    EXPECT_EQ(exhibit.presenter.state(),
+              "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz; its range is unknown");
+}
+
+TEST(PresenterOutput, AsksForANewStartWhereAnotherCardHasTheProjector) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({unseen_projector()}));
+    exhibit.frames(5);
+    CardSeen seen = a_card({unseen_projector()});
+    seen.state = CardState::Elsewhere;
+    exhibit.presenter.connected(seen);
+    const Result<MonotonicTime> shown = exhibit.presenter.present({}, true);
+    ASSERT_FALSE(shown);
+    EXPECT_EQ(shown.error().kind, ErrorKind::DeviceLost);
+    EXPECT_NE(shown.error().message.find("another graphics card"), std::string::npos);
+    EXPECT_TRUE(exhibit.says("another graphics card")) << exhibit.presenter.state();
+}
+
+TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
+    Exhibit exhibit;
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(1920, 1080, 60.0, true), a_mode(1280, 720, 60.0)};
+    exhibit.kms.no_flips = {projector.modes[0]};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(30);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->mode.width, 1280);
+    EXPECT_TRUE(exhibit.says("is lit"));
+    EXPECT_EQ(exhibit.kms.lights, 2);
+}
+
+TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
+    OutputWish wish = wish_for_the_preferred();
+    wish.connector = "DP-3";
+    Exhibit exhibit(wish);
+    exhibit.presenter.connected(a_card({a_projector(), a_projector(2, "VGA-1")}));
+    EXPECT_TRUE(exhibit.says("no connector DP-3; it has HDMI-A-1, VGA-1")) << exhibit.presenter.state();
+    ConnectorSeen mute = a_projector(3, "DP-3");
+    mute.modes.clear();
+    exhibit.presenter.connected(a_card({mute}));
+    EXPECT_TRUE(exhibit.says("names no mode; set display.mode and display.force"))
+        << exhibit.presenter.state();
+    wish = wish_for_the_preferred();
+    wish.width = 1024;
+    wish.height = 768;
+    Exhibit other(wish);
+    other.presenter.connected(a_card({a_projector()}));
+    other.frames(2);
+    EXPECT_TRUE(other.says("because it cannot do the mode in the settings")) << other.presenter.state();
+}
+
+} // namespace
+} // namespace frustumscreen

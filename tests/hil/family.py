@@ -1,0 +1,82 @@
+"""The processes that a program starts, and those that they start: none outlives it, however it ends.
+
+Signals  SIGINT, SIGTERM and SIGHUP raise Ended in the main thread, which unittest lets through as it does
+         KeyboardInterrupt.
+Threads  the main thread.
+Source   prctl(2), PR_SET_CHILD_SUBREAPER; proc(5), /proc/PID/stat.
+"""
+
+import contextlib
+import ctypes
+import os
+import pathlib
+import signal
+import time
+
+PR_SET_CHILD_SUBREAPER = 36
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+PATIENCE_S = 10.0  # for a process that was told to end, before it is killed
+
+
+class Ended(KeyboardInterrupt):
+    """A signal asks for the end."""
+
+    def __init__(self, number):
+        super().__init__(signal.Signals(number).name)
+        self.status = 128 + number  # as a shell has it
+
+
+def _raise_ended(number, _frame):
+    raise Ended(number)
+
+
+def descendants():
+    """The process numbers of all that live, orphans too, since they come to the subreaper."""
+    children = {}
+    for file in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            fields = file.read_text(encoding="ascii", errors="replace").rpartition(")")[2].split()
+            if fields[0] != "Z":
+                children.setdefault(int(fields[1]), []).append(int(file.parent.name))
+    found, parents = [], [os.getpid()]
+    while parents:
+        below = children.get(parents.pop(), [])
+        found += below
+        parents += below
+    return found
+
+
+def _reap():
+    with contextlib.suppress(ChildProcessError):
+        while os.waitpid(-1, os.WNOHANG)[0] != 0:
+            pass
+
+
+def _end_all():
+    begun = time.monotonic()
+    while found := descendants():
+        number = signal.SIGTERM if time.monotonic() - begun < PATIENCE_S else signal.SIGKILL
+        for process in found:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, number)
+        time.sleep(0.1)
+        _reap()
+
+
+class Family:
+    """`with Family() as family`: what was started inside ends with it. `family.keep = True`: unless it ended by itself."""
+
+    def __init__(self):
+        self.keep = False
+
+    def __enter__(self):
+        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+        for number in SIGNALS:
+            signal.signal(number, _raise_ended)
+        return self
+
+    def __exit__(self, kind, error, trace):
+        for number in SIGNALS:
+            signal.signal(number, lambda *_: None)  # not ignored: a program started by a thread now would inherit that
+        if kind is not None or not self.keep:
+            _end_all()

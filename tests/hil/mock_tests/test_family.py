@@ -1,0 +1,99 @@
+"""What a test run starts ends with it: SIGTERM reaches it in the midst of a test, and in the midst of making the guest."""
+
+import pathlib
+import signal
+import subprocess
+import sys
+import unittest
+
+HIL = pathlib.Path(__file__).resolve().parent.parent
+# a process, one of a session of its own, and an orphan
+STARTED = """
+import subprocess, sys
+from family import Ended, Family
+def start():
+    for command in ("exec sleep 1000", "setsid sleep 1001 & wait", "(sleep 1002 &)"):
+        subprocess.Popen(["sh", "-c", command], start_new_session=True)
+"""
+IN_A_TEST = STARTED + """
+import time, unittest
+class Sleeps(unittest.TestCase):
+    def test_sleeps(self):
+        start()
+        print("ready", flush=True)
+        time.sleep(1000)
+def work():
+    unittest.main(argv=["x"])
+"""
+IN_A_THREAD = STARTED + """
+from concurrent.futures import ThreadPoolExecutor
+def work():
+    start()
+    waiting = ThreadPoolExecutor().submit(subprocess.run, ["sleep", "1003"], check=True)
+    print("ready", flush=True)
+    waiting.result()
+"""
+AT_ITS_END = STARTED + """
+def work():
+    start()
+    print("ready", flush=True)
+"""
+RUN = """
+try:
+    with Family() as family:
+        family.keep = "keep" in sys.argv
+        work()
+except Ended as ended:
+    sys.exit(ended.status)
+"""
+SOON_S = 20.0
+
+
+def sleepers(family):
+    """The processes whose environment says that they are of it."""
+    mark = f"HIL_FAMILY={family}".encode()
+    found = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if mark in (folder / "environ").read_bytes() and b"Z" not in (folder / "stat").read_bytes().split()[2:3]:
+                found.append(int(folder.name))
+        except OSError:
+            continue
+    return found
+
+
+class FamilyTest(unittest.TestCase):
+    def started(self, program, *arguments):
+        mark = f"{id(self)}-{self.id()}"
+        process = subprocess.Popen([sys.executable, "-c", program + RUN, *arguments], cwd=HIL, text=True,
+                                   env={"HIL_FAMILY": mark, "PATH": "/usr/bin:/bin"}, stdout=subprocess.PIPE,
+                                   stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stdout.close)
+        self.assertEqual(process.stdout.readline(), "ready\n")
+        return process, mark
+
+    def assert_ended_by(self, number, program, *arguments):
+        process, mark = self.started(program, *arguments)
+        self.assertGreater(len(sleepers(mark)), 3)
+        process.send_signal(number)
+        self.assertEqual(process.wait(SOON_S), 128 + number)
+        self.assertEqual(sleepers(mark), [])
+
+    def test_sigterm_in_a_test(self):
+        self.assert_ended_by(signal.SIGTERM, IN_A_TEST)
+
+    def test_sigterm_while_a_thread_waits_for_a_program(self):
+        self.assert_ended_by(signal.SIGTERM, IN_A_THREAD)
+
+    def test_a_signal_ends_what_was_to_be_kept(self):
+        self.assert_ended_by(signal.SIGINT, IN_A_TEST, "keep")
+
+    def test_the_end_of_the_work(self):
+        process, mark = self.started(AT_ITS_END)
+        self.assertEqual(process.wait(SOON_S), 0)
+        self.assertEqual(sleepers(mark), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,41 @@
+"""A card with real vblanks, whose modeset is slow as some projectors' is: the exhibit's frames keep time with its flips.
+
+The kernel's virtual display (guest_vkms.sh), which no window shows: the status file says how many frames began. Its
+mode is forced to a refresh of which no whole number makes the settings' 30 Hz, so that a frame begins at every second
+flip, 25 times a second, where flips are followed, and 30 times where they are not.
+"""
+
+import time
+
+from bench import CONFIG, SETTINGS, UNIT
+from hil_test import HilTest
+
+CARD = "/dev/dri/by-path/platform-vkms-card"
+REFRESH_HZ = 50
+FOLLOWED_HZ, FREE_HZ = 25.0, 30.0
+MODESET_MS = 200
+MEASURED_S = 8.0
+
+
+class Vblanks(HilTest):
+    @classmethod
+    def setUpClass(cls):
+        machine = cls.bench.machine
+        cls.settings = CONFIG.read_text(encoding="utf-8")
+        machine.write(SETTINGS, f'{cls.settings}\n[display]\ncard = "{CARD}"\nmode = "640x400@{REFRESH_HZ}"\nforce = true\n')
+        machine.check(f"modprobe vkms modeset_ms={MODESET_MS}; systemctl restart --no-block {UNIT}")
+
+    @classmethod
+    def tearDownClass(cls):
+        machine = cls.bench.machine
+        machine.write(SETTINGS, cls.settings)
+        machine.run(f"systemctl stop {UNIT}; modprobe -r vkms; systemctl start --no-block {UNIT}")
+
+    def test_frames_follow_flips_after_a_slow_modeset(self):
+        before = self.bench.status()
+        time.sleep(MEASURED_S)
+        after = self.bench.status()
+        frames, seconds = (sum(status[key] * sign for status, sign in ((after, 1), (before, -1)) for key in keys)
+                           for keys in (("frames", "skipped"), ("uptime_s",)))
+        print(f"  {frames / seconds:.1f} frames a second", flush=True)
+        self.assertLess(frames / seconds, 0.5 * (FOLLOWED_HZ + FREE_HZ), "frames run free of the display's flips")

@@ -1,0 +1,81 @@
+// A thread that is not heard of is told of by another, once, and so is its return.
+#include "firmware_host/base/sentence.h"
+#include "firmware_host/service/hang_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using News = HangPolicy::News;
+
+/// Looks as often as it should, from `now` on, for so long; the news in it.
+std::vector<News> news_in(HangPolicy& policy, MonotonicTime& now, Nanoseconds length, MonotonicTime heard) {
+    std::vector<News> all;
+    for (const MonotonicTime end = now + length; now < end; now += policy.between_looks()) {
+        if (const News news = policy.look(now, heard); news != News::None) {
+            all.push_back(news);
+        }
+    }
+    return all;
+}
+
+TEST(HangPolicy, AHangIsToldOnceAfterThePatienceAndSoIsItsEnd) {
+    HangPolicy policy(seconds(4));
+    MonotonicTime now{seconds(100)};
+    EXPECT_TRUE(news_in(policy, now, milliseconds(3900), MonotonicTime(seconds(100))).empty());
+    EXPECT_EQ(news_in(policy, now, seconds(60), MonotonicTime(seconds(100))), std::vector{News::Hangs});
+    EXPECT_EQ(news_in(policy, now, milliseconds(500), now), std::vector{News::HeardAgain});
+    EXPECT_EQ(news_in(policy, now, seconds(5), now), std::vector{News::Hangs});
+}
+
+TEST(HangPolicy, AThreadThatIsHeardOfIsNeverToldOf) {
+    HangPolicy policy(seconds(4));
+    MonotonicTime now{seconds(100)};
+    for (int second = 0; second < 60; ++second) {
+        EXPECT_TRUE(news_in(policy, now, seconds(1), now).empty());
+    }
+}
+
+TEST(HangPolicy, AMachineThatStoodStillIsNoHang) {
+    HangPolicy policy(seconds(4));
+    MonotonicTime now{seconds(100)};
+    EXPECT_TRUE(news_in(policy, now, seconds(1), now).empty());
+    const MonotonicTime heard = now;
+    now += seconds(30); // nobody ran, the watch as little as the thread
+    EXPECT_TRUE(news_in(policy, now, milliseconds(3900), heard).empty());
+    EXPECT_EQ(news_in(policy, now, seconds(1), heard), std::vector{News::Hangs});
+}
+
+TEST(HangWatch, SaysWhatTheThreadWasDoingAndThatItIsHeardAgain) {
+    SharedSentence told{""};
+    HangWatch watch(milliseconds(40), [&told](std::optional<const char*> doing) {
+        told.set(doing ? *doing : "it is heard again");
+    });
+    const auto wait_for = [&told](std::string_view what) {
+        Sentence now;
+        for (const MonotonicTime end = monotonic_now() + seconds(60);
+             now.view() != what && monotonic_now() < end;) {
+            std::this_thread::sleep_for(milliseconds(1));
+            told.read(now);
+        }
+        EXPECT_EQ(now.view(), what);
+    };
+    watch.enters("it draws");
+    wait_for("it draws");
+    std::jthread alive([&watch](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            watch.enters("it waits");
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+    });
+    wait_for("it is heard again");
+}
+
+} // namespace
+} // namespace frustumscreen
