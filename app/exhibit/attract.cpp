@@ -17,12 +17,12 @@ Attract::Attract(const glm::dvec2& place_m, bool known, MonotonicTime now)
 Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTransform& table_from_prop) {
     const bool never = !known && age == Nanoseconds::zero();
     if (known && fade_.goal() == Turning) {
-        fade_.change_to(Prop, now);
+        fade_.turn_to(Prop, now);
     } else if (!known && (never || age >= held) && fade_.goal() == Prop) {
         // As if a frame had been there at just that time; not before the fade that may be going on.
         const MonotonicTime due = never ? now : now - (age - held);
         turns_since_ = fade_.at(now).which == Prop ? due : turns_since_;
-        fade_.change_to(Turning, due);
+        fade_.turn_to(Turning, due);
     }
     const Faded faded = fade_.at(now);
     if (faded.which == Prop) {

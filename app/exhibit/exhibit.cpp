@@ -11,25 +11,45 @@ std::string_view primary(std::string_view tag) {
     return tag.substr(0, tag.find('-'));
 }
 
+std::size_t place_of(std::string_view language, std::span<const std::string> languages) {
+    return static_cast<std::size_t>(std::find(languages.begin(), languages.end(), language) -
+                                    languages.begin());
+}
+
 } // namespace
 
 Exhibit::Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
                  MonotonicTime now)
-    : count_(artifact_count), languages_(std::move(languages)), language_(std::move(language)),
-      language_before_(language_), fade_(0, fade_time, now) {}
+    : count_(artifact_count), languages_(std::move(languages)), language_count_(languages_.size()),
+      language_before_(place_of(language, languages_)), artifact_(0, fade_time, now),
+      language_(language_before_, fade_time, now) {
+    if (language_before_ == languages_.size()) {
+        languages_.push_back(std::move(language));
+    }
+}
 
 void Exhibit::wish(Wish wish, MonotonicTime now) {
-    if (wish == Wish::NextLanguage) {
-        language_before_ = language_;
-        if (!languages_.empty()) {
-            const auto current = std::find(languages_.begin(), languages_.end(), language_);
-            const bool last = current == languages_.end() || current + 1 == languages_.end();
-            language_ = last ? languages_.front() : *(current + 1);
-        }
+    if (!heeds(wish)) {
         return;
     }
-    if (count_ > 1) {
-        fade_.change_to((fade_.goal() + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now);
+    if (wish == Wish::NextLanguage) {
+        language_before_ = language_.goal();
+        change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
+        return;
+    }
+    // With a language that is still to fade, after one that does already.
+    const MonotonicTime begin =
+        language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
+    artifact_.change_to((artifact_.goal() + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now,
+                        begin);
+}
+
+/// With an artifact that is still to be dark, after one that fades in. Where they fade together, the caption
+/// has one brightness by either.
+void Exhibit::change_language(std::size_t which, MonotonicTime now) {
+    if (which != language_.goal()) {
+        language_.change_to(which, now,
+                            now < artifact_.dark() ? artifact_.begins() : std::max(now, artifact_.ends()));
     }
 }
 
@@ -42,21 +62,23 @@ void Exhibit::take_back(Wish wish, MonotonicTime now) {
         this->wish(Wish::PreviousArtifact, now);
         break;
     case Wish::NextLanguage:
-        language_ = language_before_;
+        change_language(language_before_, now);
         break;
     }
 }
 
 bool Exhibit::heeds(Wish wish) const {
-    return (wish == Wish::NextLanguage ? languages_.size() : count_) > 1;
+    return (wish == Wish::NextLanguage ? language_count_ : count_) > 1;
 }
 
 Shown Exhibit::at(MonotonicTime now) const {
     if (count_ == 0) {
         return {};
     }
-    const Faded faded = fade_.at(now);
-    return {faded.which, faded.brightness, faded.changing};
+    const Faded artifact = artifact_.at(now);
+    const Faded language = language_.at(now);
+    return {artifact.which, artifact.brightness, languages_[language.which],
+            std::min(artifact.brightness, language.brightness), artifact.changing || language.changing};
 }
 
 std::size_t caption_for(std::string_view language, std::span<const std::string> languages) {

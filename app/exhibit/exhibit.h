@@ -1,6 +1,11 @@
 /// What the exhibit shows: which artifact, in which language, how bright.
 ///
-/// A change of artifact fades the old one out and the new one in, 0.2 s each (app/exhibit/fade.h).
+/// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h), a change of language
+/// only the caption. What is wished for while something fades in begins when that is done, and artifact and
+/// caption never fade one between the other: changes are at least 0.5 s apart, whatever is pressed. So the
+/// picture flashes at most twice a second, which leaves room for the staff's pattern to come and go. Three
+/// times is the limit of WCAG 2.3.1 and ITU-R BT.1702 for the sake of photosensitive people. A press still
+/// shows at once: either the picture dims, or it is changing anyway.
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` is pure.
@@ -19,12 +24,14 @@ namespace frustumscreen {
 
 enum class Wish { PreviousArtifact, NextArtifact, NextLanguage };
 
-inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(200); ///< out, and again in
+inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< out, and again in
 
 struct Shown {
     std::size_t artifact = 0;
-    double brightness = 0.0; ///< 0..1, a factor on linear light
-    bool changing = false;   ///< brightness moves
+    double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
+    std::string_view language; ///< of the caption; stands as long as the exhibit
+    double caption_brightness = 0.0;
+    bool changing = false; ///< a brightness moves, or is about to
 };
 
 class Exhibit {
@@ -39,14 +46,18 @@ public:
     /// There is something to change to.
     [[nodiscard]] bool heeds(Wish wish) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
-    [[nodiscard]] const std::string& language() const { return language_; }
+    /// That is wished for; its caption may be still to come.
+    [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
 
 private:
+    void change_language(std::size_t which, MonotonicTime now);
+
     std::size_t count_;
-    std::vector<std::string> languages_;
-    std::string language_;
-    std::string language_before_; ///< before the latest wish for another
-    Fade fade_;                   ///< of artifacts
+    std::vector<std::string> languages_; ///< and one more, where it begins in none of them
+    std::size_t language_count_;
+    std::size_t language_before_; ///< before the latest wish for another
+    Fade artifact_;
+    Fade language_; ///< indices into `languages_`
 };
 
 /// Index of the caption for `language` among captions in `languages`: the same tag, else the same language

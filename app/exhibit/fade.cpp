@@ -2,30 +2,49 @@
 
 #include "app/geometry/time_curves.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
 
-void Fade::change_to(std::size_t which, MonotonicTime now) {
-    const Nanoseconds elapsed = now - start_;
+void Fade::change_to(std::size_t which, MonotonicTime now, MonotonicTime begin) {
+    if (now < out_ && which == from_) {
+        to_ = from_; // it had not begun: what comes in stays
+        out_ = in_ - each_way_;
+    } else if (now < dark()) {
+        to_ = which;
+    } else {
+        in_ = dark();
+        from_ = std::exchange(to_, which);
+        out_ = std::max(begin, in_ + each_way_);
+    }
+}
+
+void Fade::turn_to(std::size_t which, MonotonicTime now) {
+    const Nanoseconds elapsed = now - out_;
     if (elapsed >= each_way_) {
         from_ = std::exchange(to_, which);
         // A fade-in that is not over turns round at the brightness it has reached.
-        start_ = elapsed < 2 * each_way_ ? now - (2 * each_way_ - elapsed) : now;
+        out_ = now < ends() ? now - (ends() - now) : now;
     } else if (which == from_ && to_ != from_) {
         to_ = from_; // still fading out, and wanted again: in from here
-        start_ = now - (2 * each_way_ - elapsed);
+        out_ = now - (ends() - now);
     } else {
         to_ = which; // still fading out: only the goal is another
     }
 }
 
 Faded Fade::at(MonotonicTime now) const {
-    const double phase = to_seconds(now - start_) / to_seconds(each_way_);
-    if (phase < 1.0) {
-        return {from_, 1.0 - ease(phase), true};
+    const auto share = [&](MonotonicTime since) {
+        return ease(to_seconds(now - since) / to_seconds(each_way_));
+    };
+    if (now < out_) {
+        return {from_, share(in_), true};
     }
-    return {to_, ease(phase - 1.0), phase < 2.0};
+    if (now < dark()) {
+        return {from_, 1.0 - share(out_), true};
+    }
+    return {to_, share(dark()), now < ends()};
 }
 
 } // namespace frustumscreen

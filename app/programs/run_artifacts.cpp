@@ -264,7 +264,7 @@ const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime no
         return nullptr;
     }
     const std::vector<CaptionPicture>& shapes =
-        artifact.captions[caption_for(exhibit_.language(), artifact.languages)];
+        artifact.captions[caption_for(shown.language, artifact.languages)];
     if (placed_caption_ != &shapes) {
         placed_caption_ = &shapes;
         std::array<glm::dvec2, caption_widths_m.size()> sizes{};
@@ -276,7 +276,7 @@ const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime no
     placer_.update(now, hidden_by_prop(prop_, pose, table_from_projector_.translation),
                    hidden_by_prop(prop_, pose, situation.eye_m), glm::dvec2(pose.translation));
     const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * shown.brightness;
+    const double brightness = place.opacity * shown.caption_brightness;
     if (brightness <= 0.0) {
         return nullptr;
     }
@@ -294,6 +294,7 @@ Situation ArtifactShow::stand(MonotonicTime now, Situation situation, Shown& sho
     stand_ = attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
     situation.table_from_prop = stand_.table_from_prop;
     shown.brightness *= stand_.brightness;
+    shown.caption_brightness *= stand_.brightness;
     return situation;
 }
 

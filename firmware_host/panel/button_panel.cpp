@@ -11,7 +11,19 @@ namespace {
 constexpr Nanoseconds look_again = std::chrono::milliseconds(500);
 constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop is heard after that
 constexpr std::string_view all_well = "its buttons are there";
-constexpr std::string_view one_stuck = "a button is stuck and is ignored; free it or exchange it";
+
+std::string_view state_of(const Buttons& buttons, std::string_view well) {
+    if (buttons.any_stuck() && buttons.any_chatters()) {
+        return "a button is stuck, another chatters, and both are ignored; free or exchange them";
+    }
+    if (buttons.any_stuck()) {
+        return "a button is stuck and is ignored; free it or exchange it";
+    }
+    return buttons.any_chatters()
+               ? "a button chatters and is ignored until it is quiet; look at its wires, or "
+                 "exchange it"
+               : well;
+}
 
 /// What the lamps show; told to them when it changes.
 class Lamps {
@@ -22,7 +34,7 @@ public:
     [[nodiscard]] Result<void> follow(std::uint32_t wished, const Buttons& buttons, ButtonLines& lines) {
         bool changed = false;
         for (std::size_t k = 0; k < count_; ++k) {
-            const bool lit = ((wished >> k) & 1U) != 0 && !buttons.stuck(k);
+            const bool lit = ((wished >> k) & 1U) != 0 && !buttons.ignored(k);
             changed = changed || lit != lit_[k];
             lit_[k] = lit;
         }
@@ -75,7 +87,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
         buttons.sample(now, levels, events);
         if (!events.empty()) {
             mailbox_.put(events);
-            said_.set(buttons.any_stuck() ? one_stuck : all_well);
+            said_.set(state_of(buttons, all_well));
         }
         if (Result<void> lit = lamps.follow(wished_, buttons, lines); !lit) {
             return lit.error();

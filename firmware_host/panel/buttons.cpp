@@ -23,7 +23,11 @@ void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<
             button.level = down[k];
             button.level_since = now;
         }
-        settle(now, k, events);
+        if (button.chatters) {
+            calm_down(now, k, events);
+        } else {
+            settle(now, k, events);
+        }
         hold(now, k, events);
     }
     hold_chord(now, events);
@@ -40,9 +44,7 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.down = button.level;
     const int number = static_cast<int>(which);
     if (button.down) {
-        button.down_since = button.level_since;
-        button.pressed = true;
-        events.push_back({button.level_since, number, PressKind::Press});
+        press(which, events);
         return;
     }
     if (button.stuck) {
@@ -53,10 +55,36 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.stuck = false;
 }
 
+void Buttons::press(std::size_t which, std::vector<PanelEvent>& events) {
+    Button& button = buttons_[which];
+    const MonotonicTime time = button.level_since;
+    MonotonicTime& oldest = button.presses[button.press_count % button.presses.size()];
+    button.chatters = button.press_count >= button.presses.size() && time - oldest <= times_.chatter_window;
+    button.pressed = !button.chatters;
+    button.down_since = time;
+    oldest = time;
+    ++button.press_count;
+    events.push_back(
+        {time, static_cast<int>(which), button.chatters ? PressKind::Chatters : PressKind::Press});
+}
+
+/// One that is still at last is as at the first sample: where it is down it says nothing until it was up.
+void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
+    Button& button = buttons_[which];
+    if (now - button.level_since < times_.quiet) {
+        return;
+    }
+    button = {.level = button.level,
+              .down = button.level,
+              .level_since = button.level_since,
+              .down_since = button.level_since};
+    events.push_back({button.level_since + times_.quiet, static_cast<int>(which), PressKind::Freed});
+}
+
 /// What a button that stays down comes to mean.
 void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
-    if (!button.down || button.stuck) {
+    if (!button.down || button.stuck || button.chatters) {
         return;
     }
     const int number = static_cast<int>(which);
@@ -102,6 +130,10 @@ std::optional<MonotonicTime> Buttons::due() const {
         consider(*chord + times_.chord);
     }
     for (const Button& button : buttons_) {
+        if (button.chatters) {
+            consider(button.level_since + times_.quiet);
+            continue;
+        }
         if (button.level != button.down) {
             consider(button.level_since + times_.debounce);
         }
@@ -117,6 +149,11 @@ std::optional<MonotonicTime> Buttons::due() const {
 
 bool Buttons::any_stuck() const {
     return std::any_of(buttons_.begin(), buttons_.end(), [](const Button& button) { return button.stuck; });
+}
+
+bool Buttons::any_chatters() const {
+    return std::any_of(buttons_.begin(), buttons_.end(),
+                       [](const Button& button) { return button.chatters; });
 }
 
 } // namespace frustumscreen

@@ -1,4 +1,5 @@
-/// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick.
+/// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick or
+/// chatter.
 ///
 /// A level counts once it has held for the debounce time, from when it began. A button that is down at the
 /// first sample says nothing until it was up, but for being stuck: a chip's spurious first edge is no press,
@@ -8,12 +9,20 @@
 /// the staff. A chord began with the latest press of each of its buttons; whoever heeded them takes them
 /// back.
 ///
+/// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses two to nine times
+/// a second for as long as it has power. So the press that would be the `too_many_presses`th within
+/// `chatter_window` is none; the button is ignored until its level has been still for `quiet`. Twice a second
+/// for ten seconds is more than anyone has a use for: a change of artifact takes half a second, so nobody
+/// sees what he goes through so fast. A child that hammers at it (six to seven presses a second are about as
+/// fast as a finger goes) is ignored after three seconds, and heard again three seconds after it lets go.
+///
 /// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
 /// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
 #pragma once
 
 #include "firmware_host/panel/panel.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,10 +34,14 @@ struct ButtonTimes {
     Nanoseconds long_press = std::chrono::milliseconds(1500);
     Nanoseconds chord = std::chrono::seconds(3);
     Nanoseconds stuck = std::chrono::seconds(30);
+    Nanoseconds chatter_window = std::chrono::seconds(10);
+    Nanoseconds quiet = std::chrono::seconds(3);
 };
 
 class Buttons {
 public:
+    static constexpr std::size_t too_many_presses = 20; ///< within `chatter_window`
+
     Buttons(std::size_t count, const ButtonTimes& times);
 
     /// The levels at `now`, true = down, one each button. Appends what they mean, in ascending time.
@@ -36,8 +49,11 @@ public:
     /// When something happens though no level changes; nothing = never.
     [[nodiscard]] std::optional<MonotonicTime> due() const;
     /// The button counts as broken.
-    [[nodiscard]] bool stuck(std::size_t which) const { return buttons_[which].stuck; }
+    [[nodiscard]] bool ignored(std::size_t which) const {
+        return buttons_[which].stuck || buttons_[which].chatters;
+    }
     [[nodiscard]] bool any_stuck() const;
+    [[nodiscard]] bool any_chatters() const;
 
 private:
     struct Button {
@@ -46,10 +62,15 @@ private:
         bool pressed = false; ///< down, after it was up: its press was said
         bool mute = false;    ///< no long press until it comes up
         bool stuck = false;
+        bool chatters = false; ///< until it is quiet, only `level` is followed
         MonotonicTime level_since{};
         MonotonicTime down_since{};
+        std::array<MonotonicTime, too_many_presses - 1> presses{}; ///< the latest, in a ring
+        std::size_t press_count = 0;                               ///< since it chattered last
     };
     void settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
+    void press(std::size_t which, std::vector<PanelEvent>& events);
+    void calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold_chord(MonotonicTime now, std::vector<PanelEvent>& events);
     /// Since when the chord is held; nothing = it is not.

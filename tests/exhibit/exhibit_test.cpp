@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 namespace frustumscreen {
 namespace {
@@ -18,9 +20,9 @@ Exhibit three_artifacts() {
 TEST(Exhibit, BeginsDarkAndBrightensWithinTheFadeTime) {
     const Exhibit exhibit = three_artifacts();
     EXPECT_DOUBLE_EQ(exhibit.at(start).brightness, 0.0);
-    EXPECT_NEAR(exhibit.at(start + milliseconds(100)).brightness, 0.5, 1e-12);
-    EXPECT_DOUBLE_EQ(exhibit.at(start + milliseconds(200)).brightness, 1.0);
-    EXPECT_FALSE(exhibit.at(start + milliseconds(200)).changing);
+    EXPECT_NEAR(exhibit.at(start + fade_time / 2).brightness, 0.5, 1e-12);
+    EXPECT_DOUBLE_EQ(exhibit.at(start + fade_time).brightness, 1.0);
+    EXPECT_FALSE(exhibit.at(start + fade_time).changing);
 }
 
 TEST(Exhibit, ThePictureChangesOnlyInTheDark) {
@@ -28,7 +30,7 @@ TEST(Exhibit, ThePictureChangesOnlyInTheDark) {
     const MonotonicTime press = start + std::chrono::seconds(5);
     exhibit.wish(Wish::NextArtifact, press);
     std::size_t before = 0;
-    for (int ms = 0; ms <= 400; ++ms) {
+    for (int ms = 0; ms <= 500; ++ms) {
         const Shown shown = exhibit.at(press + milliseconds(ms));
         if (shown.artifact != before) {
             EXPECT_LT(shown.brightness, 0.01);
@@ -36,7 +38,7 @@ TEST(Exhibit, ThePictureChangesOnlyInTheDark) {
         }
     }
     EXPECT_EQ(before, 1U);
-    EXPECT_DOUBLE_EQ(exhibit.at(press + milliseconds(400)).brightness, 1.0);
+    EXPECT_DOUBLE_EQ(exhibit.at(press + 2 * fade_time).brightness, 1.0);
 }
 
 TEST(Exhibit, ArtifactsFollowInACircleBothWays) {
@@ -54,27 +56,81 @@ TEST(Exhibit, ArtifactsFollowInACircleBothWays) {
 }
 
 TEST(Exhibit, PressesDuringAFadeNeverMakeTheBrightnessJump) {
-    for (int first = 0; first <= 400; first += 7) {
+    constexpr std::array wishes{Wish::NextArtifact, Wish::NextLanguage, Wish::PreviousArtifact};
+    std::mt19937 random(3);
+    for (int run = 0; run < 200; ++run) {
         Exhibit exhibit = three_artifacts();
         const MonotonicTime press = start + std::chrono::seconds(5);
-        double before = 1.0;
-        std::size_t shown_before = 0;
-        for (int ms = 0; ms <= 1200; ++ms) {
+        Shown before = exhibit.at(press);
+        for (int ms = 0; ms <= 5000; ++ms) {
             const MonotonicTime now = press + milliseconds(ms);
-            if (ms == 0 || ms == first || ms == 2 * first) {
-                exhibit.wish(Wish::NextArtifact, now);
+            if (ms < 3000 && random() % static_cast<unsigned>(20 + run) == 0) {
+                exhibit.wish(wishes.at(random() % wishes.size()), now);
             }
             const Shown shown = exhibit.at(now);
-            // A cubic ease over 200 ms moves by at most 1.5 / 200 each millisecond.
-            EXPECT_LE(std::abs(shown.brightness - before), 0.0076) << first << " " << ms;
-            if (shown.artifact != shown_before) {
-                EXPECT_LT(shown.brightness, 0.01);
+            // A cubic ease over 250 ms moves by at most 1.5 / 250 each millisecond.
+            ASSERT_NEAR(shown.brightness, before.brightness, 0.0061) << run << " " << ms;
+            ASSERT_NEAR(shown.caption_brightness, before.caption_brightness, 0.0061) << run << " " << ms;
+            ASSERT_LE(shown.caption_brightness, shown.brightness);
+            if (shown.artifact != before.artifact) {
+                ASSERT_LT(shown.brightness, 0.01);
             }
-            before = shown.brightness;
-            shown_before = shown.artifact;
+            if (shown.language != before.language) {
+                ASSERT_LT(shown.caption_brightness, 0.01);
+            }
+            before = shown;
         }
-        EXPECT_DOUBLE_EQ(before, 1.0);
+        EXPECT_DOUBLE_EQ(before.brightness, 1.0);
+        EXPECT_DOUBLE_EQ(before.caption_brightness, 1.0);
+        EXPECT_EQ(before.language, exhibit.language());
+        EXPECT_FALSE(before.changing);
     }
+}
+
+/// The picture dims within a few frames, or it is about to change anyway, and it ends where all the presses
+/// lead.
+TEST(Exhibit, APressShowsAtOnceAndNoneIsForgotten) {
+    Exhibit exhibit = three_artifacts();
+    const MonotonicTime press = start + std::chrono::seconds(5);
+    exhibit.wish(Wish::NextArtifact, press);
+    EXPECT_LT(exhibit.at(press + milliseconds(50)).brightness, 0.9);
+    const MonotonicTime next = press + milliseconds(300); // the other one fades in
+    exhibit.wish(Wish::NextArtifact, next);
+    EXPECT_GT(exhibit.at(next + milliseconds(50)).brightness, exhibit.at(next).brightness)
+        << "no turning round";
+    EXPECT_TRUE(exhibit.at(next).changing);
+    EXPECT_EQ(exhibit.at(press + 2 * fade_time).artifact, 1U);
+    EXPECT_DOUBLE_EQ(exhibit.at(press + 2 * fade_time).brightness, 1.0);
+    EXPECT_EQ(exhibit.at(press + 4 * fade_time).artifact, 2U);
+    EXPECT_DOUBLE_EQ(exhibit.at(press + 4 * fade_time).brightness, 1.0);
+}
+
+TEST(Exhibit, AWishThatWaitsAndIsTakenBackChangesNothing) {
+    Exhibit exhibit = three_artifacts();
+    const MonotonicTime press = start + std::chrono::seconds(5);
+    exhibit.wish(Wish::NextArtifact, press);
+    const MonotonicTime next = press + milliseconds(300);
+    exhibit.wish(Wish::NextArtifact, next);
+    exhibit.take_back(Wish::NextArtifact, next + milliseconds(100));
+    for (int ms = 100; ms < 1000; ++ms) {
+        EXPECT_EQ(exhibit.at(next + milliseconds(ms)).artifact, 1U);
+        EXPECT_GT(exhibit.at(next + milliseconds(ms)).brightness, 0.2) << ms;
+    }
+}
+
+TEST(Exhibit, ALanguageChangesTheCaptionInTheDarkAndLeavesTheArtifactBright) {
+    Exhibit exhibit = three_artifacts();
+    const MonotonicTime press = start + std::chrono::seconds(5);
+    exhibit.wish(Wish::NextLanguage, press);
+    double darkest = 1.0;
+    for (int ms = 0; ms < 500; ++ms) {
+        const Shown shown = exhibit.at(press + milliseconds(ms));
+        EXPECT_EQ(shown.brightness, 1.0);
+        EXPECT_EQ(shown.language, ms < 250 ? "en" : "de");
+        darkest = std::fmin(darkest, shown.caption_brightness);
+    }
+    EXPECT_LT(darkest, 1e-4);
+    EXPECT_EQ(exhibit.at(press + milliseconds(500)).caption_brightness, 1.0);
 }
 
 TEST(Exhibit, ALateFrameShowsWhatAnEarlyOneWouldHave) {

@@ -67,7 +67,7 @@ TEST(Buttons, ContactsBounceWithoutASecondPress) {
                 fingers.run(milliseconds(1 + engine() % 2));
             }
             fingers.set(0, down);
-            fingers.run(milliseconds(150));
+            fingers.run(milliseconds(300));
         }
     }
     EXPECT_EQ(fingers.count(PressKind::Press), 50);
