@@ -22,6 +22,11 @@ void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<
         } else if (down[k] != button.level) {
             button.level = down[k];
             button.level_since = now;
+            if (edge(button) && !button.chatters && !button.stuck) {
+                button.chatters = true;
+                button.pressed = false;
+                events.push_back({now, static_cast<int>(k), PressKind::Chatters});
+            }
         }
         if (button.chatters) {
             calm_down(now, k, events);
@@ -44,7 +49,9 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.down = button.level;
     const int number = static_cast<int>(which);
     if (button.down) {
-        press(which, events);
+        button.down_since = button.level_since;
+        button.pressed = true;
+        events.push_back({button.level_since, number, PressKind::Press});
         return;
     }
     if (button.stuck) {
@@ -55,17 +62,18 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.stuck = false;
 }
 
-void Buttons::press(std::size_t which, std::vector<PanelEvent>& events) {
-    Button& button = buttons_[which];
+/// True: one edge too many. What bounces within the debounce time is one edge.
+bool Buttons::edge(Button& button) {
     const MonotonicTime time = button.level_since;
-    MonotonicTime& oldest = button.presses[button.press_count % button.presses.size()];
-    button.chatters = button.press_count >= button.presses.size() && time - oldest <= times_.chatter_window;
-    button.pressed = !button.chatters;
-    button.down_since = time;
+    const std::size_t latest = (button.edge_count + button.edges.size() - 1) % button.edges.size();
+    if (button.edge_count > 0 && time - button.edges[latest] < times_.debounce) {
+        return false;
+    }
+    MonotonicTime& oldest = button.edges[button.edge_count % button.edges.size()];
+    const bool too_many = button.edge_count >= button.edges.size() && time - oldest <= times_.chatter_window;
     oldest = time;
-    ++button.press_count;
-    events.push_back(
-        {time, static_cast<int>(which), button.chatters ? PressKind::Chatters : PressKind::Press});
+    ++button.edge_count;
+    return too_many;
 }
 
 /// One that is still at last is as at the first sample: where it is down it says nothing until it was up.

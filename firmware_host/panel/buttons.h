@@ -9,12 +9,14 @@
 /// the staff. A chord began with the latest press of each of its buttons; whoever heeded them takes them
 /// back.
 ///
-/// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses two to nine times
-/// a second for as long as it has power. So the press that would be the `too_many_presses`th within
-/// `chatter_window` is none; the button is ignored until its level has been still for `quiet`. Twice a second
-/// for ten seconds is more than anyone has a use for: a change of artifact takes half a second, so nobody
-/// sees what he goes through so fast. A child that hammers at it (six to seven presses a second are about as
-/// fast as a finger goes) is ignored after three seconds, and heard again three seconds after it lets go.
+/// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses up to nine times a
+/// second for as long as it has power. So a button of `too_many_edges` within `chatter_window` is ignored
+/// until its level has been still for `quiet`. Forty edges are twenty presses, two a second for ten seconds,
+/// which is more than anyone has a use for: a change of artifact takes half a second, so nobody sees what he
+/// goes through so fast. A child that hammers at it (six to seven presses a second are about as fast as a
+/// finger goes) is ignored after three seconds, and heard again three seconds after it lets go. Edges are
+/// counted and not presses, since a loose contact has many more of them: it is known within a few seconds,
+/// also where it rarely holds for long enough to press.
 ///
 /// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
 /// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
@@ -40,7 +42,7 @@ struct ButtonTimes {
 
 class Buttons {
 public:
-    static constexpr std::size_t too_many_presses = 20; ///< within `chatter_window`
+    static constexpr std::size_t too_many_edges = 40; ///< within `chatter_window`
 
     Buttons(std::size_t count, const ButtonTimes& times);
 
@@ -65,11 +67,11 @@ private:
         bool chatters = false; ///< until it is quiet, only `level` is followed
         MonotonicTime level_since{};
         MonotonicTime down_since{};
-        std::array<MonotonicTime, too_many_presses - 1> presses{}; ///< the latest, in a ring
-        std::size_t press_count = 0;                               ///< since it chattered last
+        std::array<MonotonicTime, too_many_edges - 1> edges{}; ///< the latest, in a ring
+        std::size_t edge_count = 0;                            ///< since it chattered last
     };
     void settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
-    void press(std::size_t which, std::vector<PanelEvent>& events);
+    [[nodiscard]] bool edge(Button& button);
     void calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold_chord(MonotonicTime now, std::vector<PanelEvent>& events);

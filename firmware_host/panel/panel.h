@@ -17,7 +17,7 @@ enum class PressKind : std::uint8_t {
     LongPress, ///< follows the press while the button is still down
     Chord,     ///< first and last button held together: staff, as were their presses; `button` is the first
     Stuck,     ///< down longer than anyone presses: it counts as broken and is ignored
-    Chatters,  ///< pressed more often than anyone has a use for: it counts as broken and is ignored
+    Chatters,  ///< up and down more often than anyone has a use for: it counts as broken and is ignored
     Freed,     ///< a stuck button came up, or one that chattered was quiet: it counts again
 };
 

@@ -97,6 +97,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = milliseconds(1);
+    times.chatter_window = Nanoseconds(0); // nobody presses too often here
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
@@ -143,6 +144,28 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
         ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));
     }
     EXPECT_TRUE(lit(false, false, false));
+}
+
+TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
+    FakeChip chip;
+    ButtonTimes times;
+    times.debounce = milliseconds(1);
+    times.quiet = milliseconds(300);
+    ButtonPanel panel(opener(chip), 3, times);
+    panel.light(0b111U);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
+    const auto chatters = [&] { return panel.state().find("a button chatters and is ignored") == 0; };
+    ASSERT_TRUE(until(panel, events, [&] {
+        chip.down[1] = !chip.down[1];
+        std::this_thread::sleep_for(milliseconds(10));
+        return chatters();
+    }));
+    ASSERT_TRUE(until(panel, events, [&] { return !chip.lit[1].load(); }));
+    EXPECT_TRUE(chip.lit[0] && chip.lit[2]);
+    chip.down[1] = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
+    ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
 }
 
 TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {

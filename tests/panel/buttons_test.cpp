@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 namespace frustumscreen {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::minutes;
 using std::chrono::seconds;
 constexpr MonotonicTime start{seconds(50)};
 
@@ -78,6 +80,7 @@ TEST(Buttons, AGlitchShorterThanTheDebounceTimeIsNothing) {
     Fingers fingers;
     for (int k = 0; k < 100; ++k) {
         fingers.press(2, milliseconds(29));
+        fingers.run(milliseconds(200));
     }
     EXPECT_TRUE(fingers.events.empty());
 }
@@ -207,6 +210,139 @@ TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
         hold({true, false, true}, 13'200);
         EXPECT_EQ(chords(), 1);
     }
+}
+
+/// As the panel's thread looks at it: every 20 ms, a little late at times, and when something is due.
+class LooseContact {
+public:
+    explicit LooseContact(unsigned seed, double closed = 0.5) : random_(seed), closed_(closed) {}
+
+    /// The first button's contact opens and closes 5000 times a second, or is open; the last one is pressed
+    /// and let go once a second.
+    void run(Nanoseconds length, bool chatters) {
+        for (const MonotonicTime end = now_ + length; now_ < end;) {
+            const double phase = std::fmod(5000.0 * to_seconds(now_ - start), 1.0);
+            const std::array<bool, 3> levels{chatters && phase < closed_, false,
+                                             (now_ - start) / milliseconds(500) % 2 == 1};
+            buttons_.sample(now_, levels, events_);
+            MonotonicTime next = now_ + milliseconds(20);
+            if (const auto due = buttons_.due()) {
+                next = std::min(next, std::max(now_, *due));
+            }
+            now_ = next + std::chrono::microseconds(random_() % 1000);
+        }
+    }
+    [[nodiscard]] int count(int button, PressKind kind) const {
+        return static_cast<int>(std::count_if(events_.begin(), events_.end(), [&](const PanelEvent& event) {
+            return event.button == button && event.kind == kind;
+        }));
+    }
+    [[nodiscard]] const Buttons& buttons() const { return buttons_; }
+    [[nodiscard]] const std::vector<PanelEvent>& events() const { return events_; }
+
+private:
+    std::mt19937 random_;
+    double closed_;
+    Buttons buttons_{3, {}};
+    MonotonicTime now_ = start;
+    std::vector<PanelEvent> events_;
+};
+
+TEST(Buttons, ALooseContactOfFiveKilohertzIsIgnoredUntilItIsQuiet) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        LooseContact contact(seed, 0.1 + 0.02 * seed); // closed for a tenth of the time, up to nine tenths
+        contact.run(seconds(12), true);
+        EXPECT_EQ(contact.count(0, PressKind::Chatters), 1) << seed;
+        const int presses = contact.count(0, PressKind::Press);
+        EXPECT_LE(presses, 20);
+        EXPECT_TRUE(contact.buttons().ignored(0) && contact.buttons().any_chatters());
+        EXPECT_FALSE(contact.buttons().ignored(2));
+        contact.run(minutes(10) - seconds(12), true);
+        EXPECT_EQ(contact.count(0, PressKind::Press), presses) << "never again";
+        EXPECT_EQ(contact.count(0, PressKind::Freed), 0);
+        EXPECT_EQ(contact.count(0, PressKind::Stuck), 0);
+        EXPECT_EQ(contact.count(2, PressKind::Press), 10 * 60) << "the others go on";
+        contact.run(seconds(4), false);
+        EXPECT_EQ(contact.count(0, PressKind::Freed), 1);
+        EXPECT_FALSE(contact.buttons().ignored(0));
+    }
+}
+
+TEST(Buttons, TheFortiethEdgeWithinTenSecondsIsOneTooManyAndTheThirtyNinthIsNot) {
+    for (const bool too_fast : {false, true}) {
+        Fingers fingers;
+        const MonotonicTime began = fingers.now();
+        for (int k = 0; k < 19; ++k) {
+            fingers.set(1, true);
+            fingers.run(milliseconds(100));
+            fingers.set(1, false);
+            fingers.run(milliseconds(400));
+        }
+        fingers.set(1, true);
+        fingers.run(milliseconds(too_fast ? 500 : 501));
+        fingers.set(1, false);
+        fingers.run(milliseconds(100));
+        EXPECT_EQ(fingers.count(PressKind::Press), 20);
+        ASSERT_EQ(fingers.count(PressKind::Chatters), too_fast ? 1 : 0);
+        if (too_fast) {
+            EXPECT_EQ(fingers.events.back().time, began + seconds(10));
+        }
+    }
+}
+
+TEST(Buttons, AChildThatHammersIsHeardAtFirstAndAgainThreeSecondsAfterItLetsGo) {
+    Fingers fingers;
+    MonotonicTime let_go;
+    for (int k = 0; k < 70; ++k) { // seven times a second, for ten seconds
+        fingers.set(0, true);
+        fingers.run(milliseconds(60));
+        fingers.set(0, false);
+        let_go = fingers.now();
+        fingers.run(milliseconds(83));
+    }
+    EXPECT_EQ(fingers.count(PressKind::Press), 20);
+    EXPECT_EQ(fingers.count(PressKind::Chatters), 1);
+    fingers.press(1, milliseconds(100)); // the others go on
+    EXPECT_EQ(fingers.count(PressKind::Press), 21);
+    fingers.run(seconds(3));
+    ASSERT_EQ(fingers.count(PressKind::Freed), 1);
+    EXPECT_EQ(fingers.events.back().time, let_go + seconds(3));
+    fingers.press(0, milliseconds(100));
+    EXPECT_EQ(fingers.count(PressKind::Press), 22) << "its old presses are forgotten";
+    EXPECT_EQ(fingers.count(PressKind::Chatters), 1);
+}
+
+TEST(Buttons, AVisitorWhoGoesThroughManyArtifactsIsNoLooseContact) {
+    Fingers fingers;
+    for (int k = 0; k < 100; ++k) { // three in two seconds, on and on
+        fingers.set(1, true);
+        fingers.run(milliseconds(150));
+        fingers.set(1, false);
+        fingers.run(milliseconds(517));
+    }
+    EXPECT_EQ(fingers.count(PressKind::Press), 100);
+    EXPECT_EQ(fingers.events.size(), 100U);
+}
+
+TEST(Buttons, OneThatChattersTakesNoPartInTheChordAndMayTurnOutToBeStuck) {
+    Fingers fingers;
+    const auto hammer = [&] {
+        for (int k = 0; k < 40; ++k) {
+            fingers.set(0, k % 2 == 0);
+            fingers.run(milliseconds(50));
+        }
+    };
+    hammer();
+    ASSERT_EQ(fingers.count(PressKind::Chatters), 1);
+    fingers.set(0, true);
+    fingers.set(2, true);
+    const MonotonicTime down = fingers.now();
+    fingers.run(seconds(20));
+    EXPECT_EQ(fingers.count(PressKind::Chord), 0);
+    EXPECT_EQ(fingers.count(PressKind::Freed), 1) << "it is quiet";
+    fingers.run(seconds(11));
+    EXPECT_EQ(fingers.count(PressKind::Stuck), 2);
+    EXPECT_EQ(fingers.events.back().time, down + seconds(30));
 }
 
 TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {

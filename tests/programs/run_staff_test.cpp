@@ -1,10 +1,16 @@
 // The staff's picture, over an exhibit that only keeps a record of what it was asked.
 
+#include "app/exhibit/attract.h"
 #include "app/programs/run_staff.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "firmware_host/panel/buttons.h"
+#include "tests/exhibit/flash_counter.h"
 
+#include <GLES3/gl3.h>
 #include <gtest/gtest.h>
+
+#include <random>
 
 namespace frustumscreen {
 namespace {
@@ -53,9 +59,9 @@ protected:
         frame();
         frame();
     }
-    DrawResult frame() {
+    DrawResult frame(const Situation& situation = {}) {
         const DrawResult drawn =
-            show->draw(now, {}, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
+            show->draw(now, situation, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
         show->took(now, 1.0);
         if (drawn.drawn) {
             EXPECT_TRUE(display->present(now));
@@ -151,6 +157,95 @@ TEST_F(RunStaff, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
     EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
+}
+
+/// An exhibit whose artifacts are as white as can be, everywhere.
+class WhiteShow final : public Show {
+public:
+    void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
+    void take_back(Wish wish, MonotonicTime now) override { exhibit_.take_back(wish, now); }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+                                  Redraw) override {
+        const Stand stand = attract_.at(now, situation.prop_known, situation.prop_age, {});
+        const auto brightness = static_cast<float>(exhibit_.at(now).brightness * stand.brightness);
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+        glDisable(GL_SCISSOR_TEST);
+        glClearColor(brightness, brightness, brightness, 1.0F);
+        glClear(GL_COLOR_BUFFER_BIT);
+        const PixelRectangle whole{0, 0, 320, 200};
+        return {true, whole, whole, 1};
+    }
+    [[nodiscard]] ShowState state(MonotonicTime) const override { return {"White", "en", {}, true}; }
+
+private:
+    Exhibit exhibit_{3, {"en", "de"}, "en", start};
+    Attract attract_{{0.0, 0.0}, true, start};
+};
+
+/// WCAG 2.2's relative luminance of an sRGB colour.
+double luminance_of(const glm::u8vec4& colour) {
+    const auto linear = [](std::uint8_t code) {
+        const double c = code / 255.0;
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
+}
+
+/// Fingers on all buttons, mostly after the chord and then the quickest press there is; what the pixels show.
+TEST_F(RunStaff, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
+    int most = 0;
+    int patterns = 0;
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        std::mt19937 random(seed);
+        show = std::make_unique<StaffShow>(settings, std::make_unique<WhiteShow>(), "a driver");
+        now = start;
+        ButtonTimes times;
+        times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: none is ignored
+        Buttons buttons(3, times);
+        std::array<bool, 3> levels{};
+        std::vector<PanelEvent> events;
+        MonotonicTime chord_until = start;
+        std::optional<MonotonicTime> lost; // in half of the runs the prop comes and goes, too
+        MonotonicTime prop_turns = start;
+        std::array<std::vector<Luminance>, 40> places; // spread over the picture and on its border
+        while (now < start + seconds(40)) {
+            if (now >= chord_until + seconds(1)) {
+                chord_until = now + milliseconds(3000 + random() % 200);
+            }
+            const bool chord = now < chord_until;
+            levels = {chord || random() % 2 == 0, random() % 2 == 0, chord || random() % 2 == 0};
+            events.clear();
+            buttons.sample(now, levels, events);
+            for (const PanelEvent& event : events) { // as the run's loop does
+                if (event.kind == PressKind::Chord) {
+                    show->chord(now, status);
+                    ++patterns;
+                } else if (event.kind == PressKind::Press) {
+                    show->wish(static_cast<Wish>(event.button), now);
+                }
+            }
+            if (now >= prop_turns) {
+                lost = lost || seed % 4 < 2 ? std::nullopt : std::optional(now);
+                prop_turns += milliseconds(lost ? 2000 + random() % 1300 : random() % 500);
+            }
+            const MonotonicTime shown = now;
+            Situation situation;
+            situation.prop_known = !lost;
+            situation.prop_age = lost ? now - *lost : Nanoseconds(0);
+            frame(situation);
+            const Image8 picture = read_colour(display->framebuffer(), 320, 200);
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                const int x = k % 8 == 0 ? 0 : static_cast<int>(k % 8) * 44;
+                places[k].push_back({shown, luminance_of(picture.at(x, 10 + 40 * static_cast<int>(k / 8)))});
+            }
+        }
+        for (const std::vector<Luminance>& place : places) {
+            most = std::max(most, most_flashes_a_second(place));
+        }
+    }
+    EXPECT_GT(patterns, 30);
+    EXPECT_GE(most, 2) << "nothing was seen of the presses";
+    EXPECT_LE(most, 3);
 }
 
 } // namespace
