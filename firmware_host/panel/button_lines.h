@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -25,6 +26,8 @@ public:
     [[nodiscard]] virtual Result<void> wait(Nanoseconds timeout) = 0;
     /// True = lit, one each button; buttons without a lamp do not mind.
     [[nodiscard]] virtual Result<void> light(std::span<const bool> /*lit*/) { return {}; }
+    /// What does not work though they are there, in one sentence for a technician; empty: all works.
+    [[nodiscard]] virtual std::string_view remark() const { return {}; }
 };
 
 struct LineRequest {

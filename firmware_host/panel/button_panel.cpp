@@ -71,7 +71,8 @@ void ButtonPanel::watch(const std::stop_token& stop) {
 }
 
 Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
-    said_.set(all_well);
+    const std::string_view well = lines.remark().empty() ? all_well : lines.remark();
+    said_.set(well);
     Buttons buttons(count_, times_);
     const auto down = std::make_unique<bool[]>(count_);
     const std::span<bool> levels(down.get(), count_);
@@ -87,7 +88,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
         buttons.sample(now, levels, events);
         if (!events.empty()) {
             mailbox_.put(events);
-            said_.set(state_of(buttons, all_well));
+            said_.set(state_of(buttons, well));
         }
         if (Result<void> lit = lamps.follow(wished_, buttons, lines); !lit) {
             return lit.error();

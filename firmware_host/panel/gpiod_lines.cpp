@@ -1,4 +1,5 @@
 #include "firmware_host/panel/button_lines.h"
+#include "firmware_host/panel/cp2112.h"
 
 #include <fmt/format.h>
 #include <gpiod.h>
@@ -62,6 +63,14 @@ Result<gpiod_line_bulk> find_all(gpiod_chip* chip, const std::vector<std::string
     return lines;
 }
 
+std::vector<unsigned> offsets_of(gpiod_line_bulk& lines) {
+    std::vector<unsigned> offsets;
+    for (unsigned k = 0; k < lines.num_lines; ++k) {
+        offsets.push_back(::gpiod_line_offset(lines.lines[k]));
+    }
+    return offsets;
+}
+
 int flags_of(const LineRequest& request) {
     int flags = request.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
     switch (request.bias) {
@@ -84,8 +93,10 @@ constexpr Nanoseconds between_reads = std::chrono::milliseconds(20);
 
 class GpiodLines final : public ButtonLines {
 public:
-    GpiodLines(Chip chip, std::string name, const gpiod_line_bulk& lines, const gpiod_line_bulk& lamps)
-        : chip_(std::move(chip)), name_(std::move(name)), lines_(lines), lamps_(lamps) {}
+    GpiodLines(Chip chip, std::string name, const gpiod_line_bulk& lines, const gpiod_line_bulk& lamps,
+               std::string remark)
+        : chip_(std::move(chip)), name_(std::move(name)), lines_(lines), lamps_(lamps),
+          remark_(std::move(remark)) {}
 
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
         std::array<int, GPIOD_LINE_BULK_MAX_LINES>
@@ -112,11 +123,14 @@ public:
         return {};
     }
 
+    [[nodiscard]] std::string_view remark() const override { return remark_; }
+
 private:
     Chip chip_;
     std::string name_;
     gpiod_line_bulk lines_;
     gpiod_line_bulk lamps_;
+    std::string remark_;
 };
 
 } // namespace
@@ -143,7 +157,10 @@ Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request)
     if (lit.num_lines > 0 && ::gpiod_line_request_bulk(&lit, &output, dark.data()) < 0) {
         return lost(fmt::format("GPIO chip {}: its lamps cannot be lit: {}", request.chip, reason(errno)));
     }
-    return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, watched, lit);
+    std::string remark = cp2112_remark(request.chip, read_cp2112_configuration(::gpiod_chip_name(chip.get())),
+                                       offsets_of(watched), offsets_of(lit));
+    return std::make_unique<GpiodLines>(std::move(chip), "GPIO chip " + request.chip, watched, lit,
+                                        std::move(remark));
 }
 
 } // namespace frustumscreen

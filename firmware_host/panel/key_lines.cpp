@@ -34,6 +34,8 @@ tl::unexpected<Error> lost(const std::string& name, int error) {
         case ENODEV:
         case ENXIO:
             return "it is not there; is it plugged in?";
+        case EBUSY:
+            return "another program keeps it to itself; end that one, or name another keyboard";
         default:
             return std::strerror(error);
         }
@@ -161,6 +163,9 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
                         fmt::format("keyboard {}: it has no key {}", request.device,
                                     libevdev_event_code_get_name(EV_KEY, request.codes[k])));
         }
+    }
+    if (::ioctl(file.get(), EVIOCGRAB, 1) < 0) { // until it is closed
+        return lost(request.device, errno);
     }
     return std::make_unique<KeyLines>(std::move(file), request.device, request.codes);
 }

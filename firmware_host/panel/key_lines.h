@@ -1,6 +1,7 @@
 /// Keys of a keyboard in place of a panel's wires, for a bench: through the kernel's event devices (evdev).
 ///
-/// Threads, errors  as ButtonLines. The keyboard is not taken from anybody else.
+/// Threads, errors  as ButtonLines. While they are open, what is typed on this keyboard reaches nobody else:
+/// no console, and no Ctrl-C.
 #pragma once
 
 #include "firmware_host/panel/button_lines.h"

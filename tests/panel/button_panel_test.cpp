@@ -18,6 +18,7 @@ struct FakeChip {
     std::array<std::atomic<bool>, 3> lit{};
     std::atomic<bool> plugged{true};
     std::atomic<int> opened{0};
+    std::string remark;
 };
 
 class FakeLines final : public ButtonLines {
@@ -41,6 +42,8 @@ public:
         std::copy(lit.begin(), lit.end(), chip_.lit.begin());
         return {};
     }
+
+    [[nodiscard]] std::string_view remark() const override { return chip_.remark; }
 
 private:
     FakeChip& chip_;
@@ -166,6 +169,21 @@ TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
     chip.down[1] = false;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
+}
+
+TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsStuck) {
+    FakeChip chip;
+    chip.remark = "a lamp cannot be lit";
+    ButtonTimes times;
+    times.debounce = milliseconds(1);
+    times.stuck = milliseconds(50);
+    ButtonPanel panel(opener(chip), 3, times);
+    std::vector<PanelEvent> events;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
+    chip.down[0] = true;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state().find("a button is stuck") == 0; }));
+    chip.down[0] = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
 }
 
 TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {

@@ -7,7 +7,7 @@
 #include "firmware_host/panel/buttons.h"
 #include "tests/exhibit/flash_counter.h"
 
-#include <GLES3/gl3.h>
+#include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
 #include <random>

@@ -3,7 +3,7 @@
 import asyncio
 import time
 
-from .cp2112 import PINS
+from .cp2112 import PINS, SPECIAL
 from .faults import parse_duration
 
 HELP = f"""\
@@ -11,6 +11,7 @@ press PIN [DURATION]   down, and up again after it (200 ms); pins are 0 to {PINS
 hold PIN               down until 'release PIN'
 release PIN
 bounce PIN [DURATION]  a press whose contacts bounce: a burst of edges when it goes down and when it comes up
+special PIN            the special function of pin 0, 1 or 7 is on, and it is no GPIO, until 'special off' or 'unplug'
 unplug [DURATION]      the USB cable is out; 'plug' puts it back
 plug
 status                 pins, lamps, how often the host read
@@ -33,6 +34,8 @@ class ButtonsConsole:
             self._press(_pin(words[0]), duration, name == "bounce")
         elif name in ("hold", "release") and len(words) == 1:
             self._buttons.hold(_pin(words[0]), name == "hold")
+        elif name == "special" and len(words) == 1:
+            self._special(words[0])
         elif name == "unplug" and len(words) <= 1:
             self._unplug(_duration(words[0]) if words else None)
         elif name == "plug" and not words:
@@ -56,6 +59,12 @@ class ButtonsConsole:
                 else:
                     loop = asyncio.get_running_loop()
                     loop.call_later(begin + k * _BOUNCE_S, self._buttons.hold, pin, at_end)
+
+    def _special(self, word):
+        bits = {"off": 0, **{str(pin): self._buttons.special_bits() | bit for pin, bit in SPECIAL.items()}}
+        if word not in bits:
+            raise ValueError(f"found special '{word}'; allowed are 0, 1, 7 or off")
+        self._buttons.set_special(bits[word])
 
     def _unplug(self, duration):
         self._disarm()

@@ -1,12 +1,14 @@
 """A Silicon Labs CP2112: a USB bridge whose eight pins hid-cp2112 makes a GPIO chip. Buttons pull pins low.
 
 Reports (Silicon Labs AN495), the number first: 0x02 pin directions and modes, 0x03 pins read, 0x04 pins written, 0x05
-part and version, 0x06 SMBus settings, 0x20 which strings may still be written. No SMBus device answers.
+part and version, 0x06 SMBus settings, 0x20 which strings may still be written. No SMBus device answers. Pins 0, 1 and 7
+have a special function; while it is on, they are no GPIO. Like all of 0x02 it is in RAM, and off after a start.
 """
 
 from .usb_device import IN, INTERRUPT, Endpoint, UsbDevice
 
 PINS = 8
+SPECIAL = {7: 1, 0: 2, 1: 4}  # pins and their bits in report 0x02: clock output, TX toggle, RX toggle
 _DIRECTIONS, _READ_PINS, _WRITE_PINS, _VERSION, _SMBUS, _LOCK, _USB_SETTINGS = 0x02, 0x03, 0x04, 0x05, 0x06, 0x20, 0x21
 _STATUS_REQUEST, _STATUS = 0x15, 0x16
 _FEATURE, _INPUT, _OUTPUT = 0xB1, 0x81, 0x91  # items of a report descriptor, with one byte of data
@@ -49,10 +51,21 @@ class Cp2112(UsbDevice):
     def hold(self, pin, down):
         self._pressed = self._pressed | 1 << pin if down else self._pressed & ~(1 << pin)
 
+    def set_special(self, bits):
+        outputs, push_pull, _, divider = self._features[_DIRECTIONS]
+        self._features[_DIRECTIONS] = bytes([outputs, push_pull, bits, divider])
+
+    def special_bits(self):
+        return self._features[_DIRECTIONS][2]
+
+    def special_pins(self):
+        return sum(1 << pin for pin, bit in SPECIAL.items() if self.special_bits() & bit)
+
     def pins(self):
         """A bit each: inputs are pulled up and buttons pull them down, outputs are as they were written."""
         outputs = self._features[_DIRECTIONS][0]
-        return (self.lamps & outputs) | (~self._pressed & ~outputs & 0xFF)
+        gpio = (self.lamps & outputs) | (~self._pressed & ~outputs & 0xFF)
+        return gpio | self.special_pins()
 
     def get_report(self, kind, number, length):
         if kind != _FEATURE_KIND:

@@ -1,0 +1,84 @@
+import os
+import unittest
+
+from mocks.buttons_console import ButtonsConsole
+from mocks.cp2112 import Cp2112
+from mocks.usb_device import Request
+
+REPORTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "cp2112_reports.txt")
+
+
+def lines(*verbs):
+    with open(REPORTS, encoding="utf-8") as file:
+        for line in file:
+            verb, _, rest = line.partition("#")[0].strip().partition(" ")
+            if verb in verbs:
+                given, _, found = rest.partition("=")
+                yield verb, given, found
+
+
+def get(device, number, length):
+    return device.control(Request(0xA1, 1, 3 << 8 | number, 0, length))
+
+
+def set_report(device, report):
+    return device.control(Request(0x21, 9, 3 << 8 | report[0], 0, len(report)), report)
+
+
+class Reports(unittest.TestCase):
+    def test_are_those_that_linux_asks_and_sends(self):
+        device = Cp2112()
+        count = 0
+        for verb, given, found in lines("get", "set"):
+            count += 1
+            if verb == "set":
+                self.assertEqual(set_report(device, bytes.fromhex(given)), b"", given)
+                continue
+            number, length = given.split()
+            answer = get(device, int(number, 16), int(length))
+            self.assertEqual(len(answer), int(length), given)
+            self.assertEqual(answer[0], int(number, 16))
+            if found:
+                self.assertEqual(answer, bytes.fromhex(found), given)
+        self.assertGreater(count, 10)
+
+    def test_take_pins_away_as_other_drivers_have_it(self):
+        count = 0
+        for _, given, found in lines("functions"):
+            count += 1
+            device = Cp2112()
+            self.assertEqual(set_report(device, bytes.fromhex(given)), b"")
+            special = sum(1 << int(pin) for pin in found.split())
+            self.assertEqual(device.special_pins(), special, given)
+            for pin in range(8):
+                device.hold(pin, True)
+            self.assertEqual(get(device, 3, 2), bytes([3, special]), "no button pulls it down")
+        self.assertEqual(count, 5)
+
+
+class SpecialCommand(unittest.TestCase):
+    def setUp(self):
+        self.device = Cp2112()
+        self.console = ButtonsConsole(self.device)
+
+    def test_switches_a_pins_function_on_until_the_power_is_gone(self):
+        for pin, byte in ((7, 1), (0, 3), (1, 7)):
+            self.console.execute(f"special {pin}")
+            self.assertEqual(get(self.device, 2, 5), bytes([2, 0, 0, byte, 0]))
+        self.assertEqual(set_report(self.device, b"\x02\x04\xff\x07\x00"), b"")  # as the driver: it stays
+        self.assertEqual(self.device.special_pins(), 0x83)
+        self.device.start_anew()
+        self.assertEqual(get(self.device, 2, 5), bytes([2, 0, 0, 0, 0]))
+        self.console.execute("special 1")
+        self.console.execute("special off")
+        self.assertEqual(self.device.special_pins(), 0)
+
+    def test_refuses_pins_that_have_none(self):
+        for word in ("2", "8", "all"):
+            with self.assertRaises(ValueError) as refused:
+                self.console.execute(f"special {word}")
+            self.assertIn("0, 1, 7 or off", str(refused.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()
