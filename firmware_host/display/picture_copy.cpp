@@ -26,7 +26,7 @@ void main() {
 }
 )";
 
-constexpr std::string_view exact_shader = R"(
+constexpr std::string_view shader_of_codes = R"(
 uniform sampler2D picture;
 in vec2 at;
 out vec4 code;
@@ -35,7 +35,8 @@ void main() {
 }
 )";
 
-constexpr std::string_view scaled_shader = R"(
+/// Where the driver decodes every texel that is read.
+constexpr std::string_view shader_of_light = R"(
 uniform sampler2D picture;
 in vec2 at;
 out vec4 code;
@@ -47,38 +48,32 @@ void main() {
 }
 )";
 
-GlSampler make_sampler(GLint filter) {
+GlSampler make_sampler(GLint filter, bool of_codes) {
     GlSampler sampler = GlSampler::generate();
     glSamplerParameteri(sampler.get(), GL_TEXTURE_MIN_FILTER, filter);
     glSamplerParameteri(sampler.get(), GL_TEXTURE_MAG_FILTER, filter);
     glSamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glSamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    if (of_codes) {
+        glSamplerParameteri(sampler.get(), GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    }
     return sampler;
 }
 
 } // namespace
 
 Result<PictureCopy> PictureCopy::create() {
-    const bool codes_as_they_are = has_gl_extension("GL_EXT_texture_sRGB_decode");
-    GlSampler codes = make_sampler(GL_NEAREST);
-    if (codes_as_they_are) {
-        glSamplerParameteri(codes.get(), GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    const bool of_codes = has_gl_extension("GL_EXT_texture_sRGB_decode");
+    Result<GlProgram> program = make_program("", vertex_shader, of_codes ? shader_of_codes : shader_of_light);
+    if (!program) {
+        return tl::unexpected<Error>(program.error());
     }
-    Result<GlProgram> exact =
-        make_program("", vertex_shader, codes_as_they_are ? exact_shader : scaled_shader);
-    if (!exact) {
-        return tl::unexpected<Error>(exact.error());
-    }
-    Result<GlProgram> scaled = make_program("", vertex_shader, scaled_shader);
-    if (!scaled) {
-        return tl::unexpected<Error>(scaled.error());
-    }
-    return PictureCopy(std::move(*exact), std::move(*scaled), std::move(codes), make_sampler(GL_LINEAR));
+    return PictureCopy(std::move(*program), make_sampler(GL_NEAREST, of_codes),
+                       make_sampler(GL_LINEAR, of_codes));
 }
 
-PictureCopy::PictureCopy(GlProgram exact, GlProgram scaled, GlSampler codes, GlSampler light)
-    : exact_(std::move(exact)), scaled_(std::move(scaled)), codes_(std::move(codes)),
-      light_(std::move(light)) {}
+PictureCopy::PictureCopy(GlProgram program, GlSampler nearest, GlSampler interpolated)
+    : program_(std::move(program)), nearest_(std::move(nearest)), interpolated_(std::move(interpolated)) {}
 
 /// The whole picture at `place`, of which the pixels of `part` are written; rows counted as the target's.
 struct PictureCopy::Pass {
@@ -92,12 +87,11 @@ void PictureCopy::draw(const PictureFramebuffer& picture, const Pass& pass) cons
     glEnable(GL_SCISSOR_TEST);
     glScissor(pass.part.x, pass.part.y, pass.part.width, pass.part.height);
     glViewport(pass.place.x, pass.place.y, pass.place.width, pass.place.height);
-    const GLuint program = (pass.exact ? exact_ : scaled_).get();
-    glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "top_is_last"), pass.top == TopRow::Last ? 1 : 0);
+    glUseProgram(program_.get());
+    glUniform1i(glGetUniformLocation(program_.get(), "top_is_last"), pass.top == TopRow::Last ? 1 : 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, picture.texture());
-    glBindSampler(0, (pass.exact ? codes_ : light_).get());
+    glBindSampler(0, (pass.exact ? nearest_ : interpolated_).get());
     glBindVertexArray(vertices_.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindTexture(GL_TEXTURE_2D, 0);

@@ -19,8 +19,8 @@
 namespace frustumscreen {
 
 enum class ViperCommand : std::uint32_t {
-    Hemisphere = 0, ///< a sensor's: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space in
-                    ///< which the sensors are
+    Hemisphere = 0,  ///< a sensor's: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space in
+                     ///< which the sensors are
     Filter = 1,      ///< a sensor's: u32 level (0 none), f32[4] that only level 4 uses; arg2 the target
     FrameRate = 6,   ///< u32: 30 Hz << value, 0 to 5
     Units = 7,       ///< u32 position (3 = metres), u32 orientation (2 = quaternion)
