@@ -144,7 +144,8 @@ def main(family):
 if __name__ == "__main__":
     try:
         with Family() as whole:
-            sys.exit(main(whole))
+            status = main(whole)
     except Ended as ended:
         print(f"hil: ended by {ended}", file=sys.stderr, flush=True)
         os._exit(ended.status)  # a thread that waited for a program might go on to the next one
+    sys.exit(status)
