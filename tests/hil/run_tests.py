@@ -34,7 +34,15 @@ def flat(suite):
 
 
 class Verdicts(unittest.TextTestResult):
-    """Keeps what the machine shows when a test has failed, before the next one begins."""
+    """Says how long each test took, and keeps what the machine shows when one has failed, before the next begins."""
+
+    def startTest(self, test):
+        self._begun = time.monotonic()
+        super().startTest(test)
+
+    def stopTest(self, test):
+        super().stopTest(test)
+        self.stream.writeln(f"    {time.monotonic() - self._begun:.0f} s")
 
     def _keep(self, test, error):
         folder = HilTest.bench.evidence_of(test)

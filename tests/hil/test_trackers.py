@@ -1,7 +1,7 @@
 """The other trackers that a museum may have, through their own kernel drivers: plugged in in place of the VIPER."""
 
 from bench import EYE_M, UPRIGHT
-from hil_test import HilTest
+from hil_test import HilTest, long
 
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
@@ -19,6 +19,24 @@ class Trackers(HilTest):
         tracker.tell("pose", *EYE_M, *UPRIGHT, 2)
         tracker.tell("unplug", "off")
         self.bench.status_says("tracker", "is running", FOUND_S)
+        self.assert_at(PLACE_M, artifact=ARTIFACT)
+
+    def test_viper_filters_nothing(self):
+        self.assertEqual(self.bench.tracker.tell("status")["filter_levels"], {"orientation": 0, "position": 0})
+
+    @long
+    def test_a_dead_one_does_not_keep_the_other_out(self):
+        self.show(ARTIFACT)
+        dead = self.bench.other_trackers["patriot"]
+        self.addCleanup(dead.tell, "unplug")
+        self.addCleanup(dead.tell, "good")
+        self.bench.tracker.tell("unplug")
+        dead.tell("hang")
+        dead.tell("unplug", "off")
+        self.bench.status_says("tracker", "(?i)patriot", FOUND_S)
+        self.bench.place(PLACE_M)
+        self.bench.tracker.tell("unplug", "off")
+        self.bench.status_says("tracker", "is running", 3 * FOUND_S)
         self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def test_patriot(self):

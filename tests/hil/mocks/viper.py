@@ -112,6 +112,11 @@ class Viper(Tracker):
         position, orientation = struct.unpack("<II", self.settings[UNITS, 0])
         return (INCHES if self.faults.on("wrong-units") else position, orientation)
 
+    def status(self):
+        levels = {name: struct.unpack_from("<I", self.settings[FILTER, which])[0]
+                  for name, which in (("orientation", TURNS), ("position", PLACES))}
+        return {**super().status(), "filter_levels": levels}
+
     def received(self, endpoint, data):
         self._stream += data
         for command in split_commands(self._stream):
