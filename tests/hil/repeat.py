@@ -28,7 +28,7 @@ class Run:
 
     load_average: float  # of the last five minutes, at the end
     took_s: float
-    stood_s: float  # the longest that a picture stood
+    stood_s: float  # the longest that a picture stood while it should move
     wrong: list = field(default_factory=list)  # names of tests
 
 

@@ -4,7 +4,7 @@ import time
 
 import screen
 from bench import CONNECTOR, UNIT, eventually
-from hil_test import HilTest
+from hil_test import HilTest, long
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
 STOPPED_S = 0.5
@@ -55,10 +55,12 @@ class Restart(HilTest):
         self.bench.machine.check(f"kill -KILL {self.process}")
         self.assert_restarted()
 
+    @long
     def test_stopped(self):
         self.bench.machine.check(f"kill -STOP {self.process}")
         self.assert_restarted()
 
+    @long
     def test_started_without_projector(self):
         self.bench.machine.check(f"echo off > {CONNECTOR}; systemctl restart --no-block {UNIT}")
         eventually(lambda: self.bench.main_process() not in (0, self.process), BACK_S, "systemd does not restart it")
@@ -85,10 +87,12 @@ class Restart(HilTest):
         eventually(lambda: "the picture hangs" in self.bench.journal(), BACK_S, "nobody tells that the picture hangs")
         self.assert_restarted()
 
+    @long
     def test_hung_connector_thread(self):
         self.hang("connector")
         self.assert_restarted()
 
+    @long
     def test_hung_tracker_thread(self):
         self.hang("usb")
         self.assert_restarted()
