@@ -1,11 +1,13 @@
 /// frustumscreen-bake: a curator's artifact file to a pack.
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_magic.h"
 #include "app/pack/sha256.h"
 #include "app/programs/guarded_main.h"
 #include "app/programs/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <CLI/CLI.hpp>
@@ -23,6 +25,7 @@ namespace {
 struct Arguments {
     std::filesystem::path input;
     std::filesystem::path output;
+    bool force = false; ///< replace an output that is no pack
     BakeOptions options;
     std::string prop = "frustum";
     std::string title;
@@ -75,6 +78,9 @@ Result<Pack> bake_file(const Arguments& arguments) {
     if (!mesh) {
         return tl::unexpected<Error>(mesh.error());
     }
+    if (const Result<void> safe = check_output_is_no_input(arguments.output, mesh->side_files); !safe) {
+        return tl::unexpected<Error>(safe.error());
+    }
     if (arguments.options.unlit && !has_colours(*mesh)) {
         say_line(
             "frustumscreen-bake",
@@ -92,7 +98,29 @@ Result<Pack> bake_file(const Arguments& arguments) {
     return pack;
 }
 
+/// Before the work: the scan stays, an unknown file too, and what is made can be kept.
+Result<void> check_output(const Arguments& arguments) {
+    if (Result<void> safe = check_output_is_no_input(arguments.output, {{arguments.input}}); !safe) {
+        return safe;
+    }
+    if (Result<void> place = check_output_place(arguments.output, most_bytes_of_pack(arguments.options.size));
+        !place) {
+        return place;
+    }
+    std::error_code ignored;
+    if (!arguments.force && std::filesystem::exists(arguments.output, ignored) &&
+        !begins_as_pack(arguments.output)) {
+        return bad_input(fmt::format("{}: this file is there and is not a pack; choose another name for the "
+                                     "output, or add --force to replace it",
+                                     arguments.output.string()));
+    }
+    return {};
+}
+
 Result<void> work(const Arguments& arguments) {
+    if (Result<void> checked = check_output(arguments); !checked) {
+        return checked;
+    }
     const Result<Pack> pack = bake_file(arguments);
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
@@ -116,6 +144,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.add_option("INPUT", arguments.input, "artifact file")->required();
     app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)")->required();
+    app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");
     app.add_option("--size", arguments.options.size, "texels along the longest edge of a face, 16 to 4096")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();

@@ -4,6 +4,7 @@
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
 #include "firmware_host/tracker/convert_recording.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -77,6 +78,10 @@ Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
 }
 
 Result<void> convert(const ConvertRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.input, request.settings}});
+        !safe) {
+        return safe;
+    }
     Result<Bytes> bytes = read_file(request.input);
     if (!bytes) {
         return tl::unexpected(bytes.error());
@@ -120,6 +125,9 @@ Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
 }
 
 Result<void> simulate(const SimulateRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.settings}}); !safe) {
+        return safe;
+    }
     const Result<SimulatedVisitor> visitor = visitor_for(request);
     if (!visitor) {
         return tl::unexpected(visitor.error());

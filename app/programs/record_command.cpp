@@ -7,6 +7,7 @@
 #include "app/programs/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/service/stop_signals.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -160,6 +161,11 @@ Result<void> record(const Request& request, Inputs& inputs) {
     const Result<CheckedSettings> settings = load_settings(request.config);
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
+    }
+    if (Result<void> safe =
+            check_output_is_no_input(request.output, {{request.config, (*settings)->tracker.poses}});
+        !safe) {
+        return safe;
     }
     DevicePlan devices;
     devices.tracker = (*settings)->tracker.kind;

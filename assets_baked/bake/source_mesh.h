@@ -42,7 +42,8 @@ struct SourceMesh {
     std::vector<std::uint32_t> triangle_materials;       ///< one each triangle
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
-    char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
+    std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
+    char default_up = 'y';                         ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 
 } // namespace frustumscreen

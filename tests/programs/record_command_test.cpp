@@ -4,6 +4,7 @@
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "tests/programs/hung_thread.h"
+#include "tests/programs/program_folder.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <fmt/format.h>
@@ -41,29 +42,10 @@ Bytes recording() {
     return file;
 }
 
-class RecordCommand : public ::testing::Test {
+class RecordCommand : public ProgramFolder {
 protected:
-    void SetUp() override {
-        folder = fs::temp_directory_path() / ("frustumscreen_record_test" + std::to_string(::getpid()));
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     void settings(const std::string& tracker) const {
         ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[tracker]\n" + tracker)));
-    }
-    /// The exit status; what it printed is in out.txt and err.txt.
-    [[nodiscard]] int run(const std::string& command) const {
-        const int status =
-            std::system(fmt::format("cd '{}' && ASAN_OPTIONS=detect_leaks=0 '{}'/{} >out.txt 2>err.txt",
-                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
-                            .c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    [[nodiscard]] std::string text(const std::string& file) const {
-        const Result<Bytes> bytes = read_file(folder / file);
-        return bytes ? std::string(as_text(*bytes)) : std::string();
     }
     [[nodiscard]] std::vector<PoseSample> poses(const std::string& file) const {
         const auto parsed = parse_poses(text(file), file, PoseOrder::PropAscends);
@@ -103,7 +85,6 @@ protected:
         ::waitpid(process, &status, 0);
         return hangs ? std::optional(WIFEXITED(status) ? WEXITSTATUS(status) : -1) : std::nullopt;
     }
-    fs::path folder;
 };
 
 TEST_F(RecordCommand, WritesWhatTheTrackerGaveAsAPoseFile) {
@@ -143,6 +124,20 @@ TEST_F(RecordCommand, ARecordingIsConvertedUpToItsCut) {
     EXPECT_EQ(to_microseconds(found.back().time), 990'000);
     EXPECT_LT(glm::distance(found.back().position_m, glm::dvec3(0.098, 0, 0)), 1e-12);
     EXPECT_NE(text("out.txt").find("53 bytes behind a cut"), std::string::npos) << text("out.txt");
+}
+
+TEST_F(RecordCommand, ARecordingIsNeverReplacedByWhatIsMadeOfIt) {
+    const Bytes whole = recording();
+    ASSERT_TRUE(write_file(folder / "fault.rec", whole));
+    settings("kind = \"replay\"\nposes = \"fault.rec\"\n");
+    for (const char* command :
+         {"frustumscreen-poses convert fault.rec -o ./fault.rec",
+          "frustumscreen record --config kiosk.toml --seconds 0.1 -o ./fault.rec",
+          "frustumscreen record --raw --config kiosk.toml --seconds 0.1 -o ./fault.rec"}) {
+        EXPECT_EQ(run(command), 1) << command;
+        EXPECT_NE(text("err.txt").find("would replace the input"), std::string::npos) << text("err.txt");
+        EXPECT_EQ(read_file(folder / "fault.rec"), whole) << command;
+    }
 }
 
 TEST_F(RecordCommand, WhatHasNoPacketsIsRefusedInPlainWords) {

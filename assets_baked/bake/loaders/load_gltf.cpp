@@ -313,7 +313,14 @@ SourceMesh load_gltf(ByteView file, const std::filesystem::path& folder) {
     }
     Sidecars sidecars(folder);
     GltfBuffers buffers(model, sidecars, container.binary_chunk);
-    return SceneDrawer(model, buffers, sidecars).draw();
+    SourceMesh mesh = SceneDrawer(model, buffers, sidecars).draw();
+    for (const GltfImage& image : model.images) {
+        if (image.uri) {
+            sidecars.mention(percent_decoded_if_valid(*image.uri));
+        }
+    }
+    mesh.side_files = sidecars.files();
+    return mesh;
 }
 
 } // namespace frustumscreen

@@ -35,6 +35,7 @@ public:
         tinyobj::LoadMtl(&names, &materials, &stream, &warnings, &errors);
         for (const auto& [material, index] : names) {
             if (index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
+                mention_pictures(materials[static_cast<std::size_t>(index)]);
                 known_.insert_or_assign(material, materials[static_cast<std::size_t>(index)]);
             }
         }
@@ -52,7 +53,20 @@ public:
         return used_[name] = mesh_.add_material(made);
     }
 
+    [[nodiscard]] std::vector<std::filesystem::path> files() const { return sidecars_.files(); }
+
 private:
+    void mention_pictures(const tinyobj::material_t& material) {
+        for (const std::string* name :
+             {&material.diffuse_texname, &material.ambient_texname, &material.specular_texname,
+              &material.specular_highlight_texname, &material.bump_texname, &material.displacement_texname,
+              &material.alpha_texname, &material.reflection_texname, &material.roughness_texname,
+              &material.metallic_texname, &material.sheen_texname, &material.emissive_texname,
+              &material.normal_texname}) {
+            sidecars_.mention(*name);
+        }
+    }
+
     SourceMaterial made_from(const tinyobj::material_t& source) {
         SourceMaterial made;
         const bool textured = !source.diffuse_texname.empty();
@@ -96,7 +110,9 @@ public:
         while (!text_.empty()) {
             read_line(next_line());
         }
-        return mesh_.finish();
+        SourceMesh mesh = mesh_.finish();
+        mesh.side_files = materials_.files();
+        return mesh;
     }
 
 private:

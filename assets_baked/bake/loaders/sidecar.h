@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -23,14 +24,22 @@ public:
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name, std::string_view place) const;
 
+    /// The model names this file and nothing of it is read, such as a map of normals. A name that `read`
+    /// would refuse is passed over.
+    void mention(std::string_view name);
+    /// Every file that was read or mentioned, by its path.
+    [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
 private:
     [[nodiscard]] std::filesystem::path path_of(std::string_view name, std::string_view place) const;
 
     std::filesystem::path folder_;
-    std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_;
+    std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_; ///< null: only mentioned
 };
 
 /// %20 and its like turned into bytes (RFC 3986, 2.1).
 [[nodiscard]] std::string percent_decoded(std::string_view uri, std::string_view place);
+/// The same; empty where a % is without two hexadecimal digits.
+[[nodiscard]] std::string percent_decoded_if_valid(std::string_view uri);
 
 } // namespace frustumscreen

@@ -1,0 +1,41 @@
+// A folder of its own in which a test runs our programs as a person would.
+#pragma once
+
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace frustumscreen {
+
+class ProgramFolder : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    /// `command` begins with a program's name; the exit status. What it printed is in out.txt and err.txt.
+    [[nodiscard]] int run(const std::string& command) const {
+        const int status =
+            std::system(fmt::format("cd '{}' && ASAN_OPTIONS=detect_leaks=0 '{}'/{} >out.txt 2>err.txt",
+                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
+                            .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    [[nodiscard]] std::string text(const std::string& file) const {
+        const Result<Bytes> bytes = read_file(folder / file);
+        return bytes ? std::string(as_text(*bytes)) : std::string();
+    }
+
+    std::filesystem::path folder;
+};
+
+} // namespace frustumscreen
