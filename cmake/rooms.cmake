@@ -23,10 +23,15 @@ if(FRUSTUMSCREEN_FUZZ)
     target_compile_options(frustumscreen_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Tests run once or twice a build: what -O2 takes longer to compile, it does not win back.
+set(test_options $<$<CONFIG:RelWithDebInfo>:-O1>)
+include(cmake/precompiled.cmake)
+
 function(frustumscreen_room room)
     cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
     add_library(${room} STATIC ${ROOM_SOURCES})
     target_link_libraries(${room} PUBLIC frustumscreen_options ${ROOM_USES} ${ROOM_LIBRARIES})
+    frustumscreen_use_precompiled(${room} house)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${room}: ${ROOM_USES}")
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS
         "${room}=${CMAKE_CURRENT_SOURCE_DIR}")
@@ -37,6 +42,7 @@ function(frustumscreen_program name)
     cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
     add_executable(${name} ${PROGRAM_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
+    frustumscreen_use_precompiled(${name} house)
     add_dependencies(programs ${name})
 endfunction()
 
@@ -45,6 +51,8 @@ function(frustumscreen_test name)
     cmake_parse_arguments(TEST "" "" "SOURCES;USES;LABELS" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} GTest::gtest_main)
+    target_compile_options(${name} PRIVATE ${test_options})
+    frustumscreen_use_precompiled(${name} tests)
     target_compile_definitions(${name} PRIVATE
         FRUSTUMSCREEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
         FRUSTUMSCREEN_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
