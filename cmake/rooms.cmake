@@ -44,6 +44,8 @@ function(frustumscreen_program name)
     target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
     frustumscreen_use_precompiled(${name} house)
     add_dependencies(programs ${name})
+    set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${name}: ${PROGRAM_USES}")
+    set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS "${name}=${CMAKE_CURRENT_SOURCE_DIR}")
 endfunction()
 
 # A GoogleTest program of one room; working directory is its own build folder.

@@ -2,8 +2,8 @@
 // memory. Bytes and programs are asked of OpenGL; pictures are compared pixel for pixel with those of a show
 // that leaves nothing out.
 
-#include "app/programs/run_artifacts.h"
 #include "app/render/read_back.h"
+#include "app/show/artifact_show.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/synthetic_pack.h"
 

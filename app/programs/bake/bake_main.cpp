@@ -1,0 +1,186 @@
+/// frustumscreen-bake: a curator's artifact file to a pack.
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_magic.h"
+#include "app/pack/sha256.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    bool force = false; ///< replace an output that is no pack
+    BakeOptions options;
+    std::string prop = "frustum";
+    std::string title;
+    std::string licence;
+    std::vector<std::string> languages;
+    std::vector<std::string> captions; ///< LANGUAGE=TEXT
+};
+
+Result<void> describe(Pack& pack, const Arguments& arguments) {
+    pack.title = arguments.title.empty() ? arguments.input.stem().string() : arguments.title;
+    pack.languages = arguments.languages.empty() ? std::vector<std::string>{"en"} : arguments.languages;
+    for (const std::string& language : pack.languages) {
+        pack.captions.push_back({language, pack.title, ""});
+    }
+    for (const std::string& caption : arguments.captions) {
+        const std::size_t equals = caption.find('=');
+        const std::string language = caption.substr(0, equals);
+        const auto known = std::find_if(pack.captions.begin(), pack.captions.end(),
+                                        [&](const PackCaption& c) { return c.language == language; });
+        if (equals == std::string::npos) {
+            return bad_input(
+                fmt::format("--caption '{}': write LANGUAGE=TEXT, such as \"en=A cat.\"", caption));
+        }
+        if (known == pack.captions.end()) {
+            return bad_input(fmt::format("--caption '{}': the languages are {}; add --language {}", caption,
+                                         fmt::join(pack.languages, ", "), language));
+        }
+        known->text = caption.substr(equals + 1);
+    }
+    const Result<Bytes> source = read_file(arguments.input);
+    if (!source) {
+        return tl::unexpected<Error>(source.error());
+    }
+    pack.provenance.source_name = arguments.input.filename().string();
+    pack.provenance.source_sha256 = sha256_hex(*source);
+    pack.provenance.licence = arguments.licence;
+    return {};
+}
+
+/// Unlit, such a mesh would be one flat colour.
+bool has_colours(const SourceMesh& mesh) {
+    const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
+        return each.base_colour == mesh.materials.front().base_colour;
+    });
+    return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
+Result<Pack> bake_file(const Arguments& arguments) {
+    const Result<SourceMesh> mesh = load_mesh(arguments.input);
+    if (!mesh) {
+        return tl::unexpected<Error>(mesh.error());
+    }
+    if (const Result<void> safe = check_output_is_no_input(arguments.output, mesh->side_files); !safe) {
+        return tl::unexpected<Error>(safe.error());
+    }
+    if (arguments.options.unlit && !has_colours(*mesh)) {
+        say_line(
+            "frustumscreen-bake",
+            fmt::format("{}: it has no colours, --unlit makes a flat picture of it; without --unlit it is "
+                        "lit as in a museum",
+                        arguments.input.string()));
+    }
+    Result<Pack> pack = bake(*mesh, arguments.options);
+    if (!pack) {
+        return at(arguments.input.string(), pack.error());
+    }
+    if (const Result<void> described = describe(*pack, arguments); !described) {
+        return tl::unexpected<Error>(described.error());
+    }
+    return pack;
+}
+
+/// Before the work: the scan stays, an unknown file too, and what is made can be kept.
+Result<void> check_output(const Arguments& arguments) {
+    if (Result<void> safe = check_output_is_no_input(arguments.output, {{arguments.input}}); !safe) {
+        return safe;
+    }
+    if (Result<void> place = check_output_place(arguments.output, most_bytes_of_pack(arguments.options.size));
+        !place) {
+        return place;
+    }
+    std::error_code ignored;
+    if (!arguments.force && std::filesystem::exists(arguments.output, ignored) &&
+        !begins_as_pack(arguments.output)) {
+        return bad_input(fmt::format("{}: this file is there and is not a pack; choose another name for the "
+                                     "output, or add --force to replace it",
+                                     arguments.output.string()));
+    }
+    return {};
+}
+
+Result<void> work(const Arguments& arguments) {
+    if (Result<void> checked = check_output(arguments); !checked) {
+        return checked;
+    }
+    const Result<Pack> pack = bake_file(arguments);
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    const Result<Bytes> bytes = write_pack(*pack);
+    if (!bytes) {
+        return at(arguments.output.string(), bytes.error());
+    }
+    return write_file(arguments.output, *bytes);
+}
+
+int run(int argc, char** argv) {
+    Arguments arguments;
+    ProgressLine progress("baking, per cent");
+    arguments.options.progress = [&](std::string_view, double done) {
+        progress.show(static_cast<std::size_t>(done * 100.0), 100);
+    };
+
+    CLI::App app("Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen.",
+                 "frustumscreen-bake");
+    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.add_option("INPUT", arguments.input, "artifact file")->required();
+    app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)")->required();
+    app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");
+    app.add_option("--size", arguments.options.size, "texels along the longest edge of a face, 16 to 4096")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    app.add_flag("--unlit", arguments.options.unlit,
+                 "base colour alone, no museum light: for colours that have their light in them");
+    app.add_option("--prop", arguments.prop, "prop whose directions the relief is made for")
+        ->check(CLI::IsMember({"frustum", "cube"}))
+        ->capture_default_str();
+    app.add_option("--up", arguments.options.up, "the file's up axis (default: glTF, OBJ, PLY y; STL z)")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+    app.add_option("--title", arguments.title, "title (default: the file's name)");
+    app.add_option("--language", arguments.languages, "language of a caption, BCP 47; may be repeated");
+    app.add_option("--caption", arguments.captions, "LANGUAGE=TEXT; may be repeated");
+    app.add_option("--licence", arguments.licence, "licence of the artifact");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    arguments.options.prop = arguments.prop == "cube" ? PropKind::Cube : PropKind::Frustum;
+    try {
+        if (const Result<void> done = work(arguments); !done) {
+            fmt::print(stderr, "frustumscreen-bake: {}\n", done.error().message);
+            return 1;
+        }
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "frustumscreen-bake: {}: not enough memory; try a smaller --size\n",
+                   arguments.input.string());
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-bake", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,132 @@
+#include "app/programs/bench/bench_command.h"
+
+#include "app/pack/pack_file.h"
+#include "app/pack/sha256.h"
+#include "app/settings/settings.h"
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace frustumscreen {
+
+BenchProgress::BenchProgress()
+    : on_terminal_(::isatty(STDERR_FILENO) != 0), started_(std::chrono::steady_clock::now()) {}
+
+BenchProgress::~BenchProgress() {
+    clear();
+}
+
+void BenchProgress::show(const std::string& step, double done) {
+    const double passed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    const std::optional<double> left_s = time_left_.at(step, done, passed_s);
+    if (!on_terminal_ || passed_s < 2.0) {
+        return;
+    }
+    fmt::print(stderr, "\r\033[K{} {:.0f} %{}", step, done * 100.0,
+               left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string());
+    std::fflush(stderr);
+    written_ = true;
+}
+
+void BenchProgress::clear() {
+    if (written_) {
+        fmt::print(stderr, "\r\033[K");
+        written_ = false;
+    }
+}
+
+void add_place_options(CLI::App& command, BenchPlace& place) {
+    command.add_option("--out", place.out, "folder for the tables and plots")->required();
+    command.add_option(
+        "--config", place.configs,
+        "settings of a set-up; may be repeated (default: config/near.toml, config/kiosk.toml)");
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& picture) {
+    command.add_option("--samples", picture.samples, "samples a pixel; 0 = what the pack asks for")
+        ->check(CLI::IsMember({0, 1, 2, 4, 8, 16}))
+        ->capture_default_str();
+}
+
+void add_pose_options(CLI::App& command, int& poses, std::uint64_t& seed) {
+    command.add_option("--poses", poses, "poses of prop and eye")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command.add_option("--seed", seed, "of the poses")->capture_default_str();
+}
+
+void add_artifact_options(CLI::App& command, BenchArtifact& artifact) {
+    command.add_option("--pack", artifact.pack, "pack, baked with --unlit")->required();
+    command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from")->required();
+}
+
+namespace {
+
+void warn(const std::filesystem::path& file, const std::string& of_what) {
+    fmt::print(stderr, "frustumscreen-bench: {}: {}\n", file.string(), of_what);
+}
+
+} // namespace
+
+Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
+    Result<VerifiedPack> pack = load_pack(artifact.pack);
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    const Result<Bytes> bytes = read_file(artifact.mesh);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    if (!(*pack)->unlit) {
+        warn(artifact.pack, "baked with light, so its colour errors say nothing; bake it with --unlit");
+    }
+    if (sha256_hex(*bytes) != (*pack)->provenance.source_sha256) {
+        warn(artifact.mesh,
+             fmt::format("not the file that {} was baked from (that one was {}); right only if "
+                         "both hold the same surface",
+                         artifact.pack.string(), (*pack)->provenance.source_name));
+    }
+    Result<SourceMesh> mesh = load_mesh(artifact.mesh);
+    if (!mesh) {
+        return tl::unexpected<Error>(mesh.error());
+    }
+    return LoadedArtifact{std::move(*pack), std::make_shared<const SourceMesh>(std::move(*mesh))};
+}
+
+Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place) {
+    std::vector<std::filesystem::path> configs = place.configs;
+    if (configs.empty()) {
+        configs = {"config/near.toml", "config/kiosk.toml"};
+    }
+    std::vector<SetUp> set_ups;
+    for (const std::filesystem::path& config : configs) {
+        const Result<CheckedSettings> settings = load_settings(config);
+        if (!settings) {
+            return tl::unexpected<Error>(settings.error());
+        }
+        set_ups.push_back({config.stem().string(), **settings});
+    }
+    return set_ups;
+}
+
+Result<void> write_all(const std::filesystem::path& folder,
+                       const std::vector<std::pair<std::string, std::string>>& files) {
+    std::error_code made;
+    std::filesystem::create_directories(folder, made);
+    if (made) {
+        return bad_input(folder.string() + ": this folder cannot be made: " + made.message());
+    }
+    for (const auto& [name, text] : files) {
+        if (Result<void> written = write_file(folder / name, as_bytes(text)); !written) {
+            return written;
+        }
+    }
+    return {};
+}
+
+} // namespace frustumscreen

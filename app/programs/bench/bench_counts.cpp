@@ -1,0 +1,99 @@
+#include "app/programs/bench/bench_counts.h"
+
+#include "app/bench/counts.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    BenchPlace place;
+    std::vector<std::filesystem::path> packs;
+    std::filesystem::path reference;
+    int poses = 50;
+    std::uint64_t seed = 1;
+};
+
+Result<std::vector<CountedPack>> count_all(const Arguments& arguments, BenchProgress& progress) {
+    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
+    if (!set_ups) {
+        return tl::unexpected<Error>(set_ups.error());
+    }
+    std::vector<CountedPack> counted;
+    for (const std::filesystem::path& file : arguments.packs) {
+        progress.show(file.filename().string(),
+                      static_cast<double>(counted.size()) /
+                          static_cast<double>(arguments.packs.size() * set_ups->size()));
+        const Result<VerifiedPack> pack = load_pack(file);
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
+        for (const SetUp& set_up : *set_ups) {
+            Result<CountedPack> one = count_frames(set_up, **pack, arguments.poses, arguments.seed);
+            if (!one) {
+                return tl::unexpected<Error>(one.error());
+            }
+            counted.push_back(std::move(*one));
+        }
+    }
+    progress.clear();
+    return counted;
+}
+
+Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& file) {
+    if (file.empty()) {
+        return std::vector<CountedPack>{};
+    }
+    const Result<Bytes> bytes = read_file(file);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    Result<std::vector<CountedPack>> counts = read_counts(as_text(*bytes));
+    return counts ? std::move(counts) : at(file.string(), counts.error());
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const Result<std::vector<CountedPack>> reference = load_reference(arguments.reference);
+    if (!reference) {
+        return tl::unexpected<Error>(reference.error());
+    }
+    const Result<std::vector<CountedPack>> counted = count_all(arguments, progress);
+    if (!counted) {
+        return tl::unexpected<Error>(counted.error());
+    }
+    const std::vector<CountChange> against = changes(*counted, *reference);
+    fmt::print("{}", counts_table(*counted, against));
+    std::fflush(stdout);
+    Result<void> written = write_all(arguments.place.out, {{"counts.json", counts_json(*counted)}});
+    if (!written) {
+        return written;
+    }
+    if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
+        return fail(ErrorKind::Internal,
+                    fmt::format("a frame takes over {:.0f} % more than {} says",
+                                100.0 * (most_count_growth - 1.0), arguments.reference.string()));
+    }
+    return {};
+}
+
+} // namespace
+
+BenchCommand counts_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "counts", "triangles, samples and bytes of a frame; their change against a reference");
+    const auto arguments = std::make_shared<Arguments>();
+    add_place_options(*command, arguments->place);
+    command->add_option("--pack", arguments->packs, "one or several packs")->required();
+    command->add_option("--reference", arguments->reference,
+                        "counts.json to compare with, as docs/reference_counts.json");
+    add_pose_options(*command, arguments->poses, arguments->seed);
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,124 @@
+#include "app/programs/bench/bench_error_time.h"
+
+#include "app/bench/error_plot.h"
+#include "app/bench/error_time.h"
+#include "app/bench/figures.h"
+#include "app/bench/report.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    BenchPlace place;
+    BenchArtifact artifact;
+    ErrorTimeOptions options;
+    std::string peers = "all";
+};
+
+/// Every step of the run, so that the time left is that of all of them.
+std::vector<WorkStep> all_steps(const std::vector<SetUp>& set_ups, const LoadedArtifact& artifact,
+                                const ErrorTimeOptions& options) {
+    std::vector<WorkStep> steps = {{"the pack's own figures", "figures",
+                                    2.0 + 1e-5 * static_cast<double>(artifact.mesh->triangles.size())}};
+    for (const SetUp& set_up : set_ups) {
+        const std::vector<WorkStep> more = work_steps(set_up, *artifact.pack, *artifact.mesh, options);
+        steps.insert(steps.end(), more.begin(), more.end());
+    }
+    return steps;
+}
+
+/// The pack's own figures, measured again; in mm on the first set-up's prop.
+std::vector<Verdict> judge_figures(const LoadedArtifact& artifact, const SetUp& set_up,
+                                   BenchProgress& progress) {
+    progress.show("the pack's own figures", 0.0);
+    const std::vector<LevelFigures> figures = measure_figures(*artifact.pack, *artifact.mesh);
+    progress.show("the pack's own figures", 1.0);
+    progress.clear();
+    const double mm_per_box = 1e3 * place(*artifact.pack, make_prop(set_up.settings.prop)).metres_per_box;
+    std::vector<Verdict> verdicts = judge(figures, mm_per_box);
+    fmt::print("Are the pack's own figures true?\n{}\n", lines_of(verdicts));
+    return verdicts;
+}
+
+/// Measures one set-up, prints its table and adds its pictures to `files`.
+Result<SetUpResult> measure(const SetUp& set_up, const LoadedArtifact& artifact,
+                            const ErrorTimeOptions& options, BenchProgress& progress,
+                            std::vector<std::pair<std::string, std::string>>& files) {
+    Result<SetUpResult> result =
+        error_time(set_up, *artifact.pack, artifact.mesh, options,
+                   [&](const std::string& step, double done) { progress.show(step, done); });
+    if (!result) {
+        return result;
+    }
+    progress.clear();
+    fmt::print("{}\n", console_table(*result));
+    std::fflush(stdout);
+    files.emplace_back("error_time_" + set_up.name + ".svg", error_time_svg(*result, artifact.pack->title));
+    for (const auto& [level, picture] : result->worst) {
+        files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level), as_text(encode_png(picture)));
+    }
+    return result;
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
+    if (!set_ups) {
+        return tl::unexpected<Error>(set_ups.error());
+    }
+    const Result<LoadedArtifact> artifact = load_artifact(arguments.artifact);
+    if (!artifact) {
+        return tl::unexpected<Error>(artifact.error());
+    }
+    progress.plan(all_steps(*set_ups, *artifact, arguments.options));
+    const std::vector<Verdict> figures = judge_figures(*artifact, set_ups->front(), progress);
+    std::vector<SetUpResult> results;
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const SetUp& set_up : *set_ups) {
+        Result<SetUpResult> result = measure(set_up, *artifact, arguments.options, progress, files);
+        if (!result) {
+            return tl::unexpected<Error>(result.error());
+        }
+        results.push_back(std::move(*result));
+    }
+    files.emplace_back("error_time.csv", summary_csv(results));
+    files.emplace_back("error_time_poses.csv", poses_csv(results));
+    files.emplace_back("error_time.json", report_json(results, artifact->pack->title, figures));
+    files.emplace_back("verdicts.csv", verdicts_csv(results, figures));
+    if (Result<void> written = write_all(arguments.place.out, files); !written) {
+        return written;
+    }
+    return require_true(figures, arguments.artifact.pack.string());
+}
+
+} // namespace
+
+BenchCommand error_time_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("error-time", "every level of a pack and its peers against a ray cast");
+    const auto arguments = std::make_shared<Arguments>();
+    add_place_options(*command, arguments->place);
+    add_artifact_options(*command, arguments->artifact);
+    add_picture_options(*command, arguments->options.picture);
+    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    command
+        ->add_option(
+            "--peers", arguments->peers,
+            "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, with commas between")
+        ->check([](const std::string& words) {
+            const Result<PeerChoice> choice = parse_peers(words);
+            return choice ? std::string() : choice.error().message;
+        })
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) {
+                arguments->options.peers = *parse_peers(arguments->peers); // checked above
+                return run(*arguments, progress);
+            }};
+}
+
+} // namespace frustumscreen

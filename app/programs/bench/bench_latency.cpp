@@ -1,0 +1,106 @@
+#include "app/programs/bench/bench_latency.h"
+
+#include "app/bench/latency_report.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/tracker/convert_recording.h"
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    std::filesystem::path recordings = "../shared/data/tracker";
+    LatencyOptions options;
+};
+
+/// The first is the one that the targets are set for. Latencies of the others are assumed: 18 ms is what is
+/// known of the PATRIOT.
+std::vector<TrackedBy> trackers() {
+    return {{"Polhemus PATRIOT", 60.0, 18.0, {}},
+            {"Polhemus VIPER", 240.0, 5.0, {}},
+            {"HID tracker", 120.0, 12.0, {}}};
+}
+
+struct RecordingFile {
+    std::string_view name;
+    bool noisy; ///< brings its own noise; the others are of a motion capture
+};
+constexpr std::array recording_files = {
+    RecordingFile{"vicon_handheld_1.csv", false}, RecordingFile{"tum_fr1_xyz_groundtruth.txt", false},
+    RecordingFile{"camera_target_handheld_1.csv", true}, RecordingFile{"tum_fr1_xyz_rgbdslam.txt", true}};
+
+Result<Recording> read_recording(const std::filesystem::path& path, const RecordingFile& file) {
+    const Result<Bytes> bytes = read_file(path);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    const Result<ConvertedRecording> converted = convert_recording(as_text(*bytes), path.string(), {});
+    if (!converted) {
+        return tl::unexpected<Error>(converted.error());
+    }
+    Recording recording{std::string(file.name), {}, file.noisy};
+    for (const PoseSample& sample : converted->samples) {
+        recording.poses.push_back(
+            {to_seconds(sample.time.time_since_epoch()), {sample.rotation, sample.position_m}});
+    }
+    return recording;
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const std::vector<TrackedBy> measured_trackers = trackers();
+    std::vector<TrackerResult> results;
+    for (const TrackedBy& tracker : measured_trackers) {
+        progress.show(tracker.name,
+                      static_cast<double>(results.size()) / static_cast<double>(measured_trackers.size()));
+        results.push_back(measure_tracker(tracker, arguments.options));
+        progress.clear();
+        fmt::print("{}\n", latency_table(results.back(), arguments.options));
+    }
+    std::vector<RecordingResult> recordings;
+    for (const RecordingFile& file : recording_files) {
+        const std::filesystem::path path = arguments.recordings / file.name;
+        if (!std::filesystem::exists(path)) {
+            fmt::print(stderr, "frustumscreen-bench: {}: not there, left out\n", path.string());
+            continue;
+        }
+        const Result<Recording> recording = read_recording(path, file);
+        if (!recording) {
+            return tl::unexpected<Error>(recording.error());
+        }
+        recordings.push_back(measure_recording(*recording, arguments.options));
+    }
+    if (!recordings.empty()) {
+        fmt::print("{}\n", recordings_table(recordings));
+    }
+    fmt::print("{}", lines_of(judge(results.front(), arguments.options)));
+    return write_all(arguments.out, {{"latency.csv", latency_csv(results, recordings)},
+                                     {"latency.svg", latency_svg(results)}});
+}
+
+} // namespace
+
+BenchCommand latency_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "latency", "slip of the picture on a moving prop: filters and prediction against latency");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("--out", arguments->out, "folder for the tables and plots")->required();
+    command->add_option("--recordings", arguments->recordings, "folder of recordings to replay as well")
+        ->capture_default_str();
+    command
+        ->add_option("--display-latency-ms", arguments->options.setting.display_latency_ms,
+                     "from the poll until the picture is lit")
+        ->check(CLI::Range(0.0, 200.0))
+        ->capture_default_str();
+    command->add_option("--seconds", arguments->options.length_s, "of each motion")
+        ->check(CLI::Range(5.0, 3600.0))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->options.seed, "of motion and noise")->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,57 @@
+/// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
+#include "app/programs/bench/bench_counts.h"
+#include "app/programs/bench/bench_error_time.h"
+#include "app/programs/bench/bench_latency.h"
+#include "app/programs/bench/bench_plot.h"
+#include "app/programs/bench/bench_projection.h"
+#include "app/programs/bench/bench_scaling.h"
+#include "app/programs/bench/bench_shimmer.h"
+#include "app/programs/bench/bench_stability.h"
+#include "app/programs/common/guarded_main.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+
+namespace frustumscreen {
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
+                 " shimmer, numerical stability, latency.",
+                 "frustumscreen-bench");
+    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.require_subcommand(1);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("frustumscreen-bench: {}\n", error.what());
+    });
+    const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
+                                 shimmer_command(app),    stability_command(app), plot_command(app),
+                                 counts_command(app),     latency_command(app)};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    for (const BenchCommand& command : commands) {
+        if (!command.options->parsed()) {
+            continue;
+        }
+        BenchProgress progress;
+        const Result<void> done = command.run(progress);
+        if (!done) {
+            progress.clear();
+            fmt::print(stderr, "frustumscreen-bench: {}\n", done.error().message);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-bench", frustumscreen::run, argc, argv);
+}

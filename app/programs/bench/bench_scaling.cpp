@@ -1,0 +1,105 @@
+#include "app/programs/bench/bench_scaling.h"
+
+#include "app/bench/error_plot.h"
+#include "app/bench/report.h"
+#include "app/bench/scaling.h"
+#include "app/bench/verdicts.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    BenchPlace place;
+    ScalingOptions options;
+    bool no_peers = false;
+};
+
+/// The files of one set-up: cost against size, and each amphora that is large enough against the two-pass
+/// method at each of its eye images.
+Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sources,
+                     const Arguments& arguments, BenchProgress& progress,
+                     std::vector<std::pair<std::string, std::string>>& files) {
+    const auto show = [&](const std::string& step, double done) {
+        progress.show(set_up.name + ": " + step, done);
+    };
+    const Result<std::vector<ScalingRow>> rows = scaling(set_up, sources, arguments.options, show);
+    if (!rows) {
+        return at(set_up.name, rows.error());
+    }
+    progress.clear();
+    fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(*rows));
+    std::fflush(stdout);
+    files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(*rows));
+    files.emplace_back("scaling_" + set_up.name + ".svg", scaling_svg(*rows));
+    for (const ScalingSource& source : sources) {
+        if (arguments.no_peers || source.mesh->triangles.size() < least_two_pass_triangles) {
+            continue;
+        }
+        ErrorTimeOptions compared;
+        compared.picture = arguments.options.picture;
+        compared.poses = arguments.options.poses;
+        compared.seed = arguments.options.seed;
+        compared.peers.ray_cast = compared.peers.lod = compared.peers.two_pass_lod = false;
+        const Result<SetUpResult> result = error_time(set_up, source.pack, source.mesh, compared, show);
+        if (!result) {
+            return tl::unexpected<Error>(result.error());
+        }
+        progress.clear();
+        const std::string title =
+            fmt::format("Built-in amphora, {} triangles", source.mesh->triangles.size());
+        fmt::print("{}\n{}\n", title, console_table(*result));
+        std::fflush(stdout);
+        const std::string stem = fmt::format("two_pass_{}_{}", set_up.name, source.mesh->triangles.size());
+        files.emplace_back(stem + ".csv", summary_csv({&*result, 1}));
+        files.emplace_back(stem + ".svg", error_time_svg(*result, title));
+    }
+    return {};
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
+    if (!set_ups) {
+        return tl::unexpected<Error>(set_ups.error());
+    }
+    const Result<std::vector<ScalingSource>> sources =
+        bake_amphoras(arguments.options,
+                      [&](const std::string& step, double done) { progress.show("bake: " + step, done); });
+    if (!sources) {
+        return tl::unexpected<Error>(sources.error());
+    }
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const SetUp& set_up : *set_ups) {
+        if (Result<void> measured = measure(set_up, *sources, arguments, progress, files); !measured) {
+            return measured;
+        }
+    }
+    return write_all(arguments.place.out, files);
+}
+
+} // namespace
+
+BenchCommand scaling_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("scaling", "cost against the source's size, built-in amphora");
+    const auto arguments = std::make_shared<Arguments>();
+    add_place_options(*command, arguments->place);
+    add_picture_options(*command, arguments->options.picture);
+    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    command->add_flag("--no-peers", arguments->no_peers, "leave out the two-pass method");
+    command
+        ->add_option("--size", arguments->options.size,
+                     "of the bakes, texels along the longest edge of a face")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    command->add_option("--triangles", arguments->options.triangles, "counts of source triangles")
+        ->check(CLI::Range(1000, 20'000'000))
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

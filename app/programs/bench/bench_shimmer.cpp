@@ -1,0 +1,46 @@
+#include "app/programs/bench/bench_shimmer.h"
+
+#include "app/bench/shimmer.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    BenchPlace place;
+    BenchArtifact artifact;
+    ShimmerOptions options;
+    bool one_ray = false;
+};
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    return measure_set_ups(
+        "shimmer", arguments.place, arguments.artifact, progress,
+        [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
+            const StepProgress& steps) { return shimmer(set_up, pack, mesh, arguments.options, steps); },
+        shimmer_table, [](const std::vector<ShimmerResult>& results) { return shimmer_csv(results); });
+}
+
+} // namespace
+
+BenchCommand shimmer_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "shimmer", "the prop moved by 0.1 pixel steps: default and finest level against a ray cast");
+    const auto arguments = std::make_shared<Arguments>();
+    add_place_options(*command, arguments->place);
+    add_artifact_options(*command, arguments->artifact);
+    add_picture_options(*command, arguments->options.picture);
+    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    command->add_option("--steps", arguments->options.steps, "of 0.1 projector pixel in each direction")
+        ->check(CLI::Range(2, 1000))
+        ->capture_default_str();
+    command->add_flag("--one-ray", arguments->one_ray, "leave out the ray cast with 16 rays a pixel");
+    return {command, [arguments](BenchProgress& progress) {
+                arguments->options.sixteen_rays = !arguments->one_ray;
+                return run(*arguments, progress);
+            }};
+}
+
+} // namespace frustumscreen

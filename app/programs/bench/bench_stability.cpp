@@ -1,0 +1,62 @@
+#include "app/programs/bench/bench_stability.h"
+
+#include "app/bench/stability/report.h"
+#include "app/bench/stability/stability.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    StabilityOptions options{"../shared/data/tracker", 4'000'000};
+};
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const std::vector<StabilityCase> cases = stability_cases();
+    std::vector<MeasuredCase> measured;
+    for (const StabilityCase& one : cases) {
+        progress.show(one.theme + ": " + one.name,
+                      static_cast<double>(measured.size()) / static_cast<double>(cases.size()));
+        measured.push_back({one.theme, one.name, measure(one, arguments.options)});
+    }
+    progress.clear();
+    fmt::print("{}", stability_table(measured));
+    std::fflush(stdout);
+    const std::vector<StepError> smoothers = smoother_step_errors();
+    const std::vector<StepError> program = program_step_errors();
+    Result<void> written = write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
+                                                     {"stability.json", stability_json(measured)},
+                                                     {"step_error.csv", step_error_csv(smoothers, program)},
+                                                     {"step_error.svg", step_error_svg(smoothers, program)}});
+    if (!written) {
+        return written;
+    }
+    if (!all_held(measured)) {
+        return fail(ErrorKind::Internal, fmt::format("a bound was missed; {} says which",
+                                                     (arguments.out / "stability.csv").string()));
+    }
+    return {};
+}
+
+} // namespace
+
+BenchCommand stability_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("stability", "numerical stability on stiff and extreme cases, bound by bound");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("--out", arguments->out, "folder for the tables and the plot")->required();
+    command->add_option("--recordings", arguments->options.recordings, "folder of tracker recordings")
+        ->capture_default_str();
+    command->add_option("--triangles", arguments->options.triangles, "of the largest artifact")
+        ->check(CLI::Range(10'000, 8'000'000))
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

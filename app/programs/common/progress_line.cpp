@@ -1,0 +1,37 @@
+#include "app/programs/common/progress_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+constexpr std::chrono::seconds patience(2);
+constexpr std::chrono::milliseconds pause(100);
+} // namespace
+
+ProgressLine::ProgressLine(std::string what)
+    : what_(std::move(what)), on_terminal_(::isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()), last_(start_) {}
+
+ProgressLine::~ProgressLine() {
+    if (shown_) {
+        fmt::print(stderr, "\r\033[K");
+    }
+}
+
+void ProgressLine::show(std::size_t done, std::size_t all) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!on_terminal_ || now - start_ < patience || now - last_ < pause) {
+        return;
+    }
+    last_ = now;
+    shown_ = true;
+    fmt::print(stderr, "\r\033[K{} {} of {}", what_, done, all);
+    std::fflush(stderr);
+}
+
+} // namespace frustumscreen

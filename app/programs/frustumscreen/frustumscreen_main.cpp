@@ -1,0 +1,97 @@
+/// frustumscreen: the exhibit, and what it shows without devices.
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/plan_command.h"
+#include "app/programs/frustumscreen/record_command.h"
+#include "app/programs/frustumscreen/render_command.h"
+#include "app/programs/frustumscreen/run_command.h"
+#include "app/settings/config_json.h"
+#include "app/settings/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+int config_command(int argc, char** argv) {
+    CLI::App app("Prints the resolved, checked settings.", "frustumscreen config");
+    std::filesystem::path file;
+    bool json = false;
+    app.add_option("--config", file, "the kiosk's settings, TOML")->required();
+    app.add_flag("--json", json, "as JSON (the only form)");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    const Result<CheckedSettings> settings = load_settings(file);
+    if (!settings) {
+        fmt::print(stderr, "frustumscreen: {}\n", settings.error().message);
+        return 1;
+    }
+    fmt::print("{}", config_json(*settings));
+    return 0;
+}
+
+void print_usage(std::FILE* to) {
+    fmt::print(to, "usage: frustumscreen run|record|render|plan|config [--help] ...\n"
+                   "  run     the exhibit\n"
+                   "  record  what the tracker sends, into a file\n"
+                   "  render  a pose file into pictures, without devices\n"
+                   "  plan    what a scene needs, what it leaves out, and what that saves\n"
+                   "  config  the resolved, checked settings\n"
+                   "  --version\n");
+}
+
+struct Command {
+    std::string_view name;
+    int (*run)(int argc, char** argv);
+};
+constexpr std::array<Command, 5> commands{{{"run", run_command},
+                                           {"record", record_command},
+                                           {"render", render_command},
+                                           {"plan", plan_command},
+                                           {"config", config_command}}};
+
+const Command* command_named(std::string_view name) {
+    const auto* const found = std::find_if(commands.begin(), commands.end(),
+                                           [&](const Command& command) { return command.name == name; });
+    return found != commands.end() ? found : nullptr;
+}
+
+int dispatch(int argc, char** argv) {
+    const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
+    const std::string_view first = words.empty() ? "" : words[0];
+    const Command* const command = command_named(first);
+    if (first == "--version" || (command != nullptr && words.size() == 2 && words[1] == "--version")) {
+        fmt::print("frustumscreen {}\n", FRUSTUMSCREEN_VERSION);
+        return 0;
+    }
+    if (command != nullptr) {
+        return command->run(argc - 1, argv + 1);
+    }
+    if (first == "--help" || first == "-h") {
+        print_usage(stdout);
+        return 0;
+    }
+    if (const auto late = std::find_if(words.begin(), words.end(), command_named); late != words.end()) {
+        fmt::print(stderr, "frustumscreen: write {} before its options\n", *late);
+        return 2;
+    }
+    print_usage(stderr);
+    return 2;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen", frustumscreen::dispatch, argc, argv);
+}

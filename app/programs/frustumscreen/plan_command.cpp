@@ -1,0 +1,76 @@
+#include "app/programs/frustumscreen/plan_command.h"
+
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/plan_report.h"
+#include "app/programs/frustumscreen/wiring.h"
+#include "app/settings/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path pack;
+    std::string technique = "auto";
+    bool json = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app("Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
+                 "measures what that saves.",
+                 "frustumscreen plan");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
+    app.add_option("--technique", request.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
+        ->capture_default_str();
+    app.add_flag("--json", request.json, "report as JSON");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+Result<void> plan(const Request& request) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const Result<std::unique_ptr<Display>> display = make_display(**settings, true);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    const DevicePlan devices = plan_devices(**settings, false, false);
+    const Result<PlanMeasurement> measured =
+        measure_plan(**settings, devices, request.pack, request.technique, **display);
+    if (!measured) {
+        return tl::unexpected<Error>(measured.error());
+    }
+    const PlanReport report{
+        request.config.string(), request.pack.string(), request.technique, **settings, devices, *measured};
+    fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
+    return {};
+}
+
+} // namespace
+
+int plan_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    return exit_status("frustumscreen", plan(request));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,48 @@
+/// What leaving out saves, measured: the same scene is loaded as planned, with everything, and once for each
+/// economy without that one alone; then all of them draw the same poses in turn.
+///
+/// Units    GPU bytes as the driver says; RAM bytes that the program holds from the allocator once it has
+///          loaded (a software GPU keeps its memory there too, so that these are then counted in both);
+///          milliseconds of loading; microseconds of drawing, until the picture is done.
+/// Threads  the render thread, with the display's context current.
+/// Errors   as ArtifactShow.
+#pragma once
+
+#include "app/settings/settings.h"
+#include "app/show/artifact_show.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/display/display.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct SceneCost {
+    std::int64_t gpu_bytes = 0;
+    std::int64_t ram_bytes = 0;
+    double load_ms = 0.0;
+    double frame_us = 0.0;  ///< median; of a saving, the median of differences at the same pose
+    double spread_us = 0.0; ///< of a saving: half the distance between the quartiles of the differences
+};
+
+struct EconomySaving {
+    Economy economy = UnusedLevels;
+    SceneCost saved;
+};
+
+struct PlanMeasurement {
+    std::unique_ptr<ArtifactShow> show; ///< as planned
+    SceneCost everything, planned, saved;
+    std::vector<EconomySaving> economies; ///< of those that leave something out
+    std::size_t poses = 0;
+    std::string renderer; ///< the driver's name for the GPU
+};
+
+[[nodiscard]] Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
+                                                   const std::filesystem::path& pack,
+                                                   const std::string& technique, Display& display);
+
+} // namespace frustumscreen

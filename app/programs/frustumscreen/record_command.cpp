@@ -1,0 +1,214 @@
+#include "app/programs/frustumscreen/record_command.h"
+
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
+#include "app/programs/frustumscreen/wiring.h"
+#include "app/settings/settings.h"
+#include "app/tracking/placed_pose.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/base/sentence.h"
+#include "firmware_host/service/stop_signals.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_polls = std::chrono::milliseconds(2);
+constexpr double longest_s = 86400.0;
+/// From the recording's end to the program's; a thread may hang in its device.
+constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path output;
+    double seconds = 0.0; ///< 0 = until told to stop
+    bool raw = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app(
+        "Records what the tracker sends, before it is smoothed: poses in table coordinates, or with --raw "
+        "the packets themselves.",
+        "frustumscreen record");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("-o,--output", request.output, "the file to write")->required();
+    app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
+        ->check(seconds_between(0.01, longest_s));
+    app.add_flag("--raw", request.raw,
+                 "the packets with their times of arrival, in a new file that is good up to any cut; "
+                 "frustumscreen-poses convert makes poses of it");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+/// Polls until the time is over or a stop is asked for; says each new state of the tracker on standard error.
+class Recording {
+public:
+    Recording(Tracker& tracker, MonotonicTime start) : tracker_(tracker), start_(start) {}
+
+    void run(const Request& request, const StopSignals& stop, bool keep) {
+        ProgressLine progress("recorded seconds");
+        const auto all = static_cast<std::size_t>(std::ceil(request.seconds));
+        MonotonicTime now = start_;
+        while ((request.seconds <= 0.0 || to_seconds(now - start_) < request.seconds) && !stop.received()) {
+            poll(now, keep);
+            if (all > 0) {
+                progress.show(static_cast<std::size_t>(to_seconds(now - start_)), all);
+            }
+            std::this_thread::sleep_for(between_polls);
+            now = monotonic_now();
+        }
+        poll(now, keep);
+    }
+    [[nodiscard]] const std::vector<PoseSample>& poses() const { return poses_; }
+    [[nodiscard]] std::string_view state() const { return state_.view(); }
+
+private:
+    void poll(MonotonicTime now, bool keep) {
+        const std::size_t before = poses_.size();
+        static_cast<void>(tracker_.poll(now, poses_)); // what is the matter stands in the state
+        if (!keep) {
+            poses_.resize(before);
+        }
+        if (const Sentence said(tracker_.state()); said != state_) {
+            state_ = said;
+            fmt::print(stderr, "frustumscreen: tracker: {}\n", state_.view());
+        }
+    }
+
+    Tracker& tracker_;
+    MonotonicTime start_;
+    std::vector<PoseSample> poses_;
+    Sentence state_;
+};
+
+/// Into table coordinates, times from the beginning on; sensors that are no station of ours are left out.
+std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses,
+                                      const RigidTransform& table_from_device, MonotonicTime start) {
+    std::vector<PoseSample> kept;
+    for (PoseSample pose : poses) {
+        if (pose.station > torch_station) {
+            continue;
+        }
+        pose.time = MonotonicTime(pose.time - start);
+        kept.push_back(placed_on_table(pose, table_from_device));
+    }
+    return kept;
+}
+
+Result<void> write_pose_recording(const Request& request, const Settings& settings, const Inputs& inputs,
+                                  const Recording& recording, MonotonicTime start) {
+    if (recording.poses().empty()) {
+        return fail(ErrorKind::DeviceLost,
+                    fmt::format("no pose came, and {} was not written{}{}", request.output.string(),
+                                recording.state().empty() ? "" : "; ", recording.state()));
+    }
+    const bool registered = !inputs.tracker->reports_table_frame();
+    const RigidTransform table_from_device =
+        registered ? settings.tracker.table_from_tracker : RigidTransform{};
+    const std::vector<PoseSample> poses = for_pose_file(recording.poses(), table_from_device, start);
+    std::array<std::size_t, torch_station + 1> of_station{};
+    for (const PoseSample& pose : poses) {
+        ++of_station[static_cast<std::size_t>(pose.station)];
+    }
+    std::string text = write_poses(poses);
+    if (registered) {
+        const glm::dmat4 matrix = table_from_device.matrix();
+        const std::span<const double> numbers(&matrix[0][0], 16);
+        text.insert(text.find('\n') + 1,
+                    fmt::format("# table_from_tracker = [{}], column by column\n", fmt::join(numbers, ", ")));
+    }
+    if (Result<void> written = write_file(request.output, as_bytes(text)); !written) {
+        return written;
+    }
+    fmt::print("{}: {} poses: prop {}, head {}, torch {}\n", request.output.string(), poses.size(),
+               of_station[1], of_station[2], of_station[3]);
+    return {};
+}
+
+Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracker_state) {
+    if (Result<void> finished = recorder.finish(); !finished) {
+        return finished;
+    }
+    const PacketRecorder::Counts counts = recorder.counts();
+    fmt::print("{}: {} packets, {} dropped; {}\n", recorder.path().string(), counts.packets, counts.dropped,
+               tracker_state);
+    return {};
+}
+
+/// `inputs` are the caller's to end: a thread of theirs may hang in its device.
+Result<void> record(const Request& request, Inputs& inputs) {
+    const StopSignals stop;
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    if (Result<void> safe =
+            check_output_is_no_input(request.output, {{request.config, (*settings)->tracker.poses}});
+        !safe) {
+        return safe;
+    }
+    DevicePlan devices;
+    devices.tracker = (*settings)->tracker.kind;
+    if (devices.tracker == TrackerKind::None) {
+        return fail(ErrorKind::BadConfiguration, "tracker.kind is \"none\"; there is nothing to record");
+    }
+    const MonotonicTime start = monotonic_now();
+    std::unique_ptr<PacketRecorder> recorder;
+    if (request.raw) {
+        Result<std::unique_ptr<PacketRecorder>> opened = make_recorder(devices.tracker, request.output);
+        if (!opened) {
+            return tl::unexpected<Error>(opened.error());
+        }
+        recorder = std::move(*opened);
+    }
+    Result<Inputs> made = make_inputs(**settings, devices, std::nullopt, start, std::move(recorder));
+    if (!made) {
+        return tl::unexpected<Error>(made.error());
+    }
+    inputs = std::move(*made);
+    Recording recording(*inputs.tracker, start);
+    recording.run(request, stop, !request.raw);
+    const StopSignals::AtOnce at_once(stop); // a disk may take long, or hang; whoever asks twice means it
+    return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
+                       : write_pose_recording(request, **settings, inputs, recording, start);
+}
+
+} // namespace
+
+int record_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    Inputs inputs;
+    const int status = exit_status("frustumscreen", record(request, inputs));
+    std::fflush(stdout);
+    if (status != 0) {
+        std::quick_exit(status); // a device that hangs must not make a success of it
+    }
+    end_within(longest_stop); // all is in the file; only the device is left to put away
+    return status;
+}
+
+} // namespace frustumscreen

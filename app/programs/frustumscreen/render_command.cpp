@@ -1,0 +1,226 @@
+#include "app/programs/frustumscreen/render_command.h"
+
+#include "app/exhibit/visitor_view.h"
+#include "app/pack/prop_note.h"
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/progress_line.h"
+#include "app/settings/settings.h"
+#include "app/show/offline_renderer.h"
+#include "app/tracking/pose_frames.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path pack;
+    std::filesystem::path poses;
+    std::filesystem::path out;
+    std::string view = "projector";
+    int width = 0; ///< of the pictures that are written; 0 = as the view has it
+    int height = 0;
+    bool no_light = false;
+    OfflineOptions options;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
+                 "frustumscreen render");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
+    app.add_option("--poses", request.poses, "poses, CSV")->required();
+    app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
+    app.add_option("--technique", request.options.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
+        ->capture_default_str();
+    CLI::Option* width =
+        app.add_option("--width", request.width, "picture's width in pixels")->check(CLI::Range(1, 16384));
+    CLI::Option* height =
+        app.add_option("--height", request.height, "picture's height in pixels")->check(CLI::Range(1, 16384));
+    width->needs(height);
+    height->needs(width);
+    app.add_option("--view", request.view,
+                   "projector: its picture; visitor: what the eye sees of it, half as wide and high as the"
+                   " configured projector's picture, or as --width and --height say")
+        ->check(CLI::IsMember({"projector", "visitor"}))
+        ->capture_default_str();
+    app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
+    app.add_flag("--aov", request.options.hit_points, "also frame_00000.pfm: hit points, prop frame, metres");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    request.options.light = !request.no_light;
+    if (request.view == "projector") {
+        request.options.width = request.width;
+        request.options.height = request.height;
+    }
+    return 0;
+}
+
+Result<std::vector<Situation>> frames_of(const Request& request, const Settings& settings) {
+    const Result<Bytes> bytes = read_file(request.poses);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    const Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), request.poses.string());
+    if (!samples) {
+        return tl::unexpected<Error>(samples.error());
+    }
+    return pose_frames(*samples, settings.eye.default_m);
+}
+
+/// Poses in millimetres, or in a tracker's frame, give dark pictures.
+void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
+    const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
+        const glm::dvec2 place_m(frame.table_from_prop.translation);
+        return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
+    });
+    if (off > 0) {
+        say_line("frustumscreen",
+                 fmt::format("in {} of {} poses the prop is off the table ({} x {} m); positions are metres",
+                             off, frames.size(), table.width_m, table.depth_m));
+    }
+}
+
+/// Everything that one picture is made with.
+struct Studio {
+    const Request& request;
+    const Settings& settings;
+    OfflineRenderer& renderer;
+};
+
+VisitorScene visitor_scene(const Studio& studio, const Situation& situation) {
+    return {studio.renderer.projector(),
+            studio.settings.projector.table_from_projector,
+            studio.renderer.prop(),
+            situation.table_from_prop,
+            situation.eye_m,
+            {studio.settings.table.width_m, studio.settings.table.depth_m}};
+}
+
+/// Writes one frame's files; its line of frames.csv.
+Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Situation& situation,
+                               std::vector<VisitorFrame>& visitor_frames) {
+    OfflinePicture picture = studio.renderer.draw(situation.table_from_prop, situation.eye_m);
+    const std::int64_t t_us = to_microseconds(situation.time);
+    if (studio.request.view == "visitor") {
+        const VisitorScene scene = visitor_scene(studio, situation);
+        const Request& request = studio.request;
+        const VisitorCamera camera =
+            visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
+                           request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
+                           request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
+        picture.colour = visitor_view(scene, picture.colour, camera,
+                                      studio.request.no_light ? exact_check() : VisitorViewOptions{});
+        visitor_frames.push_back({static_cast<int>(frame), t_us, situation.eye_m, camera});
+    }
+    const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
+    if (Result<void> written = write_file(stem.string() + ".png", encode_png(picture.colour)); !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    if (picture.hit_points) {
+        if (Result<void> written = write_file(stem.string() + ".pfm", encode_pfm(*picture.hit_points));
+            !written) {
+            return tl::unexpected<Error>(written.error());
+        }
+    }
+    return fmt::format("{},{},{:.3f},{},{:.4f}\n", frame, t_us, picture.ms, studio.renderer.technique(),
+                       studio.renderer.estimated_error_mm());
+}
+
+Result<void> render(const Request& request) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const Result<std::vector<Situation>> frames = frames_of(request, **settings);
+    if (!frames) {
+        return tl::unexpected<Error>(frames.error());
+    }
+    say_off_the_table(*frames, (*settings)->table);
+    OfflineOptions options = request.options;
+    for (const Situation& frame : *frames) {
+        options.views.push_back({frame.table_from_prop, frame.eye_m});
+    }
+    ScenePlan plan;
+    const Result<VerifiedPack> pack =
+        load_pack(request.pack, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            Result<ScenePlan> made = plan_offline(*settings, outline, options);
+            if (!made) {
+                return tl::unexpected<Error>(made.error());
+            }
+            plan = std::move(*made);
+            return plan.levels;
+        });
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    if (const auto note = note_other_prop(request.pack.string(), **pack, (*settings)->prop.kind)) {
+        say_line("frustumscreen", *note);
+    }
+    std::error_code failed;
+    std::filesystem::create_directories(request.out, failed);
+    if (failed) {
+        return bad_input(
+            fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
+    }
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*pack, plan, options);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    const Studio studio{request, **settings, **renderer};
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm\n";
+    std::vector<VisitorFrame> visitor_frames;
+    ProgressLine progress("rendering");
+    for (std::size_t frame = 0; frame < frames->size(); ++frame) {
+        const Result<std::string> line = make_frame(studio, frame, (*frames)[frame], visitor_frames);
+        if (!line) {
+            return tl::unexpected<Error>(line.error());
+        }
+        csv += *line;
+        progress.show(frame + 1, frames->size());
+    }
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
+    if (!visitor_frames.empty()) {
+        if (Result<void> written = write_file(request.out / visitor_cameras_name,
+                                              as_bytes(visitor_cameras_json(visitor_frames)));
+            !written) {
+            return written;
+        }
+    }
+    return write_file(request.out / "frames.csv", as_bytes(csv));
+}
+
+} // namespace
+
+int render_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    if (const Result<void> rendered = render(request); !rendered) {
+        fmt::print(stderr, "frustumscreen: {}\n", rendered.error().message);
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace frustumscreen

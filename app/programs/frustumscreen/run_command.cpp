@@ -1,0 +1,332 @@
+#include "app/programs/frustumscreen/run_command.h"
+
+#include "app/exhibit/visitor_view.h"
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/wiring.h"
+#include "app/settings/settings.h"
+#include "app/show/artifact_show.h"
+#include "app/show/pattern_show.h"
+#include "app/show/run_loop.h"
+#include "app/show/run_report.h"
+#include "app/show/staff_show.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/format_sentence.h"
+#include "firmware_host/base/standard_error.h"
+#include "firmware_host/display/hotplug.h"
+#include "firmware_host/service/crash_line.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path out;
+    std::filesystem::path status_file;
+    std::filesystem::path record;
+    ArtifactShowOptions show;
+    double seconds = 0.0; ///< 0 = until told to stop
+    int stills = 8;
+    int changes = 0;
+    bool headless = false;
+    bool fast = false;
+    bool pattern = false;
+    bool full_redraw = false;
+    bool json = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    bool everything = false;
+    CLI::App app("Runs the exhibit until SIGTERM or SIGINT, or for some seconds.", "frustumscreen run");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_flag("--headless", request.headless, "without a screen");
+    CLI::Option* seconds = app.add_option("--seconds", request.seconds, "stop after so many seconds")
+                               ->check(seconds_between(0.01, 1e6));
+    app.add_option("--out", request.out,
+                   "folder for frame_*.png, their poses.csv and frames.csv of all frames; made if missing")
+        ->needs(seconds);
+    app.add_option("--stills", request.stills, "how many pictures --out keeps, spread over the run")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+    app.add_option("--status-file", request.status_file, "JSON, renewed every second");
+    app.add_option("--record", request.record,
+                   "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
+    app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
+    app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
+    app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
+        ->capture_default_str();
+    app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");
+    app.add_flag("--full-redraw", request.full_redraw, "draw the whole picture every time, for measuring");
+    app.add_option("--soak", request.changes,
+                   "change the artifact so many times, evenly, instead of the panel")
+        ->check(CLI::Range(1, 1000000))
+        ->needs(seconds);
+    app.add_flag("--everything", everything,
+                 "leave nothing out that this scene does not need, to compare with; see frustumscreen plan");
+    app.add_flag("--json", request.json, "report as JSON");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    request.show.economies = everything ? 0U : AllEconomies;
+    return 0;
+}
+
+/// From the end of the loop: a device's thread that does not come back is not waited for.
+constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
+constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
+/// While the machine boots, udev may not have given the card to the exhibit's user yet.
+constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
+/// For so long a service shows why there is nothing to show, before it ends and is started to look for packs
+/// anew.
+constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
+
+Nanoseconds nanoseconds(double seconds) {
+    return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
+}
+
+/// As a service, a graphics card whose driver comes late is waited for, and for a while one that cannot be
+/// used yet; a person is told at once.
+Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
+                                                  const StopSignals& stop_signals, ServiceManager& manager,
+                                                  const Journal& journal) {
+    std::unique_ptr<Hotplug> hotplug; // once there is something to wait for
+    Sentence noted;
+    const MonotonicTime begin = monotonic_now();
+    while (true) {
+        Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
+        if (display || !manager.listens()) {
+            return display;
+        }
+        const bool may_come = display.error().kind == ErrorKind::DeviceLost;
+        if (!may_come && monotonic_now() - begin >= longest_boot) {
+            return display;
+        }
+        if (!hotplug) {
+            hotplug = make_udev_hotplug();
+        }
+        const Sentence why(display.error().message);
+        if (why != noted) {
+            noted = why;
+            journal.note(Weight::Warning, why.view(), {{"DEVICE", "display"}});
+        }
+        manager.status(why);
+        manager.still_starting(10 * between_looks_for_card);
+        const StopSignals::AtOnce at_once(stop_signals); // nothing to put away yet
+        static_cast<void>(hotplug->wait(between_looks_for_card));
+    }
+}
+
+Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
+                                        const DevicePlan& devices, const Display& display,
+                                        MonotonicTime start) {
+    if (request.pattern) {
+        return PatternShow::create(settings);
+    }
+    ArtifactShowOptions options = request.show;
+    if (options.packs.empty()) {
+        options.packs = settings.exhibit.packs;
+    }
+    Result<std::unique_ptr<ArtifactShow>> artifacts =
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
+    if (!artifacts) {
+        return tl::unexpected<Error>(artifacts.error());
+    }
+    for (const std::string& note : (*artifacts)->notes()) {
+        say_line("frustumscreen", note);
+    }
+    if (settings.panel.buttons() < 2) {
+        return std::move(*artifacts); // no chord can be held
+    }
+    return std::make_unique<StaffShow>(settings, std::move(*artifacts), display.name());
+}
+
+/// As a service, a recording that cannot be made is said, and the exhibit goes on without it.
+Result<Inputs> open_inputs(const Request& request, const Settings& settings, const DevicePlan& devices,
+                           bool is_service, std::optional<Nanoseconds> press_every, MonotonicTime start) {
+    std::unique_ptr<PacketRecorder> recorder;
+    Sentence why_not;
+    if (!request.record.empty()) {
+        Result<std::unique_ptr<PacketRecorder>> made = make_recorder(devices.tracker, request.record);
+        if (made) {
+            recorder = std::move(*made);
+        } else if (is_service) {
+            why_not = format_sentence("nothing is recorded: {}", made.error().message);
+        } else {
+            return tl::unexpected<Error>(made.error());
+        }
+    }
+    Result<Inputs> inputs = make_inputs(settings, devices, press_every, start, std::move(recorder));
+    if (inputs) {
+        inputs->why_not_recorded = why_not;
+    }
+    return inputs;
+}
+
+/// On the table for the staff, where a person would read standard error.
+Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
+                                          const Error& why) {
+    journal.note(Weight::Error, why.message, {{"DEVICE", "exhibit"}});
+    Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
+    if (!pattern) {
+        return tl::unexpected<Error>(why);
+    }
+    (*pattern)->set_lines({why.message});
+    return std::move(*pattern);
+}
+
+/// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run.
+Result<void> write_pictures(const std::filesystem::path& folder, const LoopResult& result) {
+    std::vector<PoseSample> poses;
+    for (std::size_t k = 0; k < result.stills.size(); ++k) {
+        const Still& still = result.stills[k];
+        const RigidTransform& pose = still.situation.table_from_prop;
+        poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
+        poses.push_back({still.time, head_station, still.situation.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
+        const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
+        if (Result<void> written = write_file(file, encode_png(still.picture)); !written) {
+            return written;
+        }
+    }
+    if (Result<void> written = write_file(folder / "poses.csv", as_bytes(write_poses(poses))); !written) {
+        return written;
+    }
+    return write_file(folder / "frames.csv", as_bytes(frames_csv(result.rows)));
+}
+
+void report(const Request& request, const LoopResult& result) {
+    RunStatus status = result.status;
+    stamp(status);
+    if (request.json) {
+        fmt::print("{}", status_json(status));
+        return;
+    }
+    fmt::print(
+        "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 95th percentile {:.2f} ms, 99th {:.2f} ms; {} "
+        "deadlines and {} display times missed, {} changes of level; {:.0f} MiB resident",
+        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p95_ms, status.p99_ms,
+        status.missed_deadlines, status.late, status.level_switches, status.resident_mib);
+    if (request.changes > 0) {
+        fmt::print("; {} changes of artifact, {:+.1f} MiB since the first tenth, p99/p50 {:.2f}",
+                   request.changes, status.resident_mib - result.first_resident_mib,
+                   status.median_ms > 0.0 ? status.p99_ms / status.median_ms : 0.0);
+    }
+    fmt::print("\n");
+    if (!request.out.empty()) {
+        fmt::print("{} pictures in {}\n", result.stills.size(), request.out.string());
+    }
+}
+
+Result<void> run(const Request& request) {
+    leave_a_line_at_a_crash();
+    const StopSignals stop_signals;
+    const Journal journal("frustumscreen");
+    ServiceManager manager;
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    if (!request.out.empty()) {
+        std::error_code failed;
+        std::filesystem::create_directories(request.out, failed);
+        if (failed) {
+            return bad_input(
+                fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
+        }
+    }
+    if (const std::filesystem::path folder = request.status_file.parent_path();
+        !folder.empty() && !std::filesystem::is_directory(folder)) {
+        return bad_input(fmt::format("{}: the folder of --status-file is not there", folder.string()));
+    }
+    const Result<std::unique_ptr<Display>> display =
+        wait_for_display(request, **settings, stop_signals, manager, journal);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    // Simulated time starts at zero, real time when everything is loaded.
+    const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
+    const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
+    Result<std::unique_ptr<Show>> show = [&] {
+        const StopSignals::AtOnce at_once(stop_signals); // loading takes long, and leaves nothing behind
+        return make_show(request, **settings, devices, **display, now());
+    }();
+    std::optional<Error> excuse;
+    if (!show && manager.listens()) {
+        excuse = show.error();
+        show = make_excuse(**settings, journal, *excuse);
+    }
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    std::optional<Nanoseconds> press_every;
+    if (request.changes > 0) {
+        press_every = nanoseconds(request.seconds / request.changes);
+    }
+    const MonotonicTime start = now();
+    Result<Inputs> inputs = open_inputs(request, **settings, devices, manager.listens(), press_every, start);
+    if (!inputs) {
+        return tl::unexpected<Error>(inputs.error());
+    }
+    LoopOptions options;
+    if (request.seconds > 0.0) {
+        options.length = nanoseconds(request.seconds);
+    } else if (excuse) {
+        options.length = excuse_length;
+    }
+    options.fast = request.fast;
+    options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
+    options.stills = request.out.empty() ? 0 : request.stills;
+    options.keep_rows = !request.out.empty();
+    options.stop = &stop_signals;
+    StatusFile status_file(request.status_file);
+    RunWatch watch(manager, journal);
+    const Result<LoopResult> result =
+        run_loop(**settings, **display, *inputs, **show, options, status_file, watch, start);
+    manager.stopping();
+    if (!result) {
+        return tl::unexpected<Error>(result.error());
+    }
+    if (request.seconds == 0.0) {
+        end_within(longest_stop);
+    }
+    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // not told to stop
+        return tl::unexpected<Error>(*excuse);
+    }
+    if (!request.out.empty()) {
+        std::error_code failed;
+        std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call of render
+        if (Result<void> written = write_pictures(request.out, *result); !written) {
+            return written;
+        }
+    }
+    report(request, *result);
+    return {};
+}
+
+} // namespace
+
+int run_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    return exit_status("frustumscreen", run(request));
+}
+
+} // namespace frustumscreen

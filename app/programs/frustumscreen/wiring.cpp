@@ -1,0 +1,194 @@
+#include "app/programs/frustumscreen/wiring.h"
+
+#include "app/render/probe.h"
+#include "app/settings/lit_zone.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/display/kms_display.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "firmware_host/panel/button_panel.h"
+#include "firmware_host/panel/key_lines.h"
+#include "firmware_host/panel/scripted_panel.h"
+#include "firmware_host/tracker/hidapi_transport.h"
+#include "firmware_host/tracker/joined_bus.h"
+#include "firmware_host/tracker/libusb_transport.h"
+#include "firmware_host/tracker/packet_replay.h"
+#include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/replay_tracker.h"
+#include "firmware_host/tracker/simulated_tracker.h"
+#include "firmware_host/tracker/usb_tracker.h"
+
+#include <fmt/chrono.h>
+
+#include <cmath>
+#include <ctime>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int next_artifact_button = 1;
+/// Of the zone in which every face is lit: at its edge the light only grazes one.
+constexpr double used_share_of_zone = 0.75;
+
+Nanoseconds nanoseconds(double seconds) {
+    return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
+}
+
+/// A pose file or a recording of packets.
+Result<std::unique_ptr<Tracker>> make_replay(const TrackerSettings& tracker, MonotonicTime start) {
+    const std::string name = tracker.poses.string();
+    Result<Bytes> bytes = read_file(tracker.poses);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    if (is_packet_recording(*bytes)) {
+        Result<PacketReplay> replay = PacketReplay::open(std::move(*bytes), name);
+        if (!replay) {
+            return tl::unexpected<Error>(replay.error());
+        }
+        return std::make_unique<PacketReplayTracker>(std::move(*replay), start, tracker.replay_speed);
+    }
+    Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), name);
+    if (!samples) {
+        return tl::unexpected<Error>(samples.error());
+    }
+    return std::make_unique<ReplayTracker>(std::move(*samples), start, true, tracker.replay_speed);
+}
+
+bool has_packets(TrackerKind kind) {
+    return kind == TrackerKind::Usb || kind == TrackerKind::SpaceMouse;
+}
+
+std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
+    if (kind == TrackerKind::SpaceMouse) {
+        return make_hid_bus(UsbTrackerModel::SpaceMouse);
+    }
+    std::vector<std::unique_ptr<UsbBus>> buses;
+    buses.push_back(make_libusb_bus());
+    buses.push_back(make_hid_bus(UsbTrackerModel::Hid));
+    return std::make_unique<JoinedBus>(std::move(buses));
+}
+
+Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
+    if (settings.tracker.kind == TrackerKind::Replay) {
+        Result<std::unique_ptr<Tracker>> replay = make_replay(settings.tracker, start);
+        return replay ? std::move(replay) : at(settings.tracker.poses_key, replay.error());
+    }
+    if (has_packets(settings.tracker.kind)) {
+        const UsbTrackerSetUp set_up{settings.tracker.hemisphere,
+                                     0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m)};
+        return std::make_unique<UsbTracker>(make_bus(settings.tracker.kind), set_up, tap);
+    }
+    const Rectangle places = lit_zone(settings).any_eye_rectangle;
+    SimulatedVisitor visitor;
+    visitor.seed = settings.tracker.seed;
+    visitor.centre_m = places.centre_m;
+    visitor.half_extent_m = used_share_of_zone * places.half_m;
+    visitor.eye_m = settings.eye.default_m;
+    return std::make_unique<SimulatedTracker>(visitor, start);
+}
+
+ButtonTimes times_of(const PanelSettings& panel) {
+    ButtonTimes times;
+    times.debounce = nanoseconds(1e-3 * panel.debounce_ms);
+    times.stuck = nanoseconds(panel.stuck_s);
+    return times;
+}
+
+Result<std::unique_ptr<Panel>> make_keys(const PanelSettings& panel) {
+    const Result<std::vector<std::uint16_t>> codes = key_codes(panel.keys);
+    if (!codes) {
+        return tl::unexpected<Error>(codes.error());
+    }
+    const KeyRequest request{panel.device, *codes};
+    return std::make_unique<ButtonPanel>([request] { return open_key_lines(request); }, panel.keys.size(),
+                                         times_of(panel));
+}
+
+std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
+    const LineRequest request{panel.chip, panel.lines, panel.bias, panel.active_low, panel.lamps};
+    return std::make_unique<ButtonPanel>([request] { return open_gpio_lines(request); }, panel.lines.size(),
+                                         times_of(panel));
+}
+
+Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
+                                          MonotonicTime start) {
+    if (press_every) {
+        return std::make_unique<ScriptedPanel>(
+            std::vector<PanelPress>{{*press_every / 2, next_artifact_button}}, *press_every, start);
+    }
+    if (settings.panel.kind == PanelKind::Gpio) {
+        return make_buttons(settings.panel);
+    }
+    if (settings.panel.kind == PanelKind::Keys) {
+        return make_keys(settings.panel);
+    }
+    std::vector<PanelPress> script;
+    for (const ScriptedPress& press : settings.panel.script) {
+        script.push_back({nanoseconds(press.at_s), press.button});
+    }
+    return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
+}
+
+} // namespace
+
+static_assert(probe_pixels == code_pixels, "the display shows the probe as it is, however it scales");
+
+Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
+    const DisplaySettings& display = settings.display;
+    if (!headless && display.kind == DisplayKind::Kms) {
+        OutputWish wish;
+        const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
+        wish.connector = named(display.connector);
+        wish.width = display.mode.width;
+        wish.height = display.mode.height;
+        wish.refresh_hz = display.mode.refresh_hz;
+        wish.force = display.force;
+        wish.picture_width = settings.projector.pinhole.width;
+        wish.picture_height = settings.projector.pinhole.height;
+        wish.picture_hz = settings.projector.refresh_hz;
+        return KmsDisplay::create(named(display.card), wish);
+    }
+    return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
+}
+
+Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
+    if (!has_packets(kind)) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
+                        "\"spacemouse\"",
+                        name_of(kind)));
+    }
+    Result<GrowingFile> file = GrowingFile::create(path);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
+                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
+    return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
+}
+
+Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
+                           std::optional<Nanoseconds> press_every, MonotonicTime start,
+                           std::unique_ptr<PacketRecorder> recorder) {
+    Inputs inputs;
+    inputs.recorder = std::move(recorder);
+    if (plan.tracker != TrackerKind::None) {
+        Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start, inputs.recorder.get());
+        if (!tracker) {
+            return tl::unexpected<Error>(tracker.error());
+        }
+        inputs.tracker = std::move(*tracker);
+    }
+    if (plan.panel) {
+        Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);
+        if (!panel) {
+            return tl::unexpected<Error>(panel.error());
+        }
+        inputs.panel = std::move(*panel);
+    }
+    return inputs;
+}
+
+} // namespace frustumscreen

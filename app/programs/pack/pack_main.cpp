@@ -1,0 +1,121 @@
+/// frustumscreen-pack: verifies, lists and explains packs.
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/pack/pack_report.h"
+#include "app/settings/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+struct Request {
+    std::vector<std::string> packs;
+    std::string pack;
+    std::string config;
+    bool json = false;
+};
+
+int complain(const Error& error) {
+    fmt::print(stderr, "frustumscreen-pack: {}\n", error.message);
+    return 1;
+}
+
+void print_json(const nlohmann::ordered_json& json) {
+    fmt::print("{}\n", json.dump(2));
+}
+
+/// Every pack is looked at, also after one that is not sound.
+int verify(const Request& request) {
+    int status = 0;
+    auto report = nlohmann::ordered_json::array();
+    for (const std::string& file : request.packs) {
+        const Result<VerifiedPack> pack = load_pack(file);
+        if (!pack) {
+            status = complain(pack.error());
+            report.push_back({{"file", file}, {"sound", false}, {"reason", pack.error().message}});
+            continue;
+        }
+        report.push_back({{"file", file}, {"sound", true}, {"signed", false}});
+        if (!request.json) {
+            fmt::print("{}: sound, unsigned, {} levels, \"{}\"\n", file, (*pack)->levels.size(),
+                       (*pack)->title);
+        }
+    }
+    if (request.json) {
+        print_json(report);
+    }
+    return status;
+}
+
+int list(const Request& request) {
+    const Result<OpenedPack> opened = open_pack(request.pack);
+    if (!opened) {
+        return complain(opened.error());
+    }
+    if (request.json) {
+        print_json(list_json(*opened, PropSize{}));
+    } else {
+        fmt::print("{}", list_text(*opened, PropSize{}));
+    }
+    return 0;
+}
+
+int explain(const Request& request) {
+    PropSize prop;
+    if (!request.config.empty()) {
+        const Result<CheckedSettings> settings = load_settings(request.config);
+        if (!settings) {
+            return complain(settings.error());
+        }
+        prop = (*settings)->prop;
+    }
+    const Result<OpenedPack> opened = open_pack(request.pack);
+    if (!opened) {
+        return complain(opened.error());
+    }
+    if (request.json) {
+        print_json(explain_json(*opened, prop));
+    } else {
+        fmt::print("{}", explain_text(*opened, prop));
+    }
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Packs for FrustumScreen: are they sound, and what do they hold?", "frustumscreen-pack");
+    app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
+    app.require_subcommand(1);
+    Request request;
+    CLI::App* to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
+    to_verify->add_option("PACK", request.packs, "packs (*.fspack)")->required();
+    CLI::App* to_list = app.add_subcommand("list", "title, levels with their errors, parts with their sizes");
+    to_list->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
+    CLI::App* to_explain =
+        app.add_subcommand("explain", "all that the pack says, and how it stands in the prop");
+    to_explain->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
+    to_explain->add_option("--config", request.config,
+                           "settings (TOML) with the prop; else the default prop");
+    for (CLI::App* command : {to_verify, to_list, to_explain}) {
+        command->add_flag("--json", request.json, "for programs");
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return app.got_subcommand(to_verify) ? verify(request)
+           : app.got_subcommand(to_list) ? list(request)
+                                         : explain(request);
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-pack", frustumscreen::run, argc, argv);
+}

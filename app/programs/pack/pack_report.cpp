@@ -1,0 +1,208 @@
+#include "app/programs/pack/pack_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double mm_per_m = 1000.0;
+
+std::string_view name_of(LevelTechnique technique) {
+    return technique == LevelTechnique::Relief ? "relief" : "mesh";
+}
+
+std::string in_units(std::uint64_t bytes) {
+    const auto value = static_cast<double>(bytes);
+    return bytes < 1000      ? fmt::format("{} B", bytes)
+           : bytes < 1000000 ? fmt::format("{:.1f} kB", value / 1e3)
+                             : fmt::format("{:.1f} MB", value / 1e6);
+}
+
+double mm_per_box(const Pack& pack, const PropSize& prop) {
+    return place(pack, make_prop(prop)).metres_per_box * mm_per_m;
+}
+
+Json levels_json(const Pack& pack, double mm) {
+    Json levels = Json::array();
+    for (const PackLevel& level : pack.levels) {
+        levels.push_back({{"technique", name_of(level.technique)},
+                          {"triangles", level.indices.size() / 3},
+                          {"vertices", level.vertices.size()},
+                          {"clusters", level.clusters.size()},
+                          {"texture", level.texture},
+                          {"error",
+                           {{"mean_mm", level.error.mean_box * mm},
+                            {"p95_mm", level.error.p95_box * mm},
+                            {"max_mm", level.error.max_box * mm},
+                            {"colour_rmse", level.error.colour_rmse}}}});
+    }
+    return levels;
+}
+
+Json parts_json(const std::vector<PackPart>& parts) {
+    Json result = Json::array();
+    for (const PackPart& part : parts) {
+        result.push_back({{"name", part.name},
+                          {"bytes", part.bytes},
+                          {"stored_bytes", part.stored_bytes},
+                          {"sha256", part.sha256.empty() ? Json(nullptr) : Json(part.sha256)}});
+    }
+    return result;
+}
+
+void add_description(Json& json, const Pack& pack) {
+    json["format_version"] = pack_format_version;
+    json["captions"] = Json::array();
+    for (const PackCaption& caption : pack.captions) {
+        json["captions"].push_back(
+            {{"language", caption.language}, {"title", caption.title}, {"text", caption.text}});
+    }
+    json["provenance"] = {{"source_name", pack.provenance.source_name},
+                          {"source_sha256", pack.provenance.source_sha256},
+                          {"licence", pack.provenance.licence},
+                          {"source_triangles", pack.provenance.source_triangles}};
+    json["prop_kind"] = pack.prop_kind;
+    json["unlit"] = pack.unlit;
+    json["samples"] = pack.samples;
+    json["relief_size"] = pack.relief_size;
+    json["box_size"] = {pack.box_size.x, pack.box_size.y, pack.box_size.z};
+    json["textures"] = Json::array();
+    for (const Image8& texture : pack.textures) {
+        json["textures"].push_back({{"width", texture.width}, {"height", texture.height}});
+    }
+    json["relief"] = nullptr;
+    if (!pack.relief.charts.empty()) {
+        json["relief"] = {{"width", pack.relief.relief.width},
+                          {"height", pack.relief.relief.height},
+                          {"charts", pack.relief.charts.size()},
+                          {"texel_box", pack.relief.texel_box}};
+    }
+}
+
+void add_placement(Json& json, const Pack& pack, const PropSize& prop) {
+    const Placement placement = place(pack, make_prop(prop));
+    const glm::dvec3 size = pack.box_size * placement.metres_per_box;
+    json["prop"] = {{"kind", frustumscreen::name_of(prop.kind)},
+                    {"base_m", prop.base_m},
+                    {"top_m", prop.kind == PropKind::Cube ? prop.base_m : prop.top_m},
+                    {"height_m", prop.height_m}};
+    json["metres_per_box"] = placement.metres_per_box;
+    json["artifact_size_m"] = {size.x, size.y, size.z};
+    json["prop_from_artifact"] = Json::array();
+    for (int k = 0; k < 16; ++k) {
+        json["prop_from_artifact"].push_back(placement.prop_from_artifact[k / 4][k % 4]);
+    }
+}
+
+std::string levels_text(const Pack& pack, double mm) {
+    std::string text = fmt::format("  {:<7}{:<10}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}\n", "level", "technique",
+                                   "triangles", "texture", "mean mm", "p95 mm", "max mm", "colour");
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        const PackLevel& level = pack.levels[k];
+        const Image8& texture = pack.textures[level.texture];
+        text += fmt::format("  {:<7}{:<10}{:>10}{:>10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}\n",
+                            fmt::format("{}{}", k, k == pack.default_level ? " *" : ""),
+                            name_of(level.technique), level.indices.size() / 3,
+                            fmt::format("{}x{}", texture.width, texture.height), level.error.mean_box * mm,
+                            level.error.p95_box * mm, level.error.max_box * mm, level.error.colour_rmse);
+    }
+    return text;
+}
+
+std::string matrix_text(const glm::dmat4& matrix) {
+    std::string text;
+    for (int row = 0; row < 4; ++row) {
+        text += fmt::format("    {:>14.8g} {:>14.8g} {:>14.8g} {:>14.8g}\n", matrix[0][row], matrix[1][row],
+                            matrix[2][row], matrix[3][row]);
+    }
+    return text;
+}
+
+std::string title_line(const OpenedPack& opened) {
+    return fmt::format("{}: \"{}\" ({}), {}, unsigned\n", opened.file.string(), opened.pack->title,
+                       fmt::join(opened.pack->languages, ", "), in_units(opened.file_bytes));
+}
+
+std::string description_text(const Pack& pack) {
+    std::string text;
+    for (const PackCaption& caption : pack.captions) {
+        text += fmt::format("  caption {}: {}{}{}\n", caption.language, caption.title,
+                            caption.text.empty() ? "" : " - ", caption.text);
+    }
+    const PackProvenance& source = pack.provenance;
+    text += fmt::format("  source: {}, {} triangles, licence {}\n          sha256 {}\n", source.source_name,
+                        source.source_triangles, source.licence.empty() ? "not stated" : source.licence,
+                        source.source_sha256.empty() ? "not stated" : source.source_sha256);
+    text += fmt::format("  baked for a {}, {}, {} texels along the longest edge of a face\n", pack.prop_kind,
+                        pack.unlit ? "unlit" : "in museum light", pack.relief_size);
+    if (!pack.relief.charts.empty()) {
+        text += fmt::format("  relief: {} x {} texels, {} charts\n", pack.relief.relief.width,
+                            pack.relief.relief.height, pack.relief.charts.size());
+    }
+    return text;
+}
+
+} // namespace
+
+Result<OpenedPack> open_pack(const std::filesystem::path& file) {
+    const Result<Bytes> bytes = read_file(file);
+    if (!bytes) {
+        return tl::unexpected(bytes.error());
+    }
+    Result<VerifiedPack> pack = verify_pack(*bytes);
+    if (!pack) {
+        return at(file.string(), pack.error());
+    }
+    Result<std::vector<PackPart>> parts = list_pack_parts(*bytes);
+    if (!parts) {
+        return at(file.string(), parts.error());
+    }
+    return OpenedPack{file, bytes->size(), std::move(*pack), std::move(*parts)};
+}
+
+Json list_json(const OpenedPack& opened, const PropSize& prop) {
+    const Pack& pack = *opened.pack;
+    return {{"file", opened.file.string()},
+            {"bytes", opened.file_bytes},
+            {"signed", false},
+            {"title", pack.title},
+            {"languages", pack.languages},
+            {"levels", levels_json(pack, mm_per_box(pack, prop))},
+            {"default_level", pack.default_level},
+            {"parts", parts_json(opened.parts)}};
+}
+
+Json explain_json(const OpenedPack& opened, const PropSize& prop) {
+    Json json = list_json(opened, prop);
+    add_description(json, *opened.pack);
+    add_placement(json, *opened.pack, prop);
+    return json;
+}
+
+std::string list_text(const OpenedPack& opened, const PropSize& prop) {
+    const Pack& pack = *opened.pack;
+    std::string text = title_line(opened) + levels_text(pack, mm_per_box(pack, prop));
+    for (const PackPart& part : opened.parts) {
+        text += fmt::format("  {:<24}{:>12}{:>12} stored\n", part.name, in_units(part.bytes),
+                            in_units(part.stored_bytes));
+    }
+    return text;
+}
+
+std::string explain_text(const OpenedPack& opened, const PropSize& prop) {
+    const Pack& pack = *opened.pack;
+    const Placement placement = place(pack, make_prop(prop));
+    const glm::dvec3 size = pack.box_size * placement.metres_per_box * mm_per_m;
+    return list_text(opened, prop) + description_text(pack) +
+           fmt::format("  in a {} of base {} m, height {} m the artifact is {:.1f} x {:.1f} x {:.1f} mm\n"
+                       "  prop_from_artifact, from the file's coordinates to the prop's, metres:\n",
+                       frustumscreen::name_of(prop.kind), prop.base_m, prop.height_m, size.x, size.y,
+                       size.z) +
+           matrix_text(placement.prop_from_artifact);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,215 @@
+/// frustumscreen-poses: pose files from recordings of other trackers, and from the simulated visitor.
+#include "app/programs/common/guarded_main.h"
+#include "app/settings/lit_zone.h"
+#include "app/settings/settings.h"
+#include "app/tracking/placed_pose.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/tracker/convert_recording.h"
+#include "firmware_host/tracker/packet_replay.h"
+#include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/simulated_tracker.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+constexpr std::size_t largest_text_bytes = std::size_t{1} << 30;
+
+struct ConvertRequest {
+    std::string input;
+    std::string output;
+    std::string settings; ///< packets: the registration
+    RecordingOptions recording;
+};
+
+struct SimulateRequest {
+    std::string settings;
+    std::string output;
+    std::uint64_t seed = 1;
+    double seconds = 30.0;
+    double rate_hz = 60.0;
+};
+
+Result<void> write_pose_file(const std::string& path, const std::string& comment,
+                             const std::vector<PoseSample>& samples) {
+    // The header stays the first line, for readers that know no comments before it.
+    std::string text = write_poses(samples);
+    text.insert(text.find('\n') + 1, "# " + comment + "\n");
+    return write_file(path, as_bytes(text));
+}
+
+/// Packets of `frustumscreen record --raw`: the poses that the exhibit had then.
+Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
+    RigidTransform table_from_device;
+    Result<PacketReplay> replay = PacketReplay::open(std::move(bytes), request.input);
+    if (!replay) {
+        return tl::unexpected(replay.error());
+    }
+    if (!request.settings.empty() && !replay->reports_table_frame()) {
+        const auto settings = load_settings(request.settings);
+        if (!settings) {
+            return tl::unexpected(settings.error());
+        }
+        table_from_device = (*settings)->tracker.table_from_tracker;
+    }
+    std::vector<PoseSample> samples;
+    replay->play(replay->end(), samples);
+    std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
+    for (PoseSample& sample : samples) {
+        sample = placed_on_table(sample, table_from_device);
+        sample.time = MonotonicTime(sample.time - replay->begin());
+    }
+    const std::string comment =
+        fmt::format("{} poses of {} packets over {:.3f} s; {} packets that the recorder dropped, {} bytes "
+                    "behind a cut left out",
+                    samples.size(), replay->packets(), to_seconds(replay->end() - replay->begin()),
+                    replay->dropped(), replay->left_bytes());
+    Result<void> written = write_pose_file(request.output, comment, samples);
+    if (written) {
+        fmt::print("{}: {}\n", request.output, comment);
+    }
+    return written;
+}
+
+Result<void> convert(const ConvertRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.input, request.settings}});
+        !safe) {
+        return safe;
+    }
+    Result<Bytes> bytes = read_file(request.input);
+    if (!bytes) {
+        return tl::unexpected(bytes.error());
+    }
+    if (is_packet_recording(*bytes)) {
+        return convert_packets(request, std::move(*bytes));
+    }
+    if (bytes->size() > largest_text_bytes) {
+        return bad_input(fmt::format("{}: {} bytes; at most {} are allowed", request.input, bytes->size(),
+                                     largest_text_bytes));
+    }
+    const auto converted = convert_recording(as_text(*bytes), request.input, request.recording);
+    if (!converted) {
+        return tl::unexpected(converted.error());
+    }
+    const std::string comment = fmt::format("{} poses; left out {} rows that did not step forward in time; "
+                                            "mended {} changes of sign; scale {:.4g}",
+                                            converted->samples.size(), converted->dropped_rows,
+                                            converted->sign_flips, converted->scale);
+    Result<void> written = write_pose_file(request.output, comment, converted->samples);
+    if (written) {
+        fmt::print("{}: {}\n", request.output, comment);
+    }
+    return written;
+}
+
+/// The prop stays where every face is lit at every yaw, whoever looks.
+Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
+    const auto settings = load_settings(request.settings);
+    if (!settings) {
+        return tl::unexpected(settings.error());
+    }
+    const Rectangle places = lit_zone(**settings).any_eye_rectangle;
+    SimulatedVisitor visitor;
+    visitor.seed = request.seed;
+    visitor.centre_m = places.centre_m;
+    visitor.half_extent_m = places.half_m;
+    visitor.eye_m = (*settings)->eye.default_m;
+    visitor.rate_hz = request.rate_hz;
+    return visitor;
+}
+
+Result<void> simulate(const SimulateRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.settings}}); !safe) {
+        return safe;
+    }
+    const Result<SimulatedVisitor> visitor = visitor_for(request);
+    if (!visitor) {
+        return tl::unexpected(visitor.error());
+    }
+    std::vector<PoseSample> samples;
+    // One period less: S seconds at H hertz are S x H poses of each station.
+    const auto last_ns = static_cast<std::int64_t>((request.seconds - 0.5 / request.rate_hz) * 1e9);
+    SimulatedTracker tracker(*visitor, MonotonicTime{});
+    Result<void> polled = tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples);
+    if (!polled) {
+        return polled;
+    }
+    return write_pose_file(request.output,
+                           fmt::format("a simulated visitor; seed {}, {} s at {} Hz", request.seed,
+                                       request.seconds, request.rate_hz),
+                           samples);
+}
+
+void add_convert(CLI::App& app, ConvertRequest& request, std::vector<double>& within) {
+    CLI::App* command = app.add_subcommand(
+        "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres; or packets) into a pose file");
+    command
+        ->add_option("INPUT", request.input,
+                     "the recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
+        ->required();
+    command->add_option("-o,--output", request.output, "the pose file to write")->required();
+    command->add_option("--config", request.settings,
+                        "packets: the settings whose table_from_tracker places the poses on the table");
+    command->add_option("--station", request.recording.station, "1 prop, 2 head, 3 torch")
+        ->check(CLI::Range(1, 3))
+        ->capture_default_str();
+    command->add_flag("--flat", request.recording.flat,
+                      "lay the motion onto the table: x, y and the turn about Z");
+    command
+        ->add_option("--within", within,
+                     "flat: half the width and half the depth of where the prop may be, metres")
+        ->expected(2)
+        ->check(CLI::Range(0.001, 10.0));
+}
+
+void add_simulate(CLI::App& app, SimulateRequest& request) {
+    CLI::App* command = app.add_subcommand("simulate", "a pose file of a simulated visitor");
+    command->add_option("--config", request.settings, "the settings: table, light and eye")->required();
+    command->add_option("-o,--output", request.output, "the pose file to write")->required();
+    command->add_option("--seed", request.seed, "another seed, another visit")->capture_default_str();
+    command->add_option("--seconds", request.seconds, "how long")
+        ->check(CLI::Range(0.001, 86400.0))
+        ->capture_default_str();
+    command->add_option("--hz", request.rate_hz, "poses a second")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Pose files for FrustumScreen: from recordings of other trackers, and simulated.",
+                 "frustumscreen-poses");
+    app.set_version_flag("--version", "frustumscreen-poses " FRUSTUMSCREEN_VERSION);
+    app.require_subcommand(1);
+    ConvertRequest to_convert;
+    SimulateRequest to_simulate;
+    std::vector<double> within;
+    add_convert(app, to_convert, within);
+    add_simulate(app, to_simulate);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (within.size() == 2) {
+        to_convert.recording.half_extent_m = {within[0], within[1]};
+    }
+    const Result<void> done = app.got_subcommand("convert") ? convert(to_convert) : simulate(to_simulate);
+    if (!done) {
+        fmt::print(stderr, "frustumscreen-poses: {}\n", done.error().message);
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-poses", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,162 @@
+/// frustumscreen-sheet: pictures for people, made from the projector's pictures, their poses and the settings
+/// alone.
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
+#include "app/programs/sheet/sheet_animation.h"
+#include "app/programs/sheet/sheet_frames.h"
+#include "app/programs/sheet/sheet_picture.h"
+#include "app/programs/sheet/sheet_table.h"
+#include "firmware_host/base/file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::vector<std::filesystem::path> folders;
+    std::vector<std::filesystem::path> poses;
+    std::vector<std::string> labels;
+    std::filesystem::path sheet;
+    std::filesystem::path animation;
+    std::filesystem::path table;
+    std::size_t rows = 8;
+    std::size_t animation_frames = 64;
+    SheetOptions sheet_options;
+    AnimationOptions animation_options;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app(
+        "Makes a contact sheet (projector's picture and visitor's view), an animation and a table of frame "
+        "times from pictures of 'frustumscreen run' or 'render'.",
+        "frustumscreen-sheet");
+    app.set_version_flag("--version", "frustumscreen-sheet " FRUSTUMSCREEN_VERSION);
+    app.add_option("--config", request.config, "the settings that the pictures were made with")->required();
+    app.add_option("--frames", request.folders, "folders with frame_00000.png ...")->required();
+    app.add_option("--poses", request.poses, "a pose file for each folder (default: its poses.csv)");
+    app.add_option("--label", request.labels,
+                   "a label for each folder (default: the artifact in its frames.csv)");
+    app.add_option("-o,--output", request.sheet, "contact sheet to write, PNG");
+    app.add_option("--rows", request.rows, "frames of each folder on the sheet")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    app.add_option("--columns", request.sheet_options.columns, "frames beside each other (default: 1 or 2)")
+        ->check(CLI::Range(1, 4));
+    app.add_option("--title", request.sheet_options.title, "the sheet's and the table's title")
+        ->capture_default_str();
+    app.add_option("--animation", request.animation, "animation of the first folder to write, animated WebP");
+    app.add_option("--animation-frames", request.animation_frames, "at most so many pictures each way")
+        ->check(CLI::Range(2, 600))
+        ->capture_default_str();
+    app.add_option("--width", request.animation_options.width, "the animation's width")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    app.add_option("--height", request.animation_options.height, "the animation's height")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    app.add_option("--table", request.table, "table of frame times and errors to write, .html or .md");
+    try {
+        app.parse(argc, argv);
+        if (request.sheet.empty() && request.animation.empty() && request.table.empty()) {
+            throw CLI::ValidationError("nothing to make; give -o, --animation or --table");
+        }
+        if (request.poses.size() > request.folders.size() || request.labels.size() > request.folders.size()) {
+            throw CLI::ValidationError("more --poses or --label than --frames");
+        }
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+Result<void> make(const Request& request) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    std::vector<FrameFolder> folders;
+    for (std::size_t k = 0; k < request.folders.size(); ++k) {
+        Result<FrameFolder> folder =
+            read_frame_folder(request.folders[k], k < request.poses.size() ? request.poses[k] : "",
+                              k < request.labels.size() ? request.labels[k] : "", (*settings)->eye.default_m);
+        if (!folder) {
+            return tl::unexpected<Error>(folder.error());
+        }
+        folders.push_back(std::move(*folder));
+    }
+    if (!request.sheet.empty()) {
+        const Result<Typesetter> typesetter = Typesetter::open();
+        if (!typesetter) {
+            return tl::unexpected<Error>(typesetter.error());
+        }
+        std::vector<SheetFrame> frames;
+        for (const FrameFolder& folder : folders) {
+            const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
+            frames.insert(frames.end(), chosen.begin(), chosen.end());
+        }
+        ProgressLine progress("contact sheet");
+        const Result<Image8> sheet =
+            contact_sheet(**settings, frames, request.sheet_options, *typesetter,
+                          [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+        if (!sheet) {
+            return tl::unexpected<Error>(sheet.error());
+        }
+        if (Result<void> written = write_file(request.sheet, encode_png(*sheet)); !written) {
+            return written;
+        }
+    }
+    if (!request.animation.empty()) {
+        ProgressLine progress("animation");
+        const Result<Bytes> animation = visitor_animation(
+            **settings, evenly(folders.front().frames, request.animation_frames), request.animation_options,
+            [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+        if (!animation) {
+            return tl::unexpected<Error>(animation.error());
+        }
+        if (Result<void> written = write_file(request.animation, *animation); !written) {
+            return written;
+        }
+    }
+    if (!request.table.empty()) {
+        std::vector<FrameRecord> records;
+        for (const FrameFolder& folder : folders) {
+            records.insert(records.end(), folder.records.begin(), folder.records.end());
+        }
+        const std::vector<TableLine> lines = table_lines(records);
+        const std::string text =
+            request.table.extension() == ".md"
+                ? markdown_table(lines)
+                : html_table(lines, request.sheet_options.title + ": frame times and errors");
+        return write_file(request.table, as_bytes(text));
+    }
+    return {};
+}
+
+int run(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    if (const Result<void> made = make(request); !made) {
+        fmt::print(stderr, "frustumscreen-sheet: {}\n", made.error().message);
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-sheet", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,28 @@
+/// Frame times and errors, one line for each artifact and level, as Markdown or as a page.
+#pragma once
+
+#include "app/programs/sheet/sheet_frames.h"
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct TableLine {
+    std::string artifact;
+    std::string technique;
+    std::size_t frames =
+        0; ///< drawn; the first of a run, which compiles shaders, is left out where there are more
+    std::size_t unchanged = 0;
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+    double estimated_error_mm = 0.0;
+};
+
+/// In the order of first appearance.
+[[nodiscard]] std::vector<TableLine> table_lines(const std::vector<FrameRecord>& records);
+[[nodiscard]] std::string markdown_table(const std::vector<TableLine>& lines);
+/// One self-contained page.
+[[nodiscard]] std::string html_table(const std::vector<TableLine>& lines, const std::string& title);
+
+} // namespace frustumscreen

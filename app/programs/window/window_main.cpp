@@ -1,0 +1,145 @@
+/// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/scene/scene_plan.h"
+#include "app/settings/settings.h"
+#include "app/show/artifact_show.h"
+#include "app/show/pattern_show.h"
+#include "app/show/run_loop.h"
+#include "firmware_host/base/standard_error.h"
+#include "firmware_host/service/journal.h"
+#include "firmware_host/service/service_manager.h"
+#include "firmware_host/service/stop_signals.h"
+#include "firmware_host/window/sdl_window.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace frustumscreen {
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    ArtifactShowOptions show;
+    double seconds = 0.0; ///< 0 = until it is closed
+    bool pattern = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app(
+        "The exhibit in a window. Drag: slide the prop; wheel or right drag: turn it; 1, 2, 3: the buttons; "
+        "Esc: end.",
+        "frustumscreen-window");
+    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
+    app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+        ->check(is_technique_word())
+        ->capture_default_str();
+    app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
+    app.add_option("--seconds", request.seconds, "stop after so many seconds")
+        ->check(seconds_between(0.01, 1e6));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+/// Where a pixel of the projector's picture lies on the table.
+TableFromPicture table_from_picture(const ProjectorSettings& projector) {
+    return [projector](const glm::dvec2& pixel) -> std::optional<glm::dvec2> {
+        const RigidTransform& pose = projector.table_from_projector;
+        const glm::dvec3 ray = pose.direction(projector.pinhole.ray(pixel));
+        if (ray.z >= 0.0) {
+            return std::nullopt;
+        }
+        return glm::dvec2(pose.translation - ray * (pose.translation.z / ray.z));
+    };
+}
+
+Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
+                                        const Display& display) {
+    if (request.pattern) {
+        return PatternShow::create(settings);
+    }
+    ArtifactShowOptions options = request.show;
+    options.program = "frustumscreen-window";
+    if (options.packs.empty()) {
+        options.packs = settings.exhibit.packs;
+    }
+    DevicePlan devices;
+    devices.tracker = TrackerKind::Simulated;
+    devices.panel = devices.other_packs = devices.language = true;
+    Result<std::unique_ptr<ArtifactShow>> show =
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    for (const std::string& note : (*show)->notes()) {
+        say_line(options.program, note);
+    }
+    return std::move(*show);
+}
+
+Result<void> run(const Request& request) {
+    const StopSignals stop_signals;
+    const Journal journal("frustumscreen-window");
+    ServiceManager manager;
+    const Result<CheckedSettings> checked = load_settings(request.config);
+    if (!checked) {
+        return tl::unexpected<Error>(checked.error());
+    }
+    Settings settings = **checked;
+    settings.tracker.kind = TrackerKind::Simulated; // the mouse goes anywhere on the table, as a hand does
+    settings.tracker.display_latency_ms = 0.0;
+    const Pinhole& pinhole = settings.projector.pinhole;
+    const glm::dvec2 table(settings.table.width_m, settings.table.depth_m);
+    Result<Window> window = open_window({pinhole.width, pinhole.height, 0.5 * (table - settings.prop.base_m),
+                                         table_from_picture(settings.projector)});
+    if (!window) {
+        return tl::unexpected<Error>(window.error());
+    }
+    const Result<std::unique_ptr<Show>> show = [&] {
+        const StopSignals::AtOnce at_once(stop_signals);
+        return make_show(request, settings, *window->display);
+    }();
+    if (!show) {
+        return tl::unexpected<Error>(show.error());
+    }
+    Inputs inputs;
+    inputs.tracker = std::move(window->tracker);
+    inputs.panel = std::move(window->panel);
+    LoopOptions options;
+    if (request.seconds > 0.0) {
+        options.length = Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(request.seconds * 1e9)));
+    }
+    options.stop = &stop_signals;
+    StatusFile status_file{{}};
+    RunWatch watch(manager, journal);
+    const Result<LoopResult> result =
+        run_loop(settings, *window->display, inputs, **show, options, status_file, watch, monotonic_now());
+    return result ? Result<void>{} : tl::unexpected<Error>(result.error());
+}
+
+int window_main(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    return exit_status("frustumscreen-window", run(request));
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-window", frustumscreen::window_main, argc, argv);
+}

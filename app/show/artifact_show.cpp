@@ -1,0 +1,370 @@
+#include "app/show/artifact_show.h"
+
+#include "app/exhibit/caption_image.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/prop_note.h"
+#include "app/render/read_back.h"
+#include "app/settings/lit_zone.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Widths that a caption is wrapped to, in falling preference.
+constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
+constexpr double warm_up_step_m = 0.01;
+
+void add_once(std::vector<std::string>& languages, const std::string& language) {
+    if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+        languages.push_back(language);
+    }
+}
+
+/// Begins in the language that is asked for, or in the one that stands for it.
+template <typename Artifacts>
+Exhibit make_exhibit(const Artifacts& artifacts, const std::string& asked, MonotonicTime now) {
+    std::vector<std::string> languages; // in the order of their first appearance
+    for (const auto& artifact : artifacts) {
+        for (const std::string& language : artifact.languages) {
+            add_once(languages, language);
+        }
+    }
+    const std::string first = languages.empty() ? asked : languages[caption_for(asked, languages)];
+    return {artifacts.size(), std::move(languages), first, now};
+}
+
+/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
+/// pixels: letters that were set pixel for pixel stay crisp.
+TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
+                         const RigidTransform& table_from_projector) {
+    const glm::dvec3 corner(rectangle.corners()[3], 0.0);
+    const std::optional<glm::dvec2> pixel = projector.pixel(table_from_projector.inverse().point(corner));
+    if (!pixel) {
+        return rectangle;
+    }
+    const glm::dvec3 ray = table_from_projector.direction(projector.ray(glm::round(*pixel)));
+    if (ray.z < 0.0) {
+        const glm::dvec3 lens = table_from_projector.translation;
+        rectangle.centre_m += glm::dvec2(lens + ray * (lens.z / -ray.z) - corner);
+    }
+    return rectangle;
+}
+
+/// Messages about a pack begin with its file.
+PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+    const std::string place = pack + ": ";
+    if (message.substr(0, place.size()) == place) {
+        message.remove_prefix(place.size());
+    }
+    return {pack, std::string(message)};
+}
+
+/// On its own, too, where nobody reads the lines on standard error.
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) {
+    if (left_out.empty()) {
+        return fail(ErrorKind::BadConfiguration,
+                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
+                    "make them with frustumscreen-bake");
+    }
+    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
+    return fail(ErrorKind::BadConfiguration,
+                left_out.size() == 1 ? "the pack cannot be shown: " + first
+                                     : fmt::format("none of the {} packs can be shown; the first: {}",
+                                                   left_out.size(), first));
+}
+
+std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
+    const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
+    return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
+}
+
+} // namespace
+
+/// Brings what is needed of packs into the GPU's memory, one after the other; nothing of a pack but what
+/// culls stays in ours.
+struct ArtifactShow::Loader {
+    const Settings& settings;
+    const DevicePlan& devices;
+    const ArtifactShowOptions& options;
+    std::optional<Typesetter> typesetter; ///< opened for the first caption
+    std::uint64_t next_id = 1;
+    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
+    std::vector<std::string> notes = {};
+
+    [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
+        ScenePlan plan;
+        const Result<VerifiedPack> pack =
+            load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+                Result<ScenePlan> made = plan_scene(settings, outline, request(outline));
+                if (!made) {
+                    return tl::unexpected<Error>(made.error());
+                }
+                plan = std::move(*made);
+                return plan.levels;
+            });
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
+        Result<RunLevels> levels =
+            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, next_id);
+        if (!levels) {
+            return at(file.string(), levels.error());
+        }
+        next_id += (*pack)->levels.size();
+        plan.passes = levels->needs();
+        plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
+        for (const PackCaption& caption : (*pack)->captions) {
+            add_once(languages, caption.language);
+        }
+        if (const auto note = note_other_prop(file.string(), **pack, settings.prop.kind)) {
+            notes.push_back(*note);
+        }
+        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
+        if (Result<void> set = set_captions(**pack, artifact); !set) {
+            return at(file.string(), set.error());
+        }
+        return artifact;
+    }
+
+    [[nodiscard]] SceneRequest request(const PackOutline& outline) const {
+        SceneRequest request;
+        request.technique = options.technique;
+        request.room = options.samples;
+        request.economies = options.economies;
+        request.visibility = visibility_of(settings);
+        std::vector<std::string> languages;
+        for (const PackCaption& caption : outline.description.captions) {
+            request.captions.push_back(languages.size());
+            languages.push_back(caption.language);
+        }
+        if (!devices.language && !languages.empty()) {
+            request.captions = {caption_for(settings.exhibit.language, languages)};
+        }
+        return request;
+    }
+
+    [[nodiscard]] Result<void> set_captions(const Pack& pack, Artifact& artifact) {
+        const double texels_per_m =
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+        for (const std::size_t each : artifact.plan.captions) {
+            if (!typesetter) {
+                Result<Typesetter> opened = Typesetter::open();
+                if (!opened) {
+                    return tl::unexpected<Error>(opened.error());
+                }
+                typesetter = std::move(*opened);
+            }
+            const PackCaption& caption = pack.captions[each];
+            std::vector<CaptionPicture> shapes;
+            for (const double width_m : caption_widths_m) {
+                const CaptionImage image =
+                    make_caption(*typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
+                                 width_m, texels_per_m);
+                Result<CaptionGpu> gpu = CaptionGpu::upload(image.coverage);
+                if (!gpu) {
+                    return tl::unexpected<Error>(gpu.error());
+                }
+                shapes.push_back({std::move(*gpu), image.size_m, next_id++,
+                                  caption_gpu_bytes(image.coverage.width, image.coverage.height)});
+            }
+            artifact.languages.push_back(caption.language);
+            artifact.captions.push_back(std::move(shapes));
+        }
+        return {};
+    }
+};
+
+Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
+                                                           const DevicePlan& devices,
+                                                           const ArtifactShowOptions& options,
+                                                           const RenderTarget& target, MonotonicTime now) {
+    Loader loader{settings, devices, options, std::nullopt};
+    std::vector<Artifact> artifacts;
+    artifacts.reserve(options.packs.size());
+    std::vector<PackLeftOut> left_out;
+    PassNeeds needs;
+    for (const std::filesystem::path& file : options.packs) {
+        if (!artifacts.empty() && !devices.other_packs) {
+            break; // no button leads there
+        }
+        Result<Artifact> artifact = loader.load(file);
+        if (artifact) {
+            needs = united(needs, artifact->plan.passes);
+            artifacts.push_back(std::move(*artifact));
+        } else {
+            say_line(options.program, fmt::format("left out: {}", artifact.error().message));
+            left_out.push_back(pack_left_out(file.string(), artifact.error().message));
+        }
+    }
+    if (artifacts.empty()) {
+        return nothing_to_show(left_out);
+    }
+    const Pinhole& pinhole = settings.projector.pinhole;
+    Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    std::unique_ptr<ArtifactShow> show(
+        new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
+    show->left_out_ = std::move(left_out);
+    show->notes_ = std::move(loader.notes);
+    if (settings.exhibit.captions && !loader.languages.empty() &&
+        !has_language(loader.languages, settings.exhibit.language)) {
+        show->notes_.push_back(fmt::format(
+            "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
+            show->language_of(show->artifacts_.front()), fmt::join(loader.languages, ", ")));
+    }
+    show->measure(settings, target);
+    return show;
+}
+
+/// At the middle of the table, seen by the default eye.
+void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
+    const PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
+    for (Artifact& artifact : artifacts_) {
+        artifact.levels.measure(prop_, view, renderer_, target);
+        warm_up(artifact, view, target);
+    }
+}
+
+/// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame
+/// does, and are to be done with it before the first one.
+void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
+    const CaptionPicture* caption = artifact.captions.empty() ? nullptr : &artifact.captions.front().front();
+    if (caption != nullptr) {
+        view.caption = TablePicture{picture_corners({attract_place_m_, caption->size_m}), 1.0, caption->id};
+    }
+    RenderTarget drawn = target;
+    for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
+        static_cast<void>(artifact.levels.draw({}, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
+                                               renderer_, drawn, redraw));
+        drawn.buffer_age = 1;
+        view.table_from_prop.translation.x += warm_up_step_m;
+    }
+    wait_until_drawn();
+}
+
+ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+                           std::vector<Artifact> artifacts, MonotonicTime now)
+    : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
+      prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
+      artifacts_(std::move(artifacts)), exhibit_(make_exhibit(artifacts_, settings.exhibit.language, now)),
+      attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m),
+      placer_(picture_on_table(settings, 0.0)) {}
+
+const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime now, const Shown& shown,
+                                                                const Situation& situation, PlanView& view) {
+    const Artifact& artifact = artifacts_[shown.artifact];
+    if (artifact.captions.empty()) {
+        return nullptr;
+    }
+    const std::vector<CaptionPicture>& shapes =
+        artifact.captions[caption_for(shown.language, artifact.languages)];
+    if (placed_caption_ != &shapes) {
+        placed_caption_ = &shapes;
+        std::array<glm::dvec2, caption_widths_m.size()> sizes{};
+        std::transform(shapes.begin(), shapes.end(), sizes.begin(),
+                       [](const CaptionPicture& shape) { return shape.size_m; });
+        placer_.set_shapes(sizes);
+    }
+    const RigidTransform& pose = situation.table_from_prop;
+    placer_.update(now, hidden_by_prop(prop_, pose, table_from_projector_.translation),
+                   hidden_by_prop(prop_, pose, situation.eye_m), glm::dvec2(pose.translation));
+    const CaptionPlace place = placer_.at(now);
+    const double brightness = place.opacity * shown.caption_brightness;
+    if (brightness <= 0.0) {
+        return nullptr;
+    }
+    const CaptionPicture& shape = shapes[place.shape];
+    view.caption = TablePicture{
+        picture_corners(on_pixels(place.rectangle, projector_, table_from_projector_)), brightness, shape.id};
+    return &shape;
+}
+
+/// The situation as it is drawn: without a prop, the artifact stands at a place of its own.
+Situation ArtifactShow::stand(MonotonicTime now, Situation situation, Shown& shown) {
+    if (!attract_) {
+        attract_.emplace(attract_place_m_, situation.prop_known, now);
+    }
+    stand_ = attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
+    situation.table_from_prop = stand_.table_from_prop;
+    shown.brightness *= stand_.brightness;
+    shown.caption_brightness *= stand_.brightness;
+    return situation;
+}
+
+DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+                              Redraw redraw) {
+    Shown shown = exhibit_.at(now);
+    const Situation situation = stand(now, on_table, shown);
+    PlanView view{projector_, table_from_projector_, situation.table_from_prop,
+                  std::span(&situation.eye_m, 1)};
+    view.brightness = shown.brightness;
+    const CaptionPicture* caption = place_caption(now, shown, situation, view);
+    if (on_ != shown.artifact) {
+        artifacts_[shown.artifact].levels.enter(now, artifacts_[on_].levels.load());
+        on_ = shown.artifact;
+    }
+    return artifacts_[on_].levels.draw(now, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
+                                       renderer_, target, redraw);
+}
+
+ShowUse ArtifactShow::use() const {
+    ShowUse use;
+    use.planned_programs = programs_of(needs_);
+    use.programs = renderer_.programs();
+    use.samples = needs_.samples;
+    use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
+    use.gpu_bytes = renderer_.bytes();
+    for (const Artifact& artifact : artifacts_) {
+        for (const LevelUse& level : artifact.levels.uses()) {
+            use.planned_gpu_bytes += level.planned_gpu_bytes;
+            use.gpu_bytes += level.gpu_bytes;
+        }
+        use.captions += artifact.captions.size();
+        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
+            for (const CaptionPicture& shape : shapes) {
+                use.planned_gpu_bytes += shape.planned_gpu_bytes;
+                use.caption_gpu_bytes += shape.gpu.bytes();
+            }
+        }
+    }
+    use.gpu_bytes += use.caption_gpu_bytes;
+    return use;
+}
+
+void ArtifactShow::took(MonotonicTime now, double ms) {
+    artifacts_[on_].levels.took(now, ms);
+}
+
+std::string_view ArtifactShow::language_of(const Artifact& artifact) const {
+    return artifact.languages.empty()
+               ? exhibit_.language()
+               : artifact.languages[caption_for(exhibit_.language(), artifact.languages)];
+}
+
+ShowState ArtifactShow::state(MonotonicTime now) const {
+    const Shown shown = exhibit_.at(now);
+    const Artifact& artifact = artifacts_[shown.artifact];
+    const double opacity = placer_.at(now).opacity;
+    LevelState levels = artifact.levels.state();
+    levels.switches = 0;
+    levels.ignored_times = 0;
+    for (const Artifact& each : artifacts_) {
+        levels.switches += each.levels.state().switches;
+        levels.ignored_times += each.levels.state().ignored_times;
+    }
+    return {artifact.title,
+            language_of(artifact),
+            levels,
+            !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
+            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt,
+            left_out_};
+}
+
+} // namespace frustumscreen

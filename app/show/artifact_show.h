@@ -1,0 +1,111 @@
+/// The exhibit on the display: packs in the GPU's memory, the exhibit's state, captions and renderer.
+///
+/// Threads  the render thread, with the display's context current; also where it is destroyed.
+/// Errors   a pack that cannot be loaded is left out with a line on standard error; none left:
+/// BadConfiguration.
+#pragma once
+
+#include "app/exhibit/attract.h"
+#include "app/exhibit/captions.h"
+#include "app/exhibit/exhibit.h"
+#include "app/render/renderer.h"
+#include "app/scene/frame_plan.h"
+#include "app/settings/settings.h"
+#include "app/show/run_levels.h"
+#include "app/show/show.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ArtifactShowOptions {
+    std::vector<std::filesystem::path> packs;
+    std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
+    int samples = default_samples;  ///< a pixel, that there is room for
+    unsigned economies = AllEconomies;
+    std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
+};
+
+/// What a show took, planned and observed.
+struct ShowUse {
+    std::vector<Program> planned_programs, programs;
+    std::uint64_t planned_gpu_bytes = 0;
+    std::uint64_t gpu_bytes = 0; ///< as the driver says
+    std::uint64_t caption_gpu_bytes = 0;
+    std::size_t captions = 0; ///< texts, each in some widths
+    int samples = 1;          ///< a pixel, that there is room for
+};
+
+class ArtifactShow final : public Show {
+public:
+    /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
+    create(const Settings& settings, const DevicePlan& devices, const ArtifactShowOptions& options,
+           const RenderTarget& target, MonotonicTime now);
+
+    void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
+    void take_back(Wish wish, MonotonicTime now) override { exhibit_.take_back(wish, now); }
+    [[nodiscard]] bool heeds(Wish wish) const override { return exhibit_.heeds(wish); }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+                                  Redraw redraw) override;
+    void took(MonotonicTime now, double ms) override;
+    [[nodiscard]] ShowState state(MonotonicTime now) const override;
+
+    [[nodiscard]] ShowUse use() const;
+    /// What a person may not have meant, in sentences.
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+    /// Of the artifacts that are shown, in order.
+    [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const { return artifacts_[artifact].plan; }
+    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return artifacts_[artifact].levels; }
+
+private:
+    /// One text wrapped to one width.
+    struct CaptionPicture {
+        CaptionGpu gpu;
+        glm::dvec2 size_m{0.0};
+        std::uint64_t id = 0;
+        std::uint64_t planned_gpu_bytes = 0;
+    };
+    struct Artifact {
+        std::string title;
+        ScenePlan plan;
+        RunLevels levels;
+        std::vector<std::string> languages;
+        std::vector<std::vector<CaptionPicture>> captions; ///< one list for each of `languages`
+    };
+    struct Loader;
+
+    ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+                 std::vector<Artifact> artifacts, MonotonicTime now);
+    void measure(const Settings& settings, const RenderTarget& target);
+    void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
+    /// Of its caption; without captions the exhibit's.
+    [[nodiscard]] std::string_view language_of(const Artifact& artifact) const;
+    [[nodiscard]] Situation stand(MonotonicTime now, Situation situation, Shown& shown);
+    /// Chooses the caption; its brightness includes the fades.
+    [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
+                                                      const Situation& situation, PlanView& view);
+
+    Pinhole projector_;
+    RigidTransform table_from_projector_;
+    PropShape prop_;
+    PassNeeds needs_;
+    Renderer renderer_;
+    std::vector<Artifact> artifacts_;
+    std::vector<PackLeftOut> left_out_;
+    std::vector<std::string> notes_;
+    Exhibit exhibit_;
+    glm::dvec2 attract_place_m_;
+    std::optional<Attract> attract_; ///< from the first picture on
+    Stand stand_;                    ///< of the latest picture
+    std::size_t on_ = 0;             ///< the artifact that is on
+    CaptionPlacer placer_;
+    const std::vector<CaptionPicture>* placed_caption_ = nullptr;
+};
+
+} // namespace frustumscreen

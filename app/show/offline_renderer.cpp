@@ -1,0 +1,116 @@
+#include "app/show/offline_renderer.h"
+
+#include "app/render/read_back.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The finest level is for those who do not count the cost: it gets the smoothest outlines too.
+int samples_of(const OfflineOptions& options, const Pack& pack) {
+    const int usual = options.technique == "finest" ? finest_samples : pack.samples;
+    return options.samples > 0 ? options.samples : usual;
+}
+
+} // namespace
+
+Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutline& pack,
+                               const OfflineOptions& options) {
+    SceneRequest request;
+    request.technique = options.technique;
+    request.live = false;
+    request.light = options.light;
+    request.samples = samples_of(options, pack.description);
+    request.room = default_samples;
+    request.economies = options.economies;
+    if (!options.views.empty()) {
+        request.visibility = visibility_of(*settings, options.views);
+    }
+    Result<ScenePlan> plan = plan_scene(*settings, pack, request);
+    if (plan && options.width > 0 && options.height > 0) {
+        plan->projector = plan->projector.scaled_to(options.width, options.height);
+    }
+    return plan;
+}
+
+OfflineRenderer::OfflineRenderer(const ScenePlan& plan, const OfflineOptions& options)
+    : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop) {
+    if (options.light) {
+        light_ = LightCompensation{};
+    }
+}
+
+Result<std::unique_ptr<OfflineRenderer>>
+OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options) {
+    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan, options));
+    const int width = made->projector_.width;
+    const int height = made->projector_.height;
+    Result<std::unique_ptr<SurfacelessDisplay>> display = SurfacelessDisplay::create(width, height);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    made->display_ = std::move(*display);
+    const std::uint32_t number = plan.rungs.front().level;
+    const SceneLevel level = scene_level(*pack, number, plan);
+    Result<ArtifactGpu> artifact = ArtifactGpu::upload(level, pack->textures[level.mesh.texture]);
+    if (!artifact) {
+        return tl::unexpected<Error>(artifact.error());
+    }
+    made->artifact_ = std::move(*artifact);
+    PassNeeds needs = needs_of(plan, level);
+    needs.cut_out = made->artifact_->cut_out();
+    Result<Renderer> renderer = Renderer::create(options_of(needs, width, height));
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    made->renderer_ = std::move(*renderer);
+    if (options.hit_points) {
+        Result<HitPointRenderer> hit_points =
+            HitPointRenderer::create(width, height, made->artifact_->cut_out());
+        if (!hit_points) {
+            return tl::unexpected<Error>(hit_points.error());
+        }
+        made->hit_points_ = std::move(*hit_points);
+    }
+    made->technique_ = fmt::format("level{}", number);
+    made->estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
+    made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
+                     pack->box_size,
+                     plan.metres_per_box,
+                     number,
+                     samples_of(options, *pack),
+                     plan.faces};
+    made->plan_ = make_plan(made->prop_, made->placed_);
+    return made;
+}
+
+void OfflineRenderer::draw_once(const PlanView& view) {
+    plan_frame(prop_, placed_, view, plan_);
+    renderer_->draw(plan_, &*artifact_, {display_->framebuffer(), display_->buffer_age()},
+                    Redraw::Everything);
+    (void)display_->present(MonotonicTime{}); // cannot fail without a screen
+}
+
+OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m) {
+    const PlanView view{projector_, table_from_projector_, table_from_prop, std::span(&eye_m, 1), light_};
+    if (!warm_) {
+        draw_once(view); // the driver compiles its shaders on the first picture
+        warm_ = true;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    draw_once(view);
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+    OfflinePicture picture;
+    picture.ms = taken.count();
+    picture.colour = read_colour(display_->framebuffer(), projector_.width, projector_.height);
+    if (hit_points_) {
+        picture.hit_points = hit_points_->draw(plan_, &*artifact_);
+    }
+    return picture;
+}
+
+} // namespace frustumscreen

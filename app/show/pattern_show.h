@@ -1,0 +1,41 @@
+/// The alignment pattern on the display: drawn on the CPU whenever the prop has moved.
+///
+/// Threads  the render thread, with the display's context current.
+/// Errors   the typeface is missing.
+#pragma once
+
+#include "app/exhibit/pattern.h"
+#include "app/render/picture_upload.h"
+#include "app/settings/settings.h"
+#include "app/show/show.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+class PatternShow final : public Show {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
+
+    void wish(Wish, MonotonicTime) override {}
+    /// Written into the pattern, below what it says itself.
+    void set_lines(std::vector<std::string> lines);
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+                                  Redraw redraw) override;
+    [[nodiscard]] ShowState state(MonotonicTime) const override { return {}; }
+
+private:
+    PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload);
+
+    PatternScene scene_;
+    Typesetter typesetter_;
+    PictureUpload upload_;
+    Image8 table_;
+    std::vector<std::string> lines_;
+    std::optional<glm::dmat4> shown_; ///< the prop's pose in the picture on show
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,298 @@
+#include "app/show/run_loop.h"
+
+#include "app/render/probe.h"
+#include "app/render/read_back.h"
+#include "app/tracking/live_situation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t window_frames = 8192; ///< that the status' times are taken from
+constexpr std::size_t most_rows = 1U << 20U;
+constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
+constexpr Nanoseconds between_probes = std::chrono::seconds(1);
+
+std::optional<Wish> wish_of(int button) {
+    switch (button) {
+    case 0:
+        return Wish::PreviousArtifact;
+    case 1:
+        return Wish::NextArtifact;
+    case 2:
+        return Wish::NextLanguage;
+    default:
+        return std::nullopt;
+    }
+}
+
+double milliseconds_since(MonotonicTime start) {
+    return 1e3 * to_seconds(monotonic_now() - start);
+}
+
+class Loop {
+public:
+    Loop(const Settings& settings, Display& display, Inputs& inputs, Show& show, const LoopOptions& options,
+         StatusFile& status_file, RunWatch& watch, MonotonicTime start)
+        : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
+          watch_(watch), start_(start),
+          period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
+          head_is_followed_(settings.eye.tracked),
+          light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
+          situation_(inputs.tracker && !inputs.tracker->reports_table_frame()
+                         ? settings.tracker.table_from_tracker
+                         : RigidTransform{},
+                     settings.eye.default_m, 0.5 * settings.prop.height_m),
+          times_(window_frames), presented_(start) {
+        samples_.reserve(1024);
+        events_.reserve(64);
+        if (options.keep_rows && options.length) {
+            rows_expected_ =
+                std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
+            result_.rows.reserve(rows_expected_);
+        }
+        for (int k = 0; k < options.stills; ++k) {
+            result_.stills.push_back({Image8(display.width(), display.height()), {}, {}});
+        }
+    }
+
+    [[nodiscard]] Result<LoopResult> run() {
+        MonotonicTime now = start_;
+        watch_.begin(start_, options_.fast, status_file_);
+        MonotonicTime next_status = start_ + between_statuses;
+        while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
+            if (Result<void> drawn = frame(now); !drawn) {
+                return tl::unexpected<Error>(drawn.error());
+            }
+            if (now >= next_status) {
+                post_status(now);
+                next_status += between_statuses;
+            }
+            now = next_display_time(now);
+        }
+        post_status(now);
+        if (stills_taken_ == 0 && options_.stills > 0 && result_.status.frames > 0) {
+            keep_still(now); // a short run leaves its last picture
+        }
+        result_.stills.resize(stills_taken_);
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] Result<void> frame(MonotonicTime now) {
+        const MonotonicTime begin = monotonic_now();
+        watch_.enters("asks its devices");
+        poll(now);
+        watch_.enters("draws");
+        Situation situation = situation_.at(now + light_delay_.from_now());
+        situation.prop_known = situation.prop_known || !inputs_.tracker;
+        const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
+        const bool probe =
+            options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
+        const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
+        bool coded = false;
+        if (drawn.drawn) {
+            coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+            for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
+                display_.changed({part.x, part.y, part.width, part.height});
+            }
+            watch_.enters("waits for the display");
+            const Result<MonotonicTime> shown = display_.present(now);
+            if (!shown) {
+                return tl::unexpected<Error>(shown.error());
+            }
+            light_delay_.flipped(now, *shown);
+            presented_ = now;
+            result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
+        }
+        const double ms = milliseconds_since(begin);
+        watch_.enters("tells how it is");
+        if (drawn.drawn) {
+            watch_.presented(now, display_, coded);
+        }
+        watch_.look(now, display_, inputs_);
+        const bool changed = drawn.drawn && !drawn.redrawn.empty();
+        count(drawn.drawn, changed, now, ms);
+        result_.status.prop_known = situation.prop_known;
+        result_.status.head_known = situation.head_known;
+        const ShowState state = show_.state(now);
+        if (result_.rows.size() < rows_expected_) {
+            result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
+                                    static_cast<float>(state.levels.estimated_error_mm), changed,
+                                    state.artifact, state.levels.level});
+        }
+        shown_ = situation;
+        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        result_.status.presented.settled = state.settled;
+        watch_.enters("rests until the next display time");
+        take_still(now, state);
+        return {};
+    }
+
+    void count(bool presented, bool changed, MonotonicTime now, double ms) {
+        RunStatus& status = result_.status;
+        ++status.frames;
+        status.probes += presented && !changed ? 1 : 0;
+        ++(changed ? status.drawn : status.unchanged);
+        if (changed && status.frames > 1) { // the first one compiles shaders
+            times_.add(ms);
+            status.missed_deadlines += ms > 1e3 * to_seconds(period_) ? 1 : 0;
+            show_.took(now, ms);
+        }
+    }
+
+    void poll(MonotonicTime now) {
+        samples_.clear();
+        events_.clear();
+        if (inputs_.tracker) {
+            result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
+        }
+        if (inputs_.panel) {
+            result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+            inputs_.panel->light(useful_buttons());
+        }
+        for (const PoseSample& sample : samples_) {
+            if (head_is_followed_ || sample.station != head_station) {
+                result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
+            }
+        }
+        for (const PanelEvent& event : events_) {
+            if (event.kind == PressKind::Chord) {
+                renew_status(now);
+                show_.chord(now, result_.status);
+            }
+            const std::optional<Wish> wish = wish_of(event.button);
+            if (wish && event.kind == PressKind::Press) {
+                show_.wish(*wish, now);
+            }
+        }
+    }
+
+    /// The buttons that do something now, bit k = button k.
+    [[nodiscard]] std::uint32_t useful_buttons() const {
+        std::uint32_t buttons = 0;
+        for (int button = 0; const std::optional<Wish> wish = wish_of(button); ++button) {
+            buttons |= show_.heeds(*wish) ? 1U << static_cast<unsigned>(button) : 0U;
+        }
+        return buttons;
+    }
+
+    /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
+    void take_still(MonotonicTime now, const ShowState& state) {
+        if (stills_taken_ >= result_.stills.size() || !options_.length) {
+            return;
+        }
+        const auto part = *options_.length / (2 * static_cast<Nanoseconds::rep>(result_.stills.size()));
+        const auto number = static_cast<Nanoseconds::rep>(stills_taken_);
+        if (now - start_ < (2 * number + 1) * part ||
+            (!state.settled && now - start_ < (2 * number + 2) * part)) {
+            return;
+        }
+        keep_still(now);
+    }
+
+    void keep_still(MonotonicTime now) {
+        Still& still = result_.stills[stills_taken_++];
+        still.situation = shown_;
+        still.time = MonotonicTime(now - start_);
+        read_colour_into(display_.framebuffer(), still.picture);
+        erase_probe(still.picture); // a watchdog's, not the picture's
+    }
+
+    void post_status(MonotonicTime now) {
+        renew_status(now);
+        if (result_.first_resident_mib == 0.0 && options_.length && now - start_ >= *options_.length / 10) {
+            result_.first_resident_mib = resident_mib();
+        }
+        watch_.note(result_.status);
+        show_.tell(result_.status);
+        status_file_.post(result_.status);
+    }
+
+    void renew_status(MonotonicTime now) {
+        RunStatus& status = result_.status;
+        const ShowState state = show_.state(now);
+        status.left_out = state.left_out;
+        status.artifact = state.artifact;
+        status.language = state.language;
+        status.technique = state.levels.technique;
+        status.level = state.levels.level;
+        status.samples = state.levels.samples;
+        status.estimated_error_mm = state.levels.estimated_error_mm;
+        status.p95_error_mm = state.levels.p95_error_mm;
+        status.level_switches = state.levels.switches;
+        status.ignored_times = state.levels.ignored_times;
+        status.median_ms = times_.quantile(0.5);
+        status.p95_ms = times_.quantile(0.95);
+        status.p99_ms = times_.quantile(0.99);
+        status.uptime_s = to_seconds(now - start_);
+        status.presented.table_from_prop = shown_.table_from_prop;
+        status.presented.eye_m = shown_.eye_m;
+        status.shown_code = watch_.shown_code();
+        status.health = watch_.health();
+        status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
+        status.display = Sentence(display_.state());
+        status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
+        status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
+        status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
+    }
+
+    [[nodiscard]] bool told_to_stop() const { return options_.stop != nullptr && options_.stop->received(); }
+
+    /// Waits for it, unless the run is fast.
+    [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
+        if (options_.fast) {
+            return now + period_;
+        }
+        MonotonicTime next = display_.next_frame(now, period_);
+        const MonotonicTime clock = monotonic_now();
+        if (clock > next) {
+            const auto missed = (clock - next) / period_;
+            result_.status.late += static_cast<std::uint64_t>(missed);
+            next += missed * period_;
+        }
+        std::this_thread::sleep_until(next);
+        return next;
+    }
+
+    Display& display_;
+    Inputs& inputs_;
+    Show& show_;
+    const LoopOptions& options_;
+    StatusFile& status_file_;
+    RunWatch& watch_;
+    MonotonicTime start_;
+    Nanoseconds period_;
+    bool head_is_followed_;
+    LightDelay light_delay_;
+    LiveSituation situation_;
+    Situation shown_; ///< of the latest frame, as it was drawn
+    FrameTimes times_;
+    std::vector<PoseSample> samples_;
+    std::vector<PanelEvent> events_;
+    MonotonicTime presented_; ///< when the picture on show was
+    std::uint8_t probe_code_ = 0;
+    std::size_t rows_expected_ = 0;
+    std::size_t stills_taken_ = 0;
+    LoopResult result_;
+};
+
+} // namespace
+
+Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs, Show& show,
+                            const LoopOptions& options, StatusFile& status_file, RunWatch& watch,
+                            MonotonicTime start) {
+    Result<LoopResult> result =
+        Loop(settings, display, inputs, show, options, status_file, watch, start).run();
+    watch.end();
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,52 @@
+/// The live loop: poll, decide, draw what changed, present, wait for the next display time.
+///
+/// Time     every decision is made for one `now` a frame. In real time that is the monotonic clock; fast, a
+/// clock
+///          that steps by one period, so that a run is repeatable and as quick as the machine allows.
+/// Threads  the render thread, with the display's context current. Allocates nothing of its own in a frame.
+/// Errors   the display stops; devices that fail are counted and asked again.
+#pragma once
+
+#include "app/settings/settings.h"
+#include "app/show/inputs.h"
+#include "app/show/run_report.h"
+#include "app/show/run_watch.h"
+#include "app/show/show.h"
+#include "app/tracking/situation.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/display/display.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct LoopOptions {
+    std::optional<Nanoseconds> length; ///< nothing = until told to stop
+    bool fast = false;
+    Redraw redraw = Redraw::Changes;
+    int stills = 0; ///< pictures to keep, spread over `length`
+    bool keep_rows = false;
+    const StopSignals* stop = nullptr; ///< one of them ends the loop
+};
+
+struct Still {
+    Image8 picture;
+    Situation situation;
+    MonotonicTime time;
+};
+
+struct LoopResult {
+    RunStatus status;
+    std::vector<Still> stills;
+    std::vector<FrameRow> rows;
+    double first_resident_mib = 0.0; ///< after the first tenth of the run
+};
+
+[[nodiscard]] Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs,
+                                          Show& show, const LoopOptions& options, StatusFile& status_file,
+                                          RunWatch& watch, MonotonicTime start);
+
+} // namespace frustumscreen

@@ -1,0 +1,224 @@
+#include "app/show/run_report.h"
+
+#include "firmware_host/base/device_thread.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Quotes a text for CSV where it must be.
+std::string csv_text(std::string_view text) {
+    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
+double rounded(double value) {
+    return std::round(value * 1000.0) / 1000.0;
+}
+
+nlohmann::ordered_json json_of(std::optional<std::uint8_t> code) {
+    return code ? nlohmann::ordered_json(*code) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json json_of(const PresentedPicture& picture) {
+    const glm::dvec3& place = picture.table_from_prop.translation;
+    const glm::dquat& turn = picture.table_from_prop.rotation;
+    return {{"code", json_of(picture.code)},
+            {"prop_m", {place.x, place.y, place.z}},
+            {"prop_wxyz", {turn.w, turn.x, turn.y, turn.z}},
+            {"eye_m", {picture.eye_m.x, picture.eye_m.y, picture.eye_m.z}},
+            {"settled", picture.settled}};
+}
+
+nlohmann::ordered_json json_of(const TrackerCounts& counts) {
+    return {{"connections", counts.connections},
+            {"frames", counts.frames},
+            {"lost", counts.lost},
+            {"duplicated", counts.duplicated},
+            {"reordered", counts.reordered},
+            {"strange", counts.strange},
+            {"unusable", counts.unusable},
+            {"broken", counts.broken},
+            {"clock_restarts", counts.clock_restarts},
+            {"clock_drift_ppm", rounded(1e6 * counts.clock_drift)}};
+}
+
+/// The kernel's name for the time since it was started (random(4)); empty where it does not say.
+Sentence boot_id() {
+    std::string id;
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), id);
+    return Sentence(id);
+}
+
+} // namespace
+
+std::string frames_csv(const std::vector<FrameRow>& rows) {
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n";
+    auto out = std::back_inserter(csv);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const FrameRow& row = rows[k];
+        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{}\n", k, row.t_us, row.ms, row.technique,
+                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact));
+    }
+    return csv;
+}
+
+FrameTimes::FrameTimes(std::size_t window) : window_(window), sorted_(window) {}
+
+void FrameTimes::add(double ms) {
+    window_[count_++ % window_.size()] = static_cast<float>(ms);
+}
+
+double FrameTimes::quantile(double share) {
+    const std::size_t count = std::min(count_, window_.size());
+    if (count == 0) {
+        return 0.0;
+    }
+    std::copy_n(window_.begin(), count, sorted_.begin());
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
+    const auto nth =
+        sorted_.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, count) - 1);
+    std::nth_element(sorted_.begin(), nth, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
+    return static_cast<double>(*nth);
+}
+
+std::string status_json(const RunStatus& status) {
+    nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
+    for (const PackLeftOut& each : status.left_out) {
+        left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
+    }
+    const std::time_t written_at = std::chrono::system_clock::to_time_t(status.written_at);
+    const nlohmann::ordered_json json = {
+        {"written_at", fmt::format("{:%FT%TZ}", fmt::gmtime(written_at))},
+        {"monotonic_ns", status.written_at_monotonic.time_since_epoch().count()},
+        {"boot_id", status.boot_id.view()},
+        {"health", word_of(status.health)},
+        {"presented", json_of(status.presented)},
+        {"shown_code", json_of(status.shown_code)},
+        {"left_out", left_out},
+        {"artifact", status.artifact},
+        {"technique", status.technique},
+        {"level", status.level},
+        {"samples", status.samples},
+        {"language", status.language},
+        {"estimated_error_mm", rounded(status.estimated_error_mm)},
+        {"p95_error_mm", rounded(status.p95_error_mm)},
+        {"frame_ms",
+         {{"p50", rounded(status.median_ms)},
+          {"p95", rounded(status.p95_ms)},
+          {"p99", rounded(status.p99_ms)}}},
+        {"missed_deadlines", status.missed_deadlines},
+        {"level_switches", status.level_switches},
+        {"ignored_times", status.ignored_times},
+        {"frames", status.frames},
+        {"drawn", status.drawn},
+        {"unchanged", status.unchanged},
+        {"probes", status.probes},
+        {"skipped", status.late},
+        {"device_errors", status.bad_samples},
+        {"display", status.display.view()},
+        {"tracker", status.tracker.view()},
+        {"tracker_counts", json_of(status.tracker_counts)},
+        {"panel", status.panel.view()},
+        {"recording", status.recording.view()},
+        {"prop_known", status.prop_known},
+        {"head_known", status.head_known},
+        {"uptime_s", rounded(status.uptime_s)},
+        {"resident_mib", rounded(status.resident_mib)}};
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+double resident_mib() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t size = 0;
+    std::uint64_t resident = 0;
+    statm >> size >> resident;
+    return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+void stamp(RunStatus& status) {
+    status.written_at = std::chrono::system_clock::now();
+    status.written_at_monotonic = monotonic_now();
+    status.boot_id = boot_id();
+    status.resident_mib = resident_mib();
+}
+
+StatusFile::StatusFile(std::filesystem::path file) : file_(std::move(file)) {
+    if (!file_.empty()) {
+        writer_ = std::jthread([this] { work(); });
+    }
+}
+
+StatusFile::~StatusFile() {
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = true;
+    }
+    changed_.notify_one();
+}
+
+void StatusFile::post(const RunStatus& status) {
+    if (file_.empty()) {
+        return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        latest_ = status;
+        pending_ = true;
+    }
+    changed_.notify_one();
+}
+
+void StatusFile::note_hang(bool hangs) {
+    {
+        const std::lock_guard lock(mutex_);
+        hangs_ = hangs;
+        pending_ = !file_.empty();
+    }
+    changed_.notify_one();
+}
+
+void StatusFile::work() {
+    begin_device_thread("status");
+    bool complained = false;
+    std::unique_lock lock(mutex_);
+    while (true) {
+        changed_.wait(lock, [this] { return pending_ || closing_; });
+        if (!pending_) {
+            return;
+        }
+        RunStatus status = latest_;
+        status.health = hangs_ ? Health::Hangs : status.health;
+        pending_ = false;
+        lock.unlock();
+        stamp(status);
+        const Result<void> written = write_file(file_, as_bytes(status_json(status)));
+        if (!written && !complained) {
+            say_line("frustumscreen", written.error().message);
+            complained = true;
+        }
+        lock.lock();
+    }
+}
+
+} // namespace frustumscreen

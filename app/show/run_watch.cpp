@@ -1,0 +1,141 @@
+#include "app/show/run_watch.h"
+
+#include "app/render/probe.h"
+#include "firmware_host/base/format_sentence.h"
+
+#include <array>
+#include <span>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Of a policy that feeds nobody.
+constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
+
+} // namespace
+
+void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_file) {
+    if (simulated_time) {
+        return;
+    }
+    if (const auto interval = manager_.watchdog_interval(); interval || status_file.wanted()) {
+        watchdog_.emplace(interval.value_or(usual_interval), now);
+    }
+    hang_watch_.emplace(loop_patience, [this, &status_file](std::optional<const char*> part) {
+        const Sentence line =
+            part ? format_sentence(
+                       "watchdog: the picture hangs: nothing was heard of the exhibit for {} s, while it {}",
+                       loop_patience / std::chrono::seconds(1), *part)
+                 : Sentence("watchdog: the exhibit is heard of again");
+        journal_.note(part ? Weight::Error : Weight::Notice, line.view(), {{"DEVICE", "watchdog"}});
+        status_file.note_hang(part.has_value());
+    });
+}
+
+void RunWatch::enters(const char* part) {
+    if (hang_watch_) {
+        hang_watch_->enters(part);
+    }
+}
+
+void RunWatch::presented(MonotonicTime now, const Display& display, bool has_code) {
+    if (!ready_ && display.settled()) {
+        ready_ = true;
+        manager_.ready();
+    }
+    if (!watchdog_) {
+        return;
+    }
+    watchdog_->presented(now);
+    if (watchdog_->wants_code(now)) {
+        shown_code_ = has_code ? code_of(display) : std::nullopt;
+        watchdog_->read_back(now, {!has_code, shown_code_});
+    }
+}
+
+/// A driver that never gave a code back cannot read what it shows: no reason to end the exhibit.
+std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
+    std::array<std::byte, probe_bytes> corner{};
+    if (display.read_shown(corner)) {
+        const std::optional<std::uint8_t> code = read_probe(corner);
+        shown_is_readable_ = shown_is_readable_ || code;
+        if (shown_is_readable_) {
+            return code;
+        }
+    }
+    return read_probe(display.framebuffer());
+}
+
+void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs) {
+    if (!watchdog_) {
+        return;
+    }
+    std::array<MonotonicTime, 3> promises{};
+    std::size_t count = 0;
+    const auto add = [&](const auto* device) {
+        if (const std::optional<MonotonicTime> until =
+                device != nullptr ? device->alive_until() : std::nullopt;
+            until) {
+            promises.at(count++) = *until;
+        }
+    };
+    add(&display);
+    add(inputs.tracker.get());
+    add(inputs.panel.get());
+    const Health health = watchdog_->health(now, std::span(promises).first(count));
+    note_health(health);
+    if (watchdog_->feed(now, health)) {
+        manager_.feed_watchdog();
+    }
+}
+
+void RunWatch::note_health(Health health) {
+    if (health == health_) {
+        return;
+    }
+    health_ = health;
+    const bool well = health == Health::Well;
+    note_state(well ? Weight::Notice : Weight::Error, "watchdog", sentence_of(health),
+               format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
+}
+
+void RunWatch::note(const RunStatus& status) {
+    const Sentence shows = status.artifact.empty() ? Sentence("shows the alignment pattern")
+                                                   : format_sentence("shows {} ({}, {})", status.artifact,
+                                                                     status.language, status.level);
+    const bool other = Sentence(status.artifact) != artifact_ || Sentence(status.language) != language_;
+    artifact_ = Sentence(status.artifact);
+    language_ = Sentence(status.language);
+    level_ = Sentence(status.level);
+    if (other) {
+        note_state(Weight::Info, "exhibit", shows.view(), shows);
+    }
+    note_device("display", status.display, display_);
+    note_device("tracker", status.tracker, tracker_);
+    note_device("panel", status.panel, panel_);
+    note_device("recording", status.recording, recording_);
+    // What a technician looks for comes first: a long line is cut.
+    const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
+    manager_.status(format_sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
+                                    comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+}
+
+void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {
+    if (state != noted) {
+        noted = state;
+        note_state(Weight::Notice, device, state.view(), format_sentence("{}: {}", device, state.view()));
+    }
+}
+
+void RunWatch::note_state(Weight weight, std::string_view device, std::string_view state,
+                          const Sentence& line) const {
+    journal_.note(weight, line.view(),
+                  {{"DEVICE", device},
+                   {"STATE", state},
+                   {"ARTIFACT", artifact_.view()},
+                   {"LANGUAGE", language_.view()},
+                   {"LEVEL", level_.view()}});
+}
+
+} // namespace frustumscreen

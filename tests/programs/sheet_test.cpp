@@ -1,0 +1,142 @@
+#include "app/programs/sheet/sheet_animation.h"
+#include "app/programs/sheet/sheet_frames.h"
+#include "app/programs/sheet/sheet_picture.h"
+#include "app/programs/sheet/sheet_table.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <webp/demux.h>
+
+#include <filesystem>
+
+namespace frustumscreen {
+namespace {
+
+class Sheet : public testing::Test {
+protected:
+    /// Four frames of the prop sliding to the right under a white picture.
+    void SetUp() override {
+        folder = std::filesystem::temp_directory_path() / ("sheet_" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder);
+        std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+        for (int k = 0; k < 4; ++k) {
+            poses += std::to_string(k * 100000) + ",1," + std::to_string(0.03 * k) + ",0,0,1,0,0,0,1\n";
+            const Image8 picture(320, 200, glm::u8vec4(90, 80, 70, 255));
+            ASSERT_TRUE(
+                write_file(folder / ("frame_0000" + std::to_string(k) + ".png"), encode_png(picture)));
+        }
+        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
+        ASSERT_TRUE(write_file(folder / "frames.csv",
+                               as_bytes("frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n"
+                                        "0,0,90,level1,0.05,1,\"Bowl, blue\"\n"
+                                        "1,100000,4,level1,0.05,1,\"Bowl, blue\"\n"
+                                        "2,200000,0.1,level1,0.05,0,\"Bowl, blue\"\n"
+                                        "3,300000,6,level1,0.05,1,\"Bowl, blue\"\n")));
+        settings.emplace(*parse_settings("", "kiosk.toml"));
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::filesystem::path folder;
+    std::optional<CheckedSettings> settings;
+};
+
+TEST_F(Sheet, FramesComeWithTheirPosesAndTheArtifactOfTheirTime) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {0.0, -0.5, 0.5});
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->frames.size(), 4U);
+    EXPECT_EQ(read->frames[2].label, "Bowl, blue");
+    EXPECT_NEAR(read->frames[2].situation.table_from_prop.translation.x, 0.06, 1e-12);
+    EXPECT_EQ(evenly(read->frames, 2).size(), 2U);
+    EXPECT_EQ(evenly(read->frames, 9).size(), 4U);
+}
+
+TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
+    const auto frame = [](double x_m, double turn_deg, const char* label) {
+        SheetFrame one;
+        one.label = label;
+        one.situation.table_from_prop.translation.x = x_m;
+        one.situation.table_from_prop.rotation =
+            glm::angleAxis(glm::radians(turn_deg), glm::dvec3(0.0, 0.0, 1.0));
+        return one;
+    };
+    const std::vector<SheetFrame> kept =
+        distinct({frame(0.0, 0.0, "Bowl"), frame(0.001, 1.0, "Bowl"), frame(0.0, 0.0, "Cup"),
+                  frame(0.0, 20.0, "Bowl"), frame(0.1, 20.0, "Bowl"), frame(0.0, 359.0, "Bowl")});
+    ASSERT_EQ(kept.size(), 4U);
+    EXPECT_EQ(kept[1].label, "Cup");
+    EXPECT_EQ(kept[3].situation.table_from_prop.translation.x, 0.1);
+}
+
+TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
+    ASSERT_TRUE(write_file(folder / "frames.csv", as_bytes("t_us,ms\n0,fast\n")));
+    const Result<FrameFolder> damaged = read_frame_folder(folder, {}, "", {});
+    ASSERT_FALSE(damaged);
+    EXPECT_NE(damaged.error().message.find("frames.csv:2"), std::string::npos);
+    std::filesystem::remove(folder / "poses.csv");
+    EXPECT_FALSE(read_frame_folder(folder, {}, "", {}));
+}
+
+TEST_F(Sheet, TheTableLeavesOutTheFirstFrameAndCountsWhatWasNotDrawn) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
+    ASSERT_TRUE(read);
+    const std::vector<TableLine> lines = table_lines(read->records);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].frames, 2U);
+    EXPECT_EQ(lines[0].unchanged, 1U);
+    EXPECT_DOUBLE_EQ(lines[0].median_ms, 4.0);
+    EXPECT_DOUBLE_EQ(lines[0].p99_ms, 6.0);
+    EXPECT_NE(markdown_table(lines).find("| Bowl, blue | level1 | 2 | 1 | 4.00 | 6.00 | 1.50 | 0.050 |"),
+              std::string::npos);
+    TableLine sly = lines[0];
+    sly.artifact = "<script>";
+    EXPECT_EQ(html_table({sly}, "t").find("<script>"), std::string::npos);
+}
+
+TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(read && typesetter);
+    std::size_t made = 0;
+    const Result<Image8> sheet = contact_sheet(**settings, read->frames, {}, *typesetter,
+                                               [&](std::size_t done, std::size_t) { made = done; });
+    ASSERT_TRUE(sheet) << sheet.error().message;
+    EXPECT_EQ(made, 4U);
+    EXPECT_GT(sheet->width, sheet->height);
+}
+
+TEST_F(Sheet, APictureOfAnotherShapeThanTheProjectorsIsRefused) {
+    ASSERT_TRUE(write_file(folder / "frame_00001.png", encode_png(Image8(200, 200))));
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
+    ASSERT_TRUE(read);
+    const Result<Image8> picture = read_picture(read->frames[1], (*settings)->projector.pinhole);
+    ASSERT_FALSE(picture);
+    EXPECT_NE(picture.error().message.find("frame_00001.png"), std::string::npos);
+}
+
+TEST_F(Sheet, TheAnimationLoopsForEverThereAndBack) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    ASSERT_TRUE(read);
+    const Result<Bytes> webp =
+        visitor_animation(**settings, read->frames, {160, 100, 80.0F}, [](auto, auto) {});
+    ASSERT_TRUE(webp) << webp.error().message;
+    const WebPData data{reinterpret_cast<const std::uint8_t*>(webp->data()), webp->size()};
+    WebPAnimDecoder* decoder = WebPAnimDecoderNew(&data, nullptr);
+    ASSERT_NE(decoder, nullptr);
+    WebPAnimInfo info;
+    ASSERT_TRUE(WebPAnimDecoderGetInfo(decoder, &info));
+    EXPECT_EQ(info.loop_count, 0U);
+    EXPECT_EQ(info.frame_count, 6U); // 0 1 2 3 2 1
+    std::uint8_t* pixels = nullptr;
+    int end_ms = 0;
+    int frames = 0;
+    while (WebPAnimDecoderHasMoreFrames(decoder) != 0) {
+        ASSERT_TRUE(WebPAnimDecoderGetNext(decoder, &pixels, &end_ms));
+        ++frames;
+    }
+    EXPECT_EQ(frames, 6);
+    EXPECT_GE(end_ms, 500);
+    WebPAnimDecoderDelete(decoder);
+}
+
+} // namespace
+} // namespace frustumscreen

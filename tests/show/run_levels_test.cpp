@@ -1,0 +1,182 @@
+// An artifact's levels on the display, with frame times that the test makes up.
+
+#include "app/render/read_back.h"
+#include "app/show/run_levels.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/render/counted_new.h"
+#include "tests/render/synthetic_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+/// Rings at two levels: the coarse one's points are points of the fine one, so the box is the same.
+Pack two_levels() {
+    Pack pack = rings(24, 12);
+    const Pack coarse = rings(12, 4);
+    pack.levels.insert(pack.levels.begin(), coarse.levels[0]);
+    pack.levels[0].error = {4e-3F, 2e-2F, 4e-2F, 0.0F};
+    pack.levels[1].error = {3e-4F, 1e-3F, 4e-3F, 0.0F};
+    for (unsigned k = 0; k < 8; ++k) {
+        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
+    }
+    pack.samples = 1;
+    return pack;
+}
+
+constexpr double deadline_ms = 16.0;
+/// Of a GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
+const std::vector<RungTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
+
+struct Show {
+    Pack pack = two_levels();
+    Stage stage{320, 200};
+    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
+    Renderer renderer = Renderer::create({320, 200, 1, true}).value();
+    int frame = 0;
+
+    [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) const {
+        Settings settings;
+        const double pixel_m = pixel_on_prop_m(stage.prop, settings.projector.pinhole,
+                                               settings.projector.table_from_projector.inverse());
+        settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;
+        SceneRequest request;
+        request.technique = technique;
+        const Result<ScenePlan> plan = plan_scene(settings, outline_of(pack), request);
+        if (!plan) {
+            return tl::unexpected<Error>(plan.error());
+        }
+        return RunLevels::upload(pack, *plan, technique, deadline_ms, 1);
+    }
+    [[nodiscard]] RunLevels levels(const std::string& technique) {
+        RunLevels made = upload(technique).value();
+        made.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
+        if (made.fades()) {
+            made.start(gpu_times); // not what this machine happened to take
+        }
+        return made;
+    }
+    [[nodiscard]] MonotonicTime now() const { return MonotonicTime(std::chrono::milliseconds(20) * frame); }
+    DrawResult draw(RunLevels& levels) {
+        ++frame;
+        const DrawResult drawn =
+            levels.draw(now(), stage.prop, stage.view(), nullptr, renderer,
+                        {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
+        EXPECT_TRUE(display->present(now()));
+        return drawn;
+    }
+    Image8 picture(RunLevels& levels) {
+        draw(levels);
+        return read_colour(display->framebuffer(), 320, 200);
+    }
+    /// Frames that take `ms` each, of a prop that turns a little from frame to frame.
+    void play(RunLevels& levels, int frames, double ms) {
+        for (int k = 0; k < frames; ++k) {
+            stage.table_from_prop.translation.x = 1e-4 * (frame % 2);
+            draw(levels);
+            levels.took(now(), ms);
+        }
+    }
+};
+
+TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
+    Show show;
+    RunLevels levels = show.levels("auto");
+    EXPECT_TRUE(levels.fades());
+    show.play(levels, 100, 9.0);
+    EXPECT_EQ(levels.state().level, "level1");
+    EXPECT_EQ(levels.state().technique, "auto");
+    EXPECT_EQ(levels.state().switches, 0U);
+    const double mm_per_box = 1e3 * place(show.pack, show.stage.prop).metres_per_box;
+    EXPECT_NEAR(levels.state().p95_error_mm, 1e-3 * mm_per_box, 1e-6 * mm_per_box);
+    // All are within a tolerance of 10 mm: the finer one is not even loaded.
+    const RunLevels coarse = show.upload("auto", 10.0).value();
+    EXPECT_FALSE(coarse.fades());
+    EXPECT_EQ(coarse.state().level, "level0");
+}
+
+TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
+    Show show;
+    RunLevels coarse = show.levels("level0");
+    RunLevels fine = show.levels("level1");
+    RunLevels levels = show.levels("auto");
+    show.play(levels, 20, 9.0);
+    int frames = 0;
+    for (; levels.state().level == "level1" && frames < 500; ++frames) {
+        show.play(levels, 1, 1.5 * deadline_ms);
+    }
+    ASSERT_GT(frames, 10);
+    ASSERT_LT(frames, 100); // two seconds of the test's clock
+    // At rest in the middle of the fade: it goes on by itself and ends at the coarse level.
+    const int start = show.frame;
+    const Image8 to = show.picture(coarse);
+    const Image8 from = show.picture(fine);
+    show.frame = start;
+    std::size_t last_coming = 0;
+    const int fade_frames = static_cast<int>(std::lround(level_fade_s / 0.02));
+    for (int k = 1; k <= fade_frames; ++k) {
+        const Image8 middle = show.picture(levels);
+        std::size_t coming = 0;
+        for (std::size_t p = 0; p < middle.texels.size(); ++p) {
+            ASSERT_TRUE(middle.texels[p] == from.texels[p] || middle.texels[p] == to.texels[p]) << k;
+            coming += from.texels[p] != to.texels[p] && middle.texels[p] == to.texels[p] ? 1U : 0U;
+        }
+        EXPECT_GE(coming, last_coming) << k;
+        last_coming = coming;
+        levels.took(show.now(), 9.0); // a frame of two levels teaches nothing
+    }
+    EXPECT_EQ(show.picture(levels).texels, to.texels);
+    EXPECT_EQ(levels.state().level, "level0");
+    EXPECT_EQ(levels.state().switches, 1U);
+    EXPECT_FALSE(show.draw(levels).drawn); // at rest again
+    // And back, when there is time.
+    show.play(levels, 1200, 3.0);
+    EXPECT_EQ(levels.state().level, "level1");
+    EXPECT_EQ(levels.state().switches, 2U);
+}
+
+TEST(RunLevels, OfAFixedTechniqueStay) {
+    Show show;
+    for (const auto& [technique, level] : {std::pair("level0", "level0"), std::pair("finest", "level1")}) {
+        RunLevels levels = show.levels(technique);
+        EXPECT_FALSE(levels.fades());
+        show.play(levels, 200, 50.0 * deadline_ms);
+        EXPECT_EQ(levels.state().level, level);
+        EXPECT_EQ(levels.state().switches, 0U);
+    }
+    EXPECT_FALSE(show.upload("level2"));
+}
+
+TEST(RunLevels, CountGarbageTimes) {
+    Show show;
+    RunLevels levels = show.levels("auto");
+    show.play(levels, 50, std::nan(""));
+    show.play(levels, 50, -1.0);
+    EXPECT_EQ(levels.state().ignored_times, 100U);
+    EXPECT_EQ(levels.state().level, "level1");
+}
+
+TEST(RunLevels, AllocateNothingInAFrame) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    Show show;
+    RunLevels levels = show.levels("auto");
+    show.play(levels, 30, 9.0);
+    show.play(levels, 60, 1.5 * deadline_ms); // the driver meets every state once: fine, fade, coarse
+    ASSERT_EQ(levels.state().level, "level0");
+    show.play(levels, 400, 3.0);
+    ASSERT_EQ(levels.state().level, "level1");
+    const long before = allocations_so_far();
+    show.play(levels, 200, 1.5 * deadline_ms);
+    EXPECT_EQ(levels.state().level, "level0");
+    EXPECT_EQ(allocations_so_far() - before, 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,154 @@
+#include "app/show/run_report.h"
+#include "firmware_host/base/file.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> ms(1.0F, 30.0F);
+    FrameTimes times(500);
+    std::vector<float> all;
+    for (int k = 0; k < 1234; ++k) {
+        all.push_back(ms(random));
+        times.add(static_cast<double>(all.back()));
+    }
+    std::vector<float> last(all.end() - 500, all.end());
+    std::sort(last.begin(), last.end());
+    EXPECT_EQ(static_cast<float>(times.quantile(0.5)), last[249]);
+    EXPECT_EQ(static_cast<float>(times.quantile(0.99)), last[494]);
+    EXPECT_EQ(FrameTimes(10).quantile(0.5), 0.0);
+}
+
+TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
+    const std::string csv = frames_csv({{1000, 2.5F, 0.25F, true, "Bowl, \"blue\"", "level2"}});
+    EXPECT_EQ(csv, "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n"
+                   "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\"\n");
+}
+
+TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
+    const std::vector<PackLeftOut> left_out{{"cat.fspack", "there is no such file"}};
+    const std::time_t before = std::time(nullptr);
+    {
+        StatusFile status_file(file);
+        for (std::uint64_t k = 1; k <= 50; ++k) {
+            RunStatus status;
+            status.artifact = "Amphora";
+            status.frames = k;
+            status.left_out = left_out;
+            status_file.post(status);
+        }
+    }
+    const std::time_t after = std::time(nullptr);
+    const Result<Bytes> bytes = read_file(file);
+    ASSERT_TRUE(bytes);
+    const nlohmann::json json = nlohmann::json::parse(as_text(*bytes));
+    EXPECT_EQ(json.at("frames"), 50);
+    EXPECT_EQ(json.at("artifact"), "Amphora");
+    ASSERT_EQ(json.at("left_out").size(), 1U);
+    EXPECT_EQ(json.at("left_out")[0].at("pack"), "cat.fspack");
+    EXPECT_EQ(json.at("left_out")[0].at("reason"), "there is no such file");
+    std::tm utc{};
+    const std::string written_at = json.at("written_at");
+    const char* const rest = ::strptime(written_at.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    ASSERT_NE(rest, nullptr) << written_at;
+    EXPECT_EQ(*rest, 0) << written_at;
+    EXPECT_GE(::timegm(&utc), before);
+    EXPECT_LE(::timegm(&utc), after);
+    EXPECT_GT(json.at("resident_mib"), 0.0);
+    EXPECT_FALSE(std::filesystem::exists(file.string() + ".part" + std::to_string(::getpid())));
+    std::filesystem::remove(file);
+    StatusFile nowhere{std::filesystem::path()};
+    nowhere.post({});
+}
+
+TEST(RunReport, EveryFieldOfTheStatusHasItsRowInThePage) {
+    const Result<Bytes> page = read_file(FRUSTUMSCREEN_SOURCE_DIR "/docs/status.md");
+    ASSERT_TRUE(page);
+    RunStatus status;
+    stamp(status);
+    const nlohmann::json json = nlohmann::json::parse(status_json(status));
+    for (const auto& [key, value] : json.items()) {
+        EXPECT_NE(as_text(*page).find("\n| `" + key + "` | "), std::string_view::npos) << key;
+        if (value.is_object()) {
+            for (const auto& [inner, each] : value.items()) {
+                EXPECT_NE(as_text(*page).find("`" + inner + "`"), std::string_view::npos)
+                    << key << "." << inner;
+            }
+        }
+    }
+}
+
+TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
+    RunStatus status;
+    status.health = Health::FrozenCode;
+    status.presented = {
+        std::uint8_t{7}, {glm::dquat(0.5, 0.5, 0.5, 0.5), {0.1, 0.2, 0.3}}, {0.0, -0.5, 0.25}, true};
+    status.shown_code = std::uint8_t{6};
+    status.tracker_counts.lost = 3;
+    status.tracker_counts.broken = 4;
+    status.tracker_counts.clock_drift = 25e-6;
+    stamp(status);
+    const MonotonicTime after = monotonic_now();
+    const nlohmann::json json = nlohmann::json::parse(status_json(status));
+    EXPECT_EQ(json.at("health"), "frozen");
+    EXPECT_EQ(json.at("presented").at("code"), 7);
+    EXPECT_EQ(json.at("presented").at("prop_m"), (std::vector{0.1, 0.2, 0.3}));
+    EXPECT_EQ(json.at("presented").at("prop_wxyz"), (std::vector{0.5, 0.5, 0.5, 0.5}));
+    EXPECT_EQ(json.at("presented").at("eye_m"), (std::vector{0.0, -0.5, 0.25}));
+    EXPECT_EQ(json.at("presented").at("settled"), true);
+    EXPECT_EQ(json.at("shown_code"), 6);
+    EXPECT_EQ(json.at("tracker_counts").at("lost"), 3);
+    EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
+    EXPECT_EQ(json.at("tracker_counts").at("clock_drift_ppm"), 25.0);
+    EXPECT_LE(json.at("monotonic_ns"), after.time_since_epoch().count());
+    EXPECT_GT(json.at("monotonic_ns"), (after - std::chrono::minutes(1)).time_since_epoch().count());
+    std::string boot;
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), boot);
+    EXPECT_EQ(json.at("boot_id"), boot);
+}
+
+TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("hang_" + std::to_string(::getpid()) + ".json");
+    const auto comes = [&file](std::string_view health) {
+        for (const MonotonicTime end = monotonic_now() + std::chrono::seconds(60); monotonic_now() < end;) {
+            const Result<Bytes> bytes = read_file(file);
+            if (bytes && nlohmann::json::parse(as_text(*bytes)).at("health") == health) {
+                return true;
+            }
+        }
+        return false;
+    };
+    {
+        StatusFile status_file(file);
+        status_file.post({});
+        EXPECT_TRUE(comes("well"));
+        status_file.note_hang(true);
+        EXPECT_TRUE(comes("hangs"));
+        status_file.note_hang(false);
+        EXPECT_TRUE(comes("well"));
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(RunReport, TextThatIsNotUtf8DoesNotSpoilTheStatus) {
+    RunStatus status;
+    status.artifact = "\xFF\xFE";
+    EXPECT_TRUE(nlohmann::json::accept(status_json(status)));
+}
+
+} // namespace
+} // namespace frustumscreen
