@@ -1,5 +1,7 @@
 #include "app/exhibit/exhibit.h"
 
+#include "app/exhibit/languages.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -7,98 +9,121 @@ namespace frustumscreen {
 
 namespace {
 
-std::string_view primary(std::string_view tag) {
-    return tag.substr(0, tag.find('-'));
+/// In the order of their first appearance, which is the order the button goes through.
+std::vector<std::string> languages_of(const Catalogue& catalogue) {
+    std::vector<std::string> languages;
+    for (const CatalogueEntry& entry : catalogue) {
+        for (const std::string& language : entry.languages) {
+            if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+                languages.push_back(language);
+            }
+        }
+    }
+    return languages;
 }
 
-std::size_t place_of(std::string_view language, std::span<const std::string> languages) {
-    return static_cast<std::size_t>(std::find(languages.begin(), languages.end(), language) -
-                                    languages.begin());
+Selection make_selection(const Catalogue& catalogue, const std::string& language, MonotonicTime now) {
+    std::vector<std::string> languages = languages_of(catalogue);
+    const std::string first = languages.empty() ? language : languages[caption_for(language, languages)];
+    return {catalogue.size(), std::move(languages), first, now};
 }
 
 } // namespace
 
-Exhibit::Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
+Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
-    : count_(artifact_count), languages_(std::move(languages)), language_count_(languages_.size()),
-      language_before_(place_of(language, languages_)), artifact_(0, fade_time, now),
-      language_(language_before_, fade_time, now) {
-    if (language_before_ == languages_.size()) {
-        languages_.push_back(std::move(language));
+    : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
+      placer_(place.picture_m) {}
+
+Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
+    if (staff_until_ && now >= *staff_until_) {
+        staff_until_.reset();
     }
+    for (const Command command : commands) {
+        take(command, now);
+    }
+    if (!attract_) {
+        attract_.emplace(place_.attract_place_m, situation.prop_known, now);
+    }
+    const Stand stand =
+        attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
+    const Shown shown = selection_.at(now);
+
+    Presentation presentation;
+    presentation.artifact = shown.artifact;
+    presentation.brightness = shown.brightness * stand.brightness;
+    presentation.language = language_of(shown.artifact);
+    presentation.caption = caption(now, shown, situation, stand);
+    presentation.table_from_prop = stand.table_from_prop;
+    presentation.attracts = stand.attracts;
+    const double opacity = placer_.at(now).opacity;
+    presentation.settled = !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
+    presentation.staff = staff_until_.has_value();
+    presentation.lamps = lamps();
+    return presentation;
 }
 
-void Exhibit::wish(Wish wish, MonotonicTime now) {
-    if (!heeds(wish)) {
+void Exhibit::take(Command command, MonotonicTime now) {
+    if (command == Command::StaffMode) {
+        take_chord(now);
         return;
     }
-    if (wish == Wish::NextLanguage) {
-        language_before_ = language_.goal();
-        change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
-        return;
-    }
-    // With a language that is still to fade, after one that does already.
-    const MonotonicTime begin =
-        language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
-    artifact_.change_to((artifact_.goal() + (wish == Wish::NextArtifact ? 1 : count_ - 1)) % count_, now,
-                        begin);
-}
-
-/// With an artifact that is still to be dark, after one that fades in. Where they fade together, the caption
-/// has one brightness by either.
-void Exhibit::change_language(std::size_t which, MonotonicTime now) {
-    if (which != language_.goal()) {
-        language_.change_to(which, now,
-                            now < artifact_.dark() ? artifact_.begins() : std::max(now, artifact_.ends()));
+    selected_.at(static_cast<std::size_t>(button_of(command))) = !staff_until_;
+    if (staff_until_) {
+        staff_until_.reset();
+    } else {
+        selection_.take(command, now);
     }
 }
 
-void Exhibit::take_back(Wish wish, MonotonicTime now) {
-    switch (wish) {
-    case Wish::PreviousArtifact:
-        this->wish(Wish::NextArtifact, now);
-        break;
-    case Wish::NextArtifact:
-        this->wish(Wish::PreviousArtifact, now);
-        break;
-    case Wish::NextLanguage:
-        change_language(language_before_, now);
-        break;
+/// The chord began with a press of the first and a press of the last button.
+void Exhibit::take_chord(MonotonicTime now) {
+    for (const std::size_t button : {std::size_t{0}, place_.buttons - 1}) {
+        if (button < selected_.size() && std::exchange(selected_[button], false)) {
+            selection_.undo(button_commands[button], now);
+        }
     }
+    staff_until_ = staff_until_ ? std::nullopt : std::optional(now + staff_time);
 }
 
-bool Exhibit::heeds(Wish wish) const {
-    return (wish == Wish::NextLanguage ? language_count_ : count_) > 1;
+std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
+                                                 const Situation& situation, const Stand& stand) {
+    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+        return std::nullopt;
+    }
+    const CatalogueEntry& entry = catalogue_[shown.artifact];
+    const std::size_t language = caption_for(shown.language, entry.languages);
+    const std::vector<glm::dvec2>& sizes = entry.caption_sizes_m[language];
+    if (placed_ != &sizes) {
+        placed_ = &sizes;
+        placer_.set_shapes(sizes);
+    }
+    const RigidTransform& pose = stand.table_from_prop;
+    placer_.update(now, hidden_by_prop(place_.prop, pose, place_.lens_m),
+                   hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation));
+    const CaptionPlace place = placer_.at(now);
+    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness);
+    if (brightness <= 0.0) {
+        return std::nullopt;
+    }
+    return PresentedCaption{language, place.shape, place.rectangle, brightness};
 }
 
-Shown Exhibit::at(MonotonicTime now) const {
-    if (count_ == 0) {
-        return {};
+/// Of the artifact's caption; without captions the chosen one.
+std::string_view Exhibit::language_of(std::size_t artifact) const {
+    if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
+        return selection_.language();
     }
-    const Faded artifact = artifact_.at(now);
-    const Faded language = language_.at(now);
-    return {artifact.which, artifact.brightness, languages_[language.which],
-            std::min(artifact.brightness, language.brightness), artifact.changing || language.changing};
+    const std::vector<std::string>& languages = catalogue_[artifact].languages;
+    return languages[caption_for(selection_.language(), languages)];
 }
 
-std::size_t caption_for(std::string_view language, std::span<const std::string> languages) {
-    const auto find = [&](auto&& fits) {
-        return static_cast<std::size_t>(std::find_if(languages.begin(), languages.end(), fits) -
-                                        languages.begin());
-    };
-    std::size_t best = find([&](const std::string& tag) { return tag == language; });
-    if (best == languages.size()) {
-        best = find([&](const std::string& tag) { return primary(tag) == primary(language); });
+std::uint32_t Exhibit::lamps() const {
+    std::uint32_t lamps = 0;
+    for (std::size_t button = 0; button < button_commands.size(); ++button) {
+        lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
     }
-    if (best == languages.size()) {
-        best = find([&](const std::string& tag) { return primary(tag) == "en"; });
-    }
-    return best == languages.size() ? 0 : best;
-}
-
-bool has_language(std::span<const std::string> languages, std::string_view language) {
-    return std::any_of(languages.begin(), languages.end(),
-                       [&](const std::string& tag) { return primary(tag) == primary(language); });
+    return lamps;
 }
 
 } // namespace frustumscreen

@@ -1,20 +1,32 @@
-/// What the exhibit shows: which artifact, in which language, how bright.
+/// The exhibit's decisions, all of them: from what was pressed and what is the case on the table to what is
+/// shown.
 ///
-/// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h), a change of language
-/// only the caption. What is wished for while something fades in begins when that is done, and artifact and
-/// caption never fade one between the other: changes are at least 0.5 s apart, whatever is pressed. So the
-/// picture flashes at most twice a second, which leaves room for the staff's pattern to come and go. Three
-/// times is the limit of WCAG 2.3.1 and ITU-R BT.1702 for the sake of photosensitive people. A press still
-/// shows at once: either the picture dims, or it is changing anyway.
+///     commands, situation -> step -> Presentation
 ///
-/// Time     `now` never goes back.
-/// Threads  values; one caller. `at` is pure.
-/// Errors   none. An exhibit without artifacts shows nothing.
+/// A Presentation is plain values: whoever draws, lights lamps or reports does as it says and asks nothing
+/// else.
+///
+/// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed, which
+///          then means nothing else. Presses reach the exhibit at once, since a visitor's must; those that
+///          turn out to have begun the staff's chord are undone, so that after the pattern all is as it was
+///          before.
+/// Frames   table T, metres.
+/// Time     `now` never goes back. Everything is a closed form of it: the rhythm of frames does not matter.
+/// Threads  values; one caller. `step` allocates nothing.
+/// Errors   none. A catalogue without artifacts shows nothing.
 #pragma once
 
-#include "app/exhibit/fade.h"
+#include "app/exhibit/attract.h"
+#include "app/exhibit/captions.h"
+#include "app/exhibit/selection.h"
+#include "app/geometry/prop_shape.h"
+#include "app/settings/command.h"
+#include "app/tracking/situation.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,48 +34,73 @@
 
 namespace frustumscreen {
 
-enum class Wish { PreviousArtifact, NextArtifact, NextLanguage };
+/// An artifact that there is to show.
+struct CatalogueEntry {
+    std::vector<std::string> languages; ///< of its captions, BCP 47
+    /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
+    /// preference; at most four.
+    std::vector<std::vector<glm::dvec2>> caption_sizes_m;
+};
+using Catalogue = std::vector<CatalogueEntry>;
 
-inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< out, and again in
+/// Where it all happens.
+struct ExhibitPlace {
+    PropShape prop;
+    glm::dvec3 lens_m{0.0};            ///< the projector's
+    std::vector<glm::dvec2> picture_m; ///< what the projector's picture covers of the table, convex
+    glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
+    std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
+};
 
-struct Shown {
-    std::size_t artifact = 0;
+struct PresentedCaption {
+    std::size_t language = 0; ///< index into CatalogueEntry::languages
+    std::size_t shape = 0;    ///< index into its sizes
+    TableRectangle rectangle;
+    double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
+};
+
+struct Presentation {
+    std::size_t artifact = 0;  ///< index into the catalogue
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
-    std::string_view language; ///< of the caption; stands as long as the exhibit
-    double caption_brightness = 0.0;
-    bool changing = false; ///< a brightness moves, or is about to
+    std::string_view language; ///< of the caption, shown or not; stands as long as the exhibit
+    std::optional<PresentedCaption> caption;
+    RigidTransform table_from_prop; ///< to draw for
+    bool attracts = false;          ///< the prop's own pose is not what is drawn
+    bool settled = true;            ///< nothing fades: a good moment for a picture
+    bool staff = false;             ///< the alignment pattern is shown instead
+    std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
 };
 
 class Exhibit {
 public:
-    /// `languages` (BCP 47): those that some artifact has a caption in, in the order the button goes through.
-    Exhibit(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
-            MonotonicTime now);
+    static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
 
-    void wish(Wish wish, MonotonicTime now);
-    /// As if the latest such wish had not been.
-    void take_back(Wish wish, MonotonicTime now);
-    /// There is something to change to.
-    [[nodiscard]] bool heeds(Wish wish) const;
-    [[nodiscard]] Shown at(MonotonicTime now) const;
-    /// That is wished for; its caption may be still to come.
-    [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
+    /// Begins with the first artifact, and with the caption for `language` or the one that stands for it.
+    Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
+
+    /// `commands`: since the step before, in their order.
+    [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
+                                    const Situation& situation);
+    /// There is no pattern to show.
+    void end_staff_mode() { staff_until_.reset(); }
 
 private:
-    void change_language(std::size_t which, MonotonicTime now);
+    void take(Command command, MonotonicTime now);
+    void take_chord(MonotonicTime now);
+    [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
+                                                          const Situation& situation, const Stand& stand);
+    [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
+    [[nodiscard]] std::uint32_t lamps() const;
 
-    std::size_t count_;
-    std::vector<std::string> languages_; ///< and one more, where it begins in none of them
-    std::size_t language_count_;
-    std::size_t language_before_; ///< before the latest wish for another
-    Fade artifact_;
-    Fade language_; ///< indices into `languages_`
+    Catalogue catalogue_;
+    ExhibitPlace place_;
+    Selection selection_;
+    std::optional<Attract> attract_; ///< from the first step on
+    CaptionPlacer placer_;
+    const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
+    std::array<bool, button_commands.size()>
+        selected_{}; ///< by button: its latest press reached the selection
+    std::optional<MonotonicTime> staff_until_;
 };
-
-/// Index of the caption for `language` among captions in `languages`: the same tag, else the same language
-/// with another region or script, else English, else the first. `languages` is not empty.
-[[nodiscard]] std::size_t caption_for(std::string_view language, std::span<const std::string> languages);
-/// One of them is this language, with this region and script or others.
-[[nodiscard]] bool has_language(std::span<const std::string> languages, std::string_view language);
 
 } // namespace frustumscreen

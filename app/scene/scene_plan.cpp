@@ -1,6 +1,7 @@
 #include "app/scene/scene_plan.h"
 
 #include "app/pack/pack_file.h"
+#include "app/settings/command.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,6 @@ namespace frustumscreen {
 namespace {
 
 /// The buttons of the panel: panel.h.
-constexpr std::array<int, 2> artifact_buttons{0, 1};
-constexpr int language_button = 2;
 
 bool in(std::span<const std::uint32_t> levels, std::uint32_t level) {
     return std::find(levels.begin(), levels.end(), level) != levels.end();
@@ -258,7 +257,8 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
 DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
     const std::vector<ScriptedPress>& script = settings.panel.script;
     const bool real = settings.panel.kind != PanelKind::Scripted;
-    const auto presses = [&](int button) {
+    const auto asks = [&](Command command) {
+        const int button = button_of(command);
         if (real) {
             return static_cast<std::size_t>(button) < settings.panel.buttons();
         }
@@ -269,8 +269,8 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.panel = pressed || real || !script.empty();
-    plan.other_packs = pressed || std::any_of(artifact_buttons.begin(), artifact_buttons.end(), presses);
-    plan.language = !pressed && presses(language_button);
+    plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact);
+    plan.language = !pressed && asks(Command::NextLanguage);
     plan.threads = {"the exhibit"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");

@@ -1,4 +1,5 @@
 #include "app/settings/check_settings.h"
+#include "app/settings/command.h"
 #include "app/settings/settings.h"
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/file.h"
@@ -23,7 +24,6 @@ constexpr double longest_script_s = 86400.0;
 /// By PanelKind and LineBias.
 constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
-constexpr std::size_t most_buttons = 3;
 constexpr double shortest_direction = 1e-3;
 
 /// By DisplayKind.
@@ -207,17 +207,17 @@ void read_panel(TableReader table, PanelSettings& panel) {
     table.choice("bias", bias, bias_names);
     panel.bias = static_cast<LineBias>(bias);
     table.text("chip", panel.chip);
-    table.texts("lines", panel.lines, most_buttons);
+    table.texts("lines", panel.lines, button_commands.size());
     table.flag("active_low", panel.active_low);
-    table.texts("lamps", panel.lamps, most_buttons);
+    table.texts("lamps", panel.lamps, button_commands.size());
     table.text("device", panel.device);
-    table.texts("keys", panel.keys, most_buttons);
+    table.texts("keys", panel.keys, button_commands.size());
     table.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"});
     table.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"});
     for (TableReader& press : table.tables("script", most_presses)) {
         ScriptedPress read;
         press.number("at_s", read.at_s, {0.0, longest_script_s, "seconds"});
-        press.integer("button", read.button, 0, 2);
+        press.integer("button", read.button, 0, static_cast<int>(button_commands.size()) - 1);
         press.finish();
         panel.script.push_back(read);
     }

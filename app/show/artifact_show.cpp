@@ -1,6 +1,7 @@
 #include "app/show/artifact_show.h"
 
 #include "app/exhibit/caption_image.h"
+#include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/prop_note.h"
 #include "app/render/read_back.h"
@@ -25,17 +26,18 @@ void add_once(std::vector<std::string>& languages, const std::string& language) 
     }
 }
 
-/// Begins in the language that is asked for, or in the one that stands for it.
-template <typename Artifacts>
-Exhibit make_exhibit(const Artifacts& artifacts, const std::string& asked, MonotonicTime now) {
-    std::vector<std::string> languages; // in the order of their first appearance
+template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
+    Catalogue catalogue;
     for (const auto& artifact : artifacts) {
-        for (const std::string& language : artifact.languages) {
-            add_once(languages, language);
+        CatalogueEntry entry{artifact.languages, {}};
+        for (const auto& shapes : artifact.captions) {
+            std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
+            std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
+                           [](const auto& shape) { return shape.size_m; });
         }
+        catalogue.push_back(std::move(entry));
     }
-    const std::string first = languages.empty() ? asked : languages[caption_for(asked, languages)];
-    return {artifacts.size(), std::move(languages), first, now};
+    return catalogue;
 }
 
 /// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
@@ -182,7 +184,7 @@ struct ArtifactShow::Loader {
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
                                                            const DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
-                                                           const RenderTarget& target, MonotonicTime now) {
+                                                           const RenderTarget& target) {
     Loader loader{settings, devices, options, std::nullopt};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
@@ -210,14 +212,16 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         return tl::unexpected<Error>(renderer.error());
     }
     std::unique_ptr<ArtifactShow> show(
-        new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts), now));
+        new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts)));
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
     if (settings.exhibit.captions && !loader.languages.empty() &&
         !has_language(loader.languages, settings.exhibit.language)) {
+        const std::vector<std::string>& shown = show->artifacts_.front().languages;
         show->notes_.push_back(fmt::format(
             "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
-            show->language_of(show->artifacts_.front()), fmt::join(loader.languages, ", ")));
+            shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
+            fmt::join(loader.languages, ", ")));
     }
     show->measure(settings, target);
     return show;
@@ -250,68 +254,35 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
 }
 
 ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
-                           std::vector<Artifact> artifacts, MonotonicTime now)
+                           std::vector<Artifact> artifacts)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
-      artifacts_(std::move(artifacts)), exhibit_(make_exhibit(artifacts_, settings.exhibit.language, now)),
-      attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m),
-      placer_(picture_on_table(settings, 0.0)) {}
+      artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)),
+      attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m) {}
 
-const ArtifactShow::CaptionPicture* ArtifactShow::place_caption(MonotonicTime now, const Shown& shown,
-                                                                const Situation& situation, PlanView& view) {
-    const Artifact& artifact = artifacts_[shown.artifact];
-    if (artifact.captions.empty()) {
+const CaptionGpu* ArtifactShow::place_caption(const Presentation& presentation, PlanView& view) const {
+    if (!presentation.caption) {
         return nullptr;
     }
-    const std::vector<CaptionPicture>& shapes =
-        artifact.captions[caption_for(shown.language, artifact.languages)];
-    if (placed_caption_ != &shapes) {
-        placed_caption_ = &shapes;
-        std::array<glm::dvec2, caption_widths_m.size()> sizes{};
-        std::transform(shapes.begin(), shapes.end(), sizes.begin(),
-                       [](const CaptionPicture& shape) { return shape.size_m; });
-        placer_.set_shapes(sizes);
-    }
-    const RigidTransform& pose = situation.table_from_prop;
-    placer_.update(now, hidden_by_prop(prop_, pose, table_from_projector_.translation),
-                   hidden_by_prop(prop_, pose, situation.eye_m), glm::dvec2(pose.translation));
-    const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * shown.caption_brightness;
-    if (brightness <= 0.0) {
-        return nullptr;
-    }
-    const CaptionPicture& shape = shapes[place.shape];
-    view.caption = TablePicture{
-        picture_corners(on_pixels(place.rectangle, projector_, table_from_projector_)), brightness, shape.id};
-    return &shape;
+    const PresentedCaption& caption = *presentation.caption;
+    const CaptionPicture& picture =
+        artifacts_[presentation.artifact].captions[caption.language][caption.shape];
+    view.caption =
+        TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
+                     caption.brightness, picture.id};
+    return &picture.gpu;
 }
 
-/// The situation as it is drawn: without a prop, the artifact stands at a place of its own.
-Situation ArtifactShow::stand(MonotonicTime now, Situation situation, Shown& shown) {
-    if (!attract_) {
-        attract_.emplace(attract_place_m_, situation.prop_known, now);
+DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
+                              const RenderTarget& target, Redraw redraw) {
+    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
+    view.brightness = presentation.brightness;
+    const CaptionGpu* caption = place_caption(presentation, view);
+    if (on_ != presentation.artifact) {
+        artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
+        on_ = presentation.artifact;
     }
-    stand_ = attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
-    situation.table_from_prop = stand_.table_from_prop;
-    shown.brightness *= stand_.brightness;
-    shown.caption_brightness *= stand_.brightness;
-    return situation;
-}
-
-DrawResult ArtifactShow::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
-                              Redraw redraw) {
-    Shown shown = exhibit_.at(now);
-    const Situation situation = stand(now, on_table, shown);
-    PlanView view{projector_, table_from_projector_, situation.table_from_prop,
-                  std::span(&situation.eye_m, 1)};
-    view.brightness = shown.brightness;
-    const CaptionPicture* caption = place_caption(now, shown, situation, view);
-    if (on_ != shown.artifact) {
-        artifacts_[shown.artifact].levels.enter(now, artifacts_[on_].levels.load());
-        on_ = shown.artifact;
-    }
-    return artifacts_[on_].levels.draw(now, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
-                                       renderer_, target, redraw);
+    return artifacts_[on_].levels.draw(now, prop_, view, caption, renderer_, target, redraw);
 }
 
 ShowUse ArtifactShow::use() const {
@@ -338,20 +309,12 @@ ShowUse ArtifactShow::use() const {
     return use;
 }
 
-void ArtifactShow::took(MonotonicTime now, double ms) {
+void ArtifactShow::record_time(MonotonicTime now, double ms) {
     artifacts_[on_].levels.took(now, ms);
 }
 
-std::string_view ArtifactShow::language_of(const Artifact& artifact) const {
-    return artifact.languages.empty()
-               ? exhibit_.language()
-               : artifact.languages[caption_for(exhibit_.language(), artifact.languages)];
-}
-
-ShowState ArtifactShow::state(MonotonicTime now) const {
-    const Shown shown = exhibit_.at(now);
-    const Artifact& artifact = artifacts_[shown.artifact];
-    const double opacity = placer_.at(now).opacity;
+ShowState ArtifactShow::state(const Presentation& presentation) const {
+    const Artifact& artifact = artifacts_[presentation.artifact];
     LevelState levels = artifact.levels.state();
     levels.switches = 0;
     levels.ignored_times = 0;
@@ -360,11 +323,21 @@ ShowState ArtifactShow::state(MonotonicTime now) const {
         levels.ignored_times += each.levels.state().ignored_times;
     }
     return {artifact.title,
-            language_of(artifact),
+            presentation.language,
             levels,
-            !shown.changing && !stand_.changing && (opacity <= 0.0 || opacity >= 1.0),
-            stand_.attracts ? std::optional(stand_.table_from_prop) : std::nullopt,
-            left_out_};
+            presentation.settled,
+            presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt,
+            left_out_,
+            presentation.lamps};
+}
+
+Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
+    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+    return {artifacts.catalogue(),
+            {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
+             lit_zone(settings).any_eye_rectangle.centre_m, settings.panel.buttons()},
+            settings.exhibit.language,
+            now};
 }
 
 } // namespace frustumscreen

@@ -1,12 +1,11 @@
-/// The exhibit on the display: packs in the GPU's memory, the exhibit's state, captions and renderer.
+/// The artifacts on the display: packs in the GPU's memory, their levels and captions, and the renderer. What
+/// of them is shown, a Presentation says.
 ///
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
 /// Errors   a pack that cannot be loaded is left out with a line on standard error; none left:
 /// BadConfiguration.
 #pragma once
 
-#include "app/exhibit/attract.h"
-#include "app/exhibit/captions.h"
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
@@ -41,20 +40,20 @@ struct ShowUse {
     int samples = 1;          ///< a pixel, that there is room for
 };
 
-class ArtifactShow final : public Show {
+class ArtifactShow final : public Stage {
 public:
     /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
-    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>>
-    create(const Settings& settings, const DevicePlan& devices, const ArtifactShowOptions& options,
-           const RenderTarget& target, MonotonicTime now);
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
+                                                                      const DevicePlan& devices,
+                                                                      const ArtifactShowOptions& options,
+                                                                      const RenderTarget& target);
 
-    void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
-    void take_back(Wish wish, MonotonicTime now) override { exhibit_.take_back(wish, now); }
-    [[nodiscard]] bool heeds(Wish wish) const override { return exhibit_.heeds(wish); }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+    [[nodiscard]] const Catalogue& catalogue() const { return catalogue_; }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Presentation& presentation,
+                                  const glm::dvec3& eye_m, const RenderTarget& target,
                                   Redraw redraw) override;
-    void took(MonotonicTime now, double ms) override;
-    [[nodiscard]] ShowState state(MonotonicTime now) const override;
+    void record_time(MonotonicTime now, double ms) override;
+    [[nodiscard]] ShowState state(const Presentation& presentation) const override;
 
     [[nodiscard]] ShowUse use() const;
     /// What a person may not have meant, in sentences.
@@ -76,20 +75,17 @@ private:
         ScenePlan plan;
         RunLevels levels;
         std::vector<std::string> languages;
-        std::vector<std::vector<CaptionPicture>> captions; ///< one list for each of `languages`
+        std::vector<std::vector<CaptionPicture>>
+            captions; ///< one list for each of `languages`, in the catalogue's order
     };
     struct Loader;
 
     ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
-                 std::vector<Artifact> artifacts, MonotonicTime now);
+                 std::vector<Artifact> artifacts);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
-    /// Of its caption; without captions the exhibit's.
-    [[nodiscard]] std::string_view language_of(const Artifact& artifact) const;
-    [[nodiscard]] Situation stand(MonotonicTime now, Situation situation, Shown& shown);
-    /// Chooses the caption; its brightness includes the fades.
-    [[nodiscard]] const CaptionPicture* place_caption(MonotonicTime now, const Shown& shown,
-                                                      const Situation& situation, PlanView& view);
+    /// The picture of a caption that is shown, and where in `view`; null: none is.
+    [[nodiscard]] const CaptionGpu* place_caption(const Presentation& presentation, PlanView& view) const;
 
     Pinhole projector_;
     RigidTransform table_from_projector_;
@@ -99,13 +95,13 @@ private:
     std::vector<Artifact> artifacts_;
     std::vector<PackLeftOut> left_out_;
     std::vector<std::string> notes_;
-    Exhibit exhibit_;
+    Catalogue catalogue_;
     glm::dvec2 attract_place_m_;
-    std::optional<Attract> attract_; ///< from the first picture on
-    Stand stand_;                    ///< of the latest picture
-    std::size_t on_ = 0;             ///< the artifact that is on
-    CaptionPlacer placer_;
-    const std::vector<CaptionPicture>* placed_caption_ = nullptr;
+    std::size_t on_ = 0; ///< the artifact that is on
 };
+
+/// The exhibit of these artifacts on the settings' table.
+[[nodiscard]] Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts,
+                                   MonotonicTime now);
 
 } // namespace frustumscreen

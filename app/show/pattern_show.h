@@ -20,12 +20,11 @@ class PatternShow final : public Show {
 public:
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
-    void wish(Wish, MonotonicTime) override {}
     /// Written into the pattern, below what it says itself.
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
                                   Redraw redraw) override;
-    [[nodiscard]] ShowState state(MonotonicTime) const override { return {}; }
+    [[nodiscard]] ShowState state() const override { return {}; }
 
 private:
     PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload);

@@ -20,14 +20,12 @@ constexpr std::size_t most_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
-std::optional<Wish> wish_of(int button) {
-    switch (button) {
-    case 0:
-        return Wish::PreviousArtifact;
-    case 1:
-        return Wish::NextArtifact;
-    case 2:
-        return Wish::NextLanguage;
+std::optional<Command> command_of(const PanelEvent& event) {
+    switch (event.kind) {
+    case PressKind::Press:
+        return command_of_button(event.button);
+    case PressKind::Chord:
+        return Command::StaffMode;
     default:
         return std::nullopt;
     }
@@ -53,6 +51,7 @@ public:
           times_(window_frames), presented_(start) {
         samples_.reserve(1024);
         events_.reserve(64);
+        commands_.reserve(64);
         if (options.keep_rows && options.length) {
             rows_expected_ =
                 std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
@@ -93,6 +92,11 @@ private:
         watch_.enters("draws");
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
+        show_.step(now, commands_, situation);
+        if (std::find(commands_.begin(), commands_.end(), Command::StaffMode) != commands_.end()) {
+            renew_status(now);
+            show_.tell(result_.status);
+        }
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
             options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
@@ -122,7 +126,7 @@ private:
         count(drawn.drawn, changed, now, ms);
         result_.status.prop_known = situation.prop_known;
         result_.status.head_known = situation.head_known;
-        const ShowState state = show_.state(now);
+        const ShowState state = show_.state();
         if (result_.rows.size() < rows_expected_) {
             result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
                                     static_cast<float>(state.levels.estimated_error_mm), changed,
@@ -144,19 +148,20 @@ private:
         if (changed && status.frames > 1) { // the first one compiles shaders
             times_.add(ms);
             status.missed_deadlines += ms > 1e3 * to_seconds(period_) ? 1 : 0;
-            show_.took(now, ms);
+            show_.record_time(now, ms);
         }
     }
 
     void poll(MonotonicTime now) {
         samples_.clear();
         events_.clear();
+        commands_.clear();
         if (inputs_.tracker) {
             result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
         }
         if (inputs_.panel) {
             result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
-            inputs_.panel->light(useful_buttons());
+            inputs_.panel->light(show_.state().lamps);
         }
         for (const PoseSample& sample : samples_) {
             if (head_is_followed_ || sample.station != head_station) {
@@ -164,24 +169,11 @@ private:
             }
         }
         for (const PanelEvent& event : events_) {
-            if (event.kind == PressKind::Chord) {
-                renew_status(now);
-                show_.chord(now, result_.status);
-            }
-            const std::optional<Wish> wish = wish_of(event.button);
-            if (wish && event.kind == PressKind::Press) {
-                show_.wish(*wish, now);
+            const std::optional<Command> command = command_of(event);
+            if (command) {
+                commands_.push_back(*command);
             }
         }
-    }
-
-    /// The buttons that do something now, bit k = button k.
-    [[nodiscard]] std::uint32_t useful_buttons() const {
-        std::uint32_t buttons = 0;
-        for (int button = 0; const std::optional<Wish> wish = wish_of(button); ++button) {
-            buttons |= show_.heeds(*wish) ? 1U << static_cast<unsigned>(button) : 0U;
-        }
-        return buttons;
     }
 
     /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
@@ -218,7 +210,7 @@ private:
 
     void renew_status(MonotonicTime now) {
         RunStatus& status = result_.status;
-        const ShowState state = show_.state(now);
+        const ShowState state = show_.state();
         status.left_out = state.left_out;
         status.artifact = state.artifact;
         status.language = state.language;
@@ -277,7 +269,8 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
-    MonotonicTime presented_; ///< when the picture on show was
+    std::vector<Command> commands_; ///< of this frame
+    MonotonicTime presented_;       ///< when the picture on show was
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     std::size_t stills_taken_ = 0;

@@ -1,10 +1,11 @@
-/// Something that the run loop can put on the display: the exhibit, or the alignment pattern.
+/// Something that the run loop can put on the display: the exhibit, or the alignment pattern alone.
 ///
 /// Threads  the render thread.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
+#include "app/settings/command.h"
 #include "app/show/run_levels.h"
 #include "app/show/run_report.h"
 #include "app/tracking/situation.h"
@@ -25,26 +26,36 @@ struct ShowState {
     /// The prop's pose that was drawn for, where it is not the one that is known.
     std::optional<RigidTransform> stands = {};
     std::span<const PackLeftOut> left_out = {};
+    std::uint32_t lamps = 0; ///< the buttons that do something, bit k = button k
 };
 
 class Show {
 public:
     virtual ~Show() = default;
-    virtual void wish(Wish wish, MonotonicTime now) = 0;
-    /// As if the latest such wish had not been.
-    virtual void take_back(Wish /*wish*/, MonotonicTime /*now*/) {}
-    /// The staff's chord was held; `wish` heard the presses that it began with.
-    virtual void chord(MonotonicTime /*now*/, const RunStatus& /*status*/) {}
-    /// Once a second, how the run is.
+    /// Decides what `draw` draws next. `commands`: since the step before, in their order.
+    virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
+                      const Situation& /*on_table*/) {}
+    /// How the run is: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
-    /// Such a wish changes something.
-    [[nodiscard]] virtual bool heeds(Wish /*wish*/) const { return false; }
     /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
-    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& situation,
+    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& on_table,
                                           const RenderTarget& target, Redraw redraw) = 0;
     /// What the latest picture drawn took, from the poll until it was done; no wait for a refresh in it.
-    virtual void took(MonotonicTime /*now*/, double /*ms*/) {}
-    [[nodiscard]] virtual ShowState state(MonotonicTime now) const = 0;
+    virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
+    [[nodiscard]] virtual ShowState state() const = 0;
+};
+
+/// Draws what a Presentation says.
+class Stage {
+public:
+    virtual ~Stage() = default;
+    /// `eye_m`: in table coordinates. Allocates nothing after the start.
+    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
+                                          const glm::dvec3& eye_m, const RenderTarget& target,
+                                          Redraw redraw) = 0;
+    /// As Show's.
+    virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
+    [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
 };
 
 } // namespace frustumscreen

@@ -6,8 +6,8 @@
 /// and wires that are swapped or shorted are no chord.
 ///
 /// A press is said at once, also of a button that may come to be held for the chord: no visitor waits for
-/// the staff. A chord began with the latest press of each of its buttons; whoever heeded them takes them
-/// back.
+/// the staff. A chord began with the latest press of each of its buttons; whoever did as they
+/// said undoes it.
 ///
 /// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses up to nine times a
 /// second for as long as it has power. So a button of `too_many_edges` within `chatter_window` is ignored

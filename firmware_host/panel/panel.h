@@ -23,7 +23,7 @@ enum class PressKind : std::uint8_t {
 
 struct PanelEvent {
     MonotonicTime time;
-    int button = 0; ///< 0 = previous artifact, 1 = next artifact, 2 = language
+    int button = 0; ///< from 0; what it means is none of the panel's business
     PressKind kind = PressKind::Press;
 };
 

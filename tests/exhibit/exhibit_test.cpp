@@ -1,203 +1,194 @@
-#include "app/exhibit/exhibit.h"
+// The exhibit's decisions, held against a table and against a model that only counts.
+
+#include "tests/exhibit/exhibits.h"
+#include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <random>
 
 namespace frustumscreen {
 namespace {
 
+using sample::situation;
+using sample::start;
 using std::chrono::milliseconds;
+using std::chrono::seconds;
 
-const MonotonicTime start{std::chrono::seconds(100)};
+constexpr Nanoseconds rest = seconds(3); ///< all fades are over
 
-Exhibit three_artifacts() {
-    return Exhibit(3, {"en", "de", "fr"}, "en", start);
+/// What one command does, by the state that it meets.
+struct Row {
+    bool staff;
+    Command command;
+    bool staff_after;
+    int artifact_step;
+    int language_step;
+};
+constexpr std::array table{
+    Row{false, Command::PreviousArtifact, false, -1, 0}, Row{false, Command::NextArtifact, false, 1, 0},
+    Row{false, Command::NextLanguage, false, 0, 1},      Row{false, Command::StaffMode, true, 0, 0},
+    Row{true, Command::PreviousArtifact, false, 0, 0},   Row{true, Command::NextArtifact, false, 0, 0},
+    Row{true, Command::NextLanguage, false, 0, 0},       Row{true, Command::StaffMode, false, 0, 0},
+};
+
+const std::vector<std::string> languages{"en", "de", "fr"};
+
+Presentation settled(Exhibit& exhibit, MonotonicTime now) {
+    return exhibit.step(now + rest, {}, situation(now + rest));
 }
 
-TEST(Exhibit, BeginsDarkAndBrightensWithinTheFadeTime) {
-    const Exhibit exhibit = three_artifacts();
-    EXPECT_DOUBLE_EQ(exhibit.at(start).brightness, 0.0);
-    EXPECT_NEAR(exhibit.at(start + fade_time / 2).brightness, 0.5, 1e-12);
-    EXPECT_DOUBLE_EQ(exhibit.at(start + fade_time).brightness, 1.0);
-    EXPECT_FALSE(exhibit.at(start + fade_time).changing);
-}
-
-TEST(Exhibit, ThePictureChangesOnlyInTheDark) {
-    Exhibit exhibit = three_artifacts();
-    const MonotonicTime press = start + std::chrono::seconds(5);
-    exhibit.wish(Wish::NextArtifact, press);
-    std::size_t before = 0;
-    for (int ms = 0; ms <= 500; ++ms) {
-        const Shown shown = exhibit.at(press + milliseconds(ms));
-        if (shown.artifact != before) {
-            EXPECT_LT(shown.brightness, 0.01);
-            before = shown.artifact;
+TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
+    for (const Row& row : table) {
+        Exhibit exhibit = sample::exhibit(4, languages);
+        MonotonicTime now = start;
+        if (row.staff) {
+            const std::array chord{Command::StaffMode};
+            EXPECT_TRUE(exhibit.step(now, chord, situation(now)).staff);
         }
-    }
-    EXPECT_EQ(before, 1U);
-    EXPECT_DOUBLE_EQ(exhibit.at(press + 2 * fade_time).brightness, 1.0);
-}
-
-TEST(Exhibit, ArtifactsFollowInACircleBothWays) {
-    Exhibit exhibit = three_artifacts();
-    MonotonicTime now = start + std::chrono::seconds(1);
-    const auto after = [&](Wish wish) {
-        exhibit.wish(wish, now);
-        now += std::chrono::seconds(1);
-        return exhibit.at(now).artifact;
-    };
-    EXPECT_EQ(after(Wish::NextArtifact), 1U);
-    EXPECT_EQ(after(Wish::NextArtifact), 2U);
-    EXPECT_EQ(after(Wish::NextArtifact), 0U);
-    EXPECT_EQ(after(Wish::PreviousArtifact), 2U);
-}
-
-TEST(Exhibit, PressesDuringAFadeNeverMakeTheBrightnessJump) {
-    constexpr std::array wishes{Wish::NextArtifact, Wish::NextLanguage, Wish::PreviousArtifact};
-    std::mt19937 random(3);
-    for (int run = 0; run < 200; ++run) {
-        Exhibit exhibit = three_artifacts();
-        const MonotonicTime press = start + std::chrono::seconds(5);
-        Shown before = exhibit.at(press);
-        for (int ms = 0; ms <= 5000; ++ms) {
-            const MonotonicTime now = press + milliseconds(ms);
-            if (ms < 3000 && random() % static_cast<unsigned>(20 + run) == 0) {
-                exhibit.wish(wishes.at(random() % wishes.size()), now);
-            }
-            const Shown shown = exhibit.at(now);
-            // A cubic ease over 250 ms moves by at most 1.5 / 250 each millisecond.
-            ASSERT_NEAR(shown.brightness, before.brightness, 0.0061) << run << " " << ms;
-            ASSERT_NEAR(shown.caption_brightness, before.caption_brightness, 0.0061) << run << " " << ms;
-            ASSERT_LE(shown.caption_brightness, shown.brightness);
-            if (shown.artifact != before.artifact) {
-                ASSERT_LT(shown.brightness, 0.01);
-            }
-            if (shown.language != before.language) {
-                ASSERT_LT(shown.caption_brightness, 0.01);
-            }
-            before = shown;
-        }
-        EXPECT_DOUBLE_EQ(before.brightness, 1.0);
-        EXPECT_DOUBLE_EQ(before.caption_brightness, 1.0);
-        EXPECT_EQ(before.language, exhibit.language());
-        EXPECT_FALSE(before.changing);
-    }
-}
-
-/// The picture dims within a few frames, or it is about to change anyway, and it ends where all the presses
-/// lead.
-TEST(Exhibit, APressShowsAtOnceAndNoneIsForgotten) {
-    Exhibit exhibit = three_artifacts();
-    const MonotonicTime press = start + std::chrono::seconds(5);
-    exhibit.wish(Wish::NextArtifact, press);
-    EXPECT_LT(exhibit.at(press + milliseconds(50)).brightness, 0.9);
-    const MonotonicTime next = press + milliseconds(300); // the other one fades in
-    exhibit.wish(Wish::NextArtifact, next);
-    EXPECT_GT(exhibit.at(next + milliseconds(50)).brightness, exhibit.at(next).brightness)
-        << "no turning round";
-    EXPECT_TRUE(exhibit.at(next).changing);
-    EXPECT_EQ(exhibit.at(press + 2 * fade_time).artifact, 1U);
-    EXPECT_DOUBLE_EQ(exhibit.at(press + 2 * fade_time).brightness, 1.0);
-    EXPECT_EQ(exhibit.at(press + 4 * fade_time).artifact, 2U);
-    EXPECT_DOUBLE_EQ(exhibit.at(press + 4 * fade_time).brightness, 1.0);
-}
-
-TEST(Exhibit, AWishThatWaitsAndIsTakenBackChangesNothing) {
-    Exhibit exhibit = three_artifacts();
-    const MonotonicTime press = start + std::chrono::seconds(5);
-    exhibit.wish(Wish::NextArtifact, press);
-    const MonotonicTime next = press + milliseconds(300);
-    exhibit.wish(Wish::NextArtifact, next);
-    exhibit.take_back(Wish::NextArtifact, next + milliseconds(100));
-    for (int ms = 100; ms < 1000; ++ms) {
-        EXPECT_EQ(exhibit.at(next + milliseconds(ms)).artifact, 1U);
-        EXPECT_GT(exhibit.at(next + milliseconds(ms)).brightness, 0.2) << ms;
-    }
-}
-
-TEST(Exhibit, ALanguageChangesTheCaptionInTheDarkAndLeavesTheArtifactBright) {
-    Exhibit exhibit = three_artifacts();
-    const MonotonicTime press = start + std::chrono::seconds(5);
-    exhibit.wish(Wish::NextLanguage, press);
-    double darkest = 1.0;
-    for (int ms = 0; ms < 500; ++ms) {
-        const Shown shown = exhibit.at(press + milliseconds(ms));
+        now += seconds(1);
+        EXPECT_EQ(exhibit.step(now, std::span(&row.command, 1), situation(now)).staff, row.staff_after);
+        const Presentation shown = settled(exhibit, now);
+        EXPECT_EQ(shown.artifact, static_cast<std::size_t>(row.artifact_step + 4) % 4);
+        EXPECT_EQ(shown.language, languages[static_cast<std::size_t>(row.language_step)]);
+        EXPECT_EQ(shown.caption->language, static_cast<std::size_t>(row.language_step));
+        EXPECT_TRUE(shown.settled);
         EXPECT_EQ(shown.brightness, 1.0);
-        EXPECT_EQ(shown.language, ms < 250 ? "en" : "de");
-        darkest = std::fmin(darkest, shown.caption_brightness);
+        EXPECT_EQ(shown.caption->brightness, 1.0);
     }
-    EXPECT_LT(darkest, 1e-4);
-    EXPECT_EQ(exhibit.at(press + milliseconds(500)).caption_brightness, 1.0);
 }
 
-TEST(Exhibit, ALateFrameShowsWhatAnEarlyOneWouldHave) {
-    Exhibit often = three_artifacts();
-    Exhibit seldom = three_artifacts();
-    const MonotonicTime press = start + std::chrono::seconds(2);
-    often.wish(Wish::NextArtifact, press);
-    seldom.wish(Wish::NextArtifact, press);
-    for (int ms = 0; ms < 317; ++ms) {
-        (void)often.at(press + milliseconds(ms));
+/// Every press that counts, by button. A chord strikes out the latest of the first and of the last button, if
+/// that press reached the exhibit.
+class Ledger {
+public:
+    explicit Ledger(std::size_t buttons) : buttons_(buttons) {}
+
+    void press(std::size_t button) {
+        latest_counts_[button] = !staff;
+        counted_[button] += staff ? 0 : 1;
+        staff = false;
     }
-    EXPECT_EQ(often.at(press + milliseconds(317)).brightness,
-              seldom.at(press + milliseconds(317)).brightness);
-}
-
-TEST(Exhibit, TheLanguageButtonGoesThroughTheLanguages) {
-    Exhibit exhibit = three_artifacts();
-    exhibit.wish(Wish::NextLanguage, start);
-    EXPECT_EQ(exhibit.language(), "de");
-    exhibit.wish(Wish::NextLanguage, start);
-    exhibit.wish(Wish::NextLanguage, start);
-    EXPECT_EQ(exhibit.language(), "en");
-    Exhibit elsewhere(1, {"en", "de"}, "nl", start);
-    elsewhere.wish(Wish::NextLanguage, start);
-    EXPECT_EQ(elsewhere.language(), "en");
-}
-
-TEST(Exhibit, AWishThatIsTakenBackLeavesWhatWasThere) {
-    const MonotonicTime later = start + std::chrono::seconds(3);
-    for (const Wish wish : {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage}) {
-        for (const std::string language : {"en", "fr", "nl"}) { // "nl": no caption has it
-            Exhibit exhibit(3, {"en", "de", "fr"}, language, start);
-            exhibit.wish(wish, start + std::chrono::seconds(1));
-            const Shown wished = exhibit.at(later);
-            EXPECT_TRUE(wished.artifact != 0 || exhibit.language() != language);
-            exhibit.take_back(wish, later);
-            EXPECT_EQ(exhibit.at(later).brightness, wished.brightness) << "a jump";
-            EXPECT_EQ(exhibit.at(later + 2 * fade_time).artifact, 0U);
-            EXPECT_EQ(exhibit.language(), language);
+    void chord() {
+        for (const std::size_t button : {std::size_t{0}, buttons_ - 1}) {
+            counted_[button] -= latest_counts_[button] ? 1 : 0;
+            latest_counts_[button] = false;
         }
+        staff = !staff;
+    }
+    [[nodiscard]] std::size_t artifact(int count) const {
+        return static_cast<std::size_t>(((counted_[1] - counted_[0]) % count + count) % count);
+    }
+    [[nodiscard]] std::size_t language(int count) const {
+        return static_cast<std::size_t>(counted_[2] % count);
+    }
+
+    bool staff = false;
+
+private:
+    std::size_t buttons_;
+    std::array<bool, 3> latest_counts_{};
+    std::array<int, 3> counted_{};
+};
+
+TEST(Exhibit, EndsWhereAllThePressesLead) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const std::size_t buttons = 2 + seed % 2;
+        const int artifacts = 2 + static_cast<int>(random() % 4);
+        Exhibit exhibit = sample::exhibit(static_cast<std::size_t>(artifacts), languages, buttons);
+        Ledger ledger(buttons);
+        MonotonicTime now = start;
+        for (int k = 0; k < 60; ++k) {
+            now += milliseconds(random() % 400);
+            std::vector<Command> commands;
+            for (unsigned each = random() % 3; each > 0; --each) {
+                const std::size_t button = random() % (buttons + 1);
+                commands.push_back(button < buttons ? button_commands.at(button) : Command::StaffMode);
+                button < buttons ? ledger.press(button) : ledger.chord();
+            }
+            ASSERT_EQ(exhibit.step(now, commands, situation(now)).staff, ledger.staff) << seed;
+        }
+        const Presentation shown = settled(exhibit, now);
+        ASSERT_EQ(shown.artifact, ledger.artifact(artifacts)) << seed;
+        ASSERT_EQ(shown.language, languages[ledger.language(3)]) << seed;
     }
 }
 
-TEST(Exhibit, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
-    Exhibit none(0, {}, "en", start);
-    none.wish(Wish::NextArtifact, start);
-    none.wish(Wish::NextLanguage, start);
-    EXPECT_EQ(none.at(start + std::chrono::seconds(1)).brightness, 0.0);
-    Exhibit one(1, {"en"}, "en", start);
-    for (const Wish wish : {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage}) {
-        EXPECT_FALSE(none.heeds(wish));
-        EXPECT_FALSE(one.heeds(wish));
-        EXPECT_TRUE(three_artifacts().heeds(wish));
-    }
-    one.wish(Wish::NextArtifact, start + std::chrono::seconds(1));
-    EXPECT_EQ(one.at(start + milliseconds(1100)).brightness, 1.0);
+TEST(Exhibit, TheStaffsPatternEndsByItself) {
+    Exhibit exhibit = sample::exhibit(2, languages);
+    const std::array chord{Command::StaffMode};
+    const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, situation(now)).staff; };
+    EXPECT_TRUE(exhibit.step(start, chord, situation(start)).staff);
+    EXPECT_TRUE(staff_at(start + Exhibit::staff_time - milliseconds(1)));
+    EXPECT_FALSE(staff_at(start + Exhibit::staff_time));
+    EXPECT_TRUE(exhibit.step(start + Exhibit::staff_time, chord, situation(start)).staff);
+    exhibit.end_staff_mode();
+    EXPECT_FALSE(staff_at(start + Exhibit::staff_time));
 }
 
-TEST(Exhibit, TheCaptionIsInTheLanguageAskedForOrTheNearestThereIs) {
-    const std::vector<std::string> tags{"fr", "de-CH", "en-GB", "de"};
-    EXPECT_EQ(caption_for("de", tags), 3U);
-    EXPECT_EQ(caption_for("de-AT", tags), 1U);
-    EXPECT_EQ(caption_for("en", tags), 2U);
-    EXPECT_EQ(caption_for("ja", tags), 2U);
-    EXPECT_EQ(caption_for("ja", std::vector<std::string>{"fr", "it"}), 0U);
-    EXPECT_TRUE(has_language(tags, "de-AT"));
-    EXPECT_FALSE(has_language(tags, "ja"));
+TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
+    const auto lamps = [](std::size_t artifacts, const std::vector<std::string>& tags) {
+        return sample::exhibit(artifacts, tags).step(start, {}, situation(start)).lamps;
+    };
+    EXPECT_EQ(lamps(1, {"en"}), 0b000U);
+    EXPECT_EQ(lamps(2, {"en"}), 0b011U);
+    EXPECT_EQ(lamps(1, {"en", "de"}), 0b100U);
+    EXPECT_EQ(lamps(2, {"en", "de"}), 0b111U);
+    EXPECT_EQ(lamps(0, {}), 0b000U);
+}
+
+TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
+    Exhibit exhibit = sample::exhibit(2, languages);
+    Situation known = situation(start);
+    known.table_from_prop.translation = {0.1, 0.05, 0.0};
+    const Presentation with = exhibit.step(start, {}, known);
+    EXPECT_FALSE(with.attracts);
+    EXPECT_EQ(with.table_from_prop.translation, known.table_from_prop.translation);
+    const MonotonicTime later = start + seconds(10);
+    const Presentation without = exhibit.step(later, {}, situation(later, start));
+    EXPECT_TRUE(without.attracts);
+    EXPECT_EQ(without.table_from_prop.translation, glm::dvec3(0.0));
+    EXPECT_EQ(without.brightness, 1.0);
+}
+
+TEST(Exhibit, NothingAndNoCaptionsAreNoTrouble) {
+    Exhibit none = sample::exhibit(0, {});
+    EXPECT_EQ(none.step(start + rest, button_commands, situation(start)).brightness, 0.0);
+    Exhibit silent = sample::exhibit(2, {});
+    const Presentation shown = settled(silent, start);
+    EXPECT_FALSE(shown.caption);
+    EXPECT_EQ(shown.language, "en");
+    EXPECT_TRUE(shown.settled);
+}
+
+TEST(Exhibit, AStepAllocatesNothing) {
+    Exhibit exhibit = sample::exhibit(3, languages);
+    std::mt19937 random(4);
+    MonotonicTime now = start;
+    static_cast<void>(exhibit.step(now, {}, situation(now)));
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "a sanitizer allocates by itself";
+    }
+    const long before = synthetic::allocations_so_far();
+    for (int k = 0; k < 2000; ++k) {
+        now += milliseconds(16);
+        Situation moved = situation(now);
+        moved.table_from_prop.translation.x = 0.3 * std::sin(0.01 * k);
+        const std::array commands{button_commands.at(random() % 3), Command::StaffMode};
+        static_cast<void>(exhibit.step(now, std::span(commands).first(random() % 40 == 0 ? 2 : 0), moved));
+    }
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
+}
+
+TEST(Commands, EachButtonHasOne) {
+    for (int button = 0; button < static_cast<int>(button_commands.size()); ++button) {
+        EXPECT_EQ(button_of(*command_of_button(button)), button);
+    }
+    EXPECT_FALSE(command_of_button(-1));
+    EXPECT_FALSE(command_of_button(static_cast<int>(button_commands.size())));
 }
 
 } // namespace

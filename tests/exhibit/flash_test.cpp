@@ -1,8 +1,6 @@
 // Whatever is pressed, the picture flashes no more than photosensitive people can bear.
 
-#include "app/exhibit/attract.h"
-#include "app/exhibit/captions.h"
-#include "app/exhibit/exhibit.h"
+#include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const MonotonicTime start{seconds(100)};
+using sample::start;
 constexpr Nanoseconds frame = std::chrono::nanoseconds(1'000'000'000 / 120);
 
 std::vector<Luminance> wave(const std::function<double(double)>& value_at) {
@@ -55,43 +53,28 @@ TEST(FlashCounter, CountsPairsOfOpposingChanges) {
 /// One artifact's pixel and one of its caption, in a picture that is white there, as a visitor sees it.
 class Watched {
 public:
-    explicit Watched(MonotonicTime now) : attract_({0.0, 0.0}, true, now) { placer_.set_shapes(size_); }
+    explicit Watched(std::size_t artifacts) : exhibit_(sample::exhibit(artifacts, {"en", "de", "fr"})) {}
 
     /// `lost`: since when nobody knows where the prop is.
-    void look(MonotonicTime now, const Exhibit& exhibit, std::optional<MonotonicTime> lost = {}) {
-        const Shown shown = exhibit.at(now);
-        if (shown.artifact != artifact_ || shown.language != language_) { // as the exhibit's pictures do
-            placer_.set_shapes(size_);
-            artifact_ = shown.artifact;
-            language_ = shown.language;
-        }
-        placer_.update(now, shadow_, std::nullopt, {0.0, 0.1});
-        const double stand = attract_.at(now, !lost, lost ? now - *lost : Nanoseconds(0), {}).brightness;
-        artifact.push_back({now, shown.brightness * stand});
-        caption.push_back({now, shown.caption_brightness * placer_.at(now).opacity * stand});
+    void look(MonotonicTime now, std::span<const Command> commands, std::optional<MonotonicTime> lost = {}) {
+        const Presentation shown = exhibit_.step(now, commands, sample::situation(now, lost));
+        artifact.push_back({now, shown.brightness});
+        caption.push_back({now, shown.caption ? shown.caption->brightness : 0.0});
     }
 
     std::vector<Luminance> artifact;
     std::vector<Luminance> caption;
 
 private:
-    std::array<glm::dvec2, 4> room_{{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}}};
-    std::array<glm::dvec2, 1> size_{glm::dvec2(0.2, 0.05)};
-    TablePolygon shadow_{{{{-0.05, 0.05}, {0.05, 0.05}, {0.0, 0.15}}}, 3};
-    CaptionPlacer placer_{room_};
-    Attract attract_;
-    std::size_t artifact_ = 0;
-    std::string_view language_;
+    Exhibit exhibit_;
 };
 
-constexpr std::array wishes{Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage};
-
-void press(Exhibit& exhibit, std::mt19937& random, MonotonicTime now) {
-    const Wish wish = wishes.at(random() % wishes.size());
+/// A press; or the staff's chord and at once the next, which undoes presses and shows no pattern.
+void press(std::vector<Command>& commands, std::mt19937& random) {
     if (random() % 8 == 0) {
-        exhibit.take_back(wish, now);
+        commands.insert(commands.end(), 2, Command::StaffMode);
     } else {
-        exhibit.wish(wish, now);
+        commands.push_back(button_commands.at(random() % button_commands.size()));
     }
 }
 
@@ -100,23 +83,23 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
     int most = 0;
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::mt19937 random(seed);
-        Exhibit exhibit(2 + random() % 3, {"en", "de", "fr"}, "en", start);
+        Watched watched(2 + random() % 3);
         const bool loses_prop = seed % 2 == 1;
-        Watched watched(start);
         MonotonicTime next = start;
         std::optional<MonotonicTime> lost;
         MonotonicTime turn = start + seconds(1);
         const unsigned slowest_ms = 1U << (1 + seed % 11); // 2 ms to 2 s
         for (MonotonicTime now = start; now < start + seconds(30); now += frame) {
+            std::vector<Command> commands;
             while (next <= now) {
-                press(exhibit, random, now);
+                press(commands, random);
                 next += milliseconds(1 + random() % slowest_ms);
             }
             if (loses_prop && now >= turn) {
                 lost = lost ? std::nullopt : std::optional(now);
                 turn += milliseconds(random() % (lost ? 4000 : 500));
             }
-            watched.look(now, exhibit, lost);
+            watched.look(now, commands, lost);
         }
         for (const auto* samples : {&watched.artifact, &watched.caption}) {
             const int found = most_flashes_a_second(*samples);
@@ -129,18 +112,16 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
 
 /// Somebody who watches the picture and presses just when it hurts most: at any brightness on its way up.
 TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
-    for (const Wish wish : wishes) {
+    for (const Command command : button_commands) {
         for (int percent = 1; percent <= 100; percent += 3) {
-            Exhibit exhibit(3, {"en", "de"}, "en", start);
-            Watched watched(start);
+            Watched watched(3);
             double before = 0.0;
+            bool presses = false;
             for (MonotonicTime now = start; now < start + seconds(10); now += frame) {
-                watched.look(now, exhibit);
-                const double seen =
-                    wish == Wish::NextLanguage ? watched.caption.back().value : watched.artifact.back().value;
-                if (seen >= 0.01 * percent && seen >= before) {
-                    exhibit.wish(wish, now);
-                }
+                watched.look(now, std::span(&command, presses ? 1 : 0));
+                const double seen = command == Command::NextLanguage ? watched.caption.back().value
+                                                                     : watched.artifact.back().value;
+                presses = seen >= 0.01 * percent && seen >= before;
                 before = seen;
             }
             EXPECT_LE(most_flashes_a_second(watched.artifact), 2) << percent;

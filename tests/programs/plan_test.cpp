@@ -84,11 +84,14 @@ protected:
     std::unique_ptr<ArtifactShow> show(unsigned economies, const std::string& technique = "auto") {
         const DevicePlan devices = plan_devices(settings, false, false);
         return ArtifactShow::create(settings, devices, {{file}, technique, default_samples, economies},
-                                    {display->framebuffer(), 0}, MonotonicTime{})
+                                    {display->framebuffer(), 0})
             .value();
     }
-    Image8 picture(ArtifactShow& of, MonotonicTime now, const Situation& situation) {
-        EXPECT_TRUE(of.draw(now, situation, {display->framebuffer(), 0}, Redraw::Everything).drawn);
+    Image8 picture(ArtifactShow& of, Exhibit& exhibit, MonotonicTime now, const Situation& situation) {
+        const Presentation presentation = exhibit.step(now, {}, situation);
+        EXPECT_TRUE(
+            of.draw(now, presentation, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything)
+                .drawn);
         return read_colour(display->framebuffer(), 320, 200);
     }
     /// Seeded situations that the settings allow.
@@ -128,10 +131,12 @@ protected:
     int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
         int lit = 0;
         MonotonicTime now;
+        Exhibit exhibit_of_a = make_exhibit(settings, a, now);
+        Exhibit exhibit_of_b = make_exhibit(settings, b, now);
         for (const Situation& situation : situations(count)) {
             now += std::chrono::milliseconds(700);
-            const Image8 first = picture(a, now, situation);
-            const Image8 second = picture(b, now, situation);
+            const Image8 first = picture(a, exhibit_of_a, now, situation);
+            const Image8 second = picture(b, exhibit_of_b, now, situation);
             EXPECT_EQ(first.texels, second.texels);
             lit += std::any_of(first.texels.begin(), first.texels.end(),
                                [](const glm::u8vec4& t) { return t.r + t.g + t.b > 0; })

@@ -5,7 +5,7 @@
 #include "app/bench/stability/themes.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
-#include "app/exhibit/exhibit.h"
+#include "app/exhibit/selection.h"
 #include "app/geometry/time_curves.h"
 
 #include <fmt/format.h>
@@ -45,17 +45,17 @@ StabilityResult closed_forms(const StabilityOptions&) {
 double exhibit_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
-    Exhibit exhibit(3, {"en"}, "en", now);
+    Selection selection(3, {"en"}, "en", now);
     std::mt19937 random(8);
-    Shown before = exhibit.at(now);
+    Shown before = selection.at(now);
     double jump = 0.0;
     const int presses_every = std::max(1, static_cast<int>(0.07 / step_s)); // often within a fade
     for (int k = 0; k < 20'000; ++k) {
         now += step;
         if (random() % static_cast<unsigned>(presses_every) == 0) {
-            exhibit.wish(random() % 2 == 0 ? Wish::NextArtifact : Wish::PreviousArtifact, now);
+            selection.take(random() % 2 == 0 ? Command::NextArtifact : Command::PreviousArtifact, now);
         }
-        const Shown shown = exhibit.at(now);
+        const Shown shown = selection.at(now);
         jump =
             std::fmax(jump, shown.artifact == before.artifact ? std::abs(shown.brightness - before.brightness)
                                                               : shown.brightness + before.brightness);
@@ -78,19 +78,19 @@ StabilityResult artifacts(const StabilityOptions&) {
 /// A fade asked for once a second of a late frame shows what it would have shown of an early one.
 StabilityResult any_rhythm(const StabilityOptions&) {
     MonotonicTime start = from_microseconds(1'000'000);
-    std::array<Exhibit, 2> exhibits{Exhibit(3, {"en"}, "en", start), Exhibit(3, {"en"}, "en", start)};
+    std::array<Selection, 2> selections{Selection(3, {"en"}, "en", start), Selection(3, {"en"}, "en", start)};
     double other = 0.0;
     for (int k = 0; k < 200; ++k) {
         const MonotonicTime press = start + k * std::chrono::milliseconds(137);
-        for (Exhibit& exhibit : exhibits) {
-            exhibit.wish(Wish::NextArtifact, press);
+        for (Selection& selection : selections) {
+            selection.take(Command::NextArtifact, press);
         }
         for (int j = 0; j < 100; ++j) {
-            (void)exhibits[0].at(press + j * std::chrono::microseconds(1)); // often
+            (void)selections[0].at(press + j * std::chrono::microseconds(1)); // often
         }
         const MonotonicTime late = press + std::chrono::milliseconds(k);
-        other += exhibits[0].at(late).brightness == exhibits[1].at(late).brightness ? 0.0 : 1.0;
-        const double back = exhibits[0].at(press - std::chrono::seconds(10)).brightness;
+        other += selections[0].at(late).brightness == selections[1].at(late).brightness ? 0.0 : 1.0;
+        const double back = selections[0].at(press - std::chrono::seconds(10)).brightness;
         other += back >= 0.0 && back <= 1.0 ? 0.0 : 1.0;
     }
     return {{{"brightness other at another rhythm of frames", 0.0, other}}};

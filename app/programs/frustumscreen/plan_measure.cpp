@@ -64,6 +64,7 @@ Result<std::vector<Situation>> situations(const Settings& settings, const Device
 
 struct Scene {
     std::unique_ptr<ArtifactShow> show;
+    Exhibit exhibit;
     SceneCost cost;
     std::vector<double> us; ///< of each frame drawn
 };
@@ -116,11 +117,12 @@ public:
         const std::int64_t before = allocated_bytes();
         const Clock::time_point start = Clock::now();
         Result<std::unique_ptr<ArtifactShow>> show =
-            ArtifactShow::create(settings_, devices_, options_, target(), MonotonicTime{});
+            ArtifactShow::create(settings_, devices_, options_, target());
         if (!show) {
             return tl::unexpected<Error>(show.error());
         }
-        Scene scene{std::move(*show), {}, {}};
+        Exhibit exhibit = make_exhibit(settings_, **show, MonotonicTime{});
+        Scene scene{std::move(*show), std::move(exhibit), {}, {}};
         scene.cost.load_ms = 1e-3 * microseconds_since(start);
         scene.cost.ram_bytes = allocated_bytes() - before;
         scene.cost.gpu_bytes = static_cast<std::int64_t>(scene.show->use().gpu_bytes);
@@ -142,8 +144,9 @@ public:
             for (std::size_t k = 0; k < scenes.size(); ++k) {
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
-                const DrawResult result =
-                    scene.show->draw(now, (*poses)[frame % poses->size()], target(), Redraw::Everything);
+                const Situation& situation = (*poses)[frame % poses->size()];
+                const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, situation),
+                                                           situation.eye_m, target(), Redraw::Everything);
                 wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
                     scene.us.push_back(microseconds_since(start));

@@ -6,10 +6,10 @@
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
+#include "app/show/live_exhibit.h"
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
 #include "app/show/run_report.h"
-#include "app/show/staff_show.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/standard_error.h"
@@ -143,17 +143,15 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         options.packs = settings.exhibit.packs;
     }
     Result<std::unique_ptr<ArtifactShow>> artifacts =
-        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, start);
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0});
     if (!artifacts) {
         return tl::unexpected<Error>(artifacts.error());
     }
     for (const std::string& note : (*artifacts)->notes()) {
         say_line("frustumscreen", note);
     }
-    if (settings.panel.buttons() < 2) {
-        return std::move(*artifacts); // no chord can be held
-    }
-    return std::make_unique<StaffShow>(settings, std::move(*artifacts), display.name());
+    Exhibit exhibit = make_exhibit(settings, **artifacts, start);
+    return std::make_unique<LiveExhibit>(settings, std::move(*artifacts), std::move(exhibit), display.name());
 }
 
 /// As a service, a recording that cannot be made is said, and the exhibit goes on without it.

@@ -1,6 +1,7 @@
 #include "app/programs/frustumscreen/wiring.h"
 
 #include "app/render/probe.h"
+#include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/display/kms_display.h"
@@ -26,7 +27,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int next_artifact_button = 1;
 /// Of the zone in which every face is lit: at its edge the light only grazes one.
 constexpr double used_share_of_zone = 0.75;
 
@@ -115,7 +115,8 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
                                           MonotonicTime start) {
     if (press_every) {
         return std::make_unique<ScriptedPanel>(
-            std::vector<PanelPress>{{*press_every / 2, next_artifact_button}}, *press_every, start);
+            std::vector<PanelPress>{{*press_every / 2, button_of(Command::NextArtifact)}}, *press_every,
+            start);
     }
     if (settings.panel.kind == PanelKind::Gpio) {
         return make_buttons(settings.panel);

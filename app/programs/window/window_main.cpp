@@ -4,6 +4,7 @@
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
+#include "app/show/live_exhibit.h"
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
 #include "firmware_host/base/standard_error.h"
@@ -78,14 +79,15 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     devices.tracker = TrackerKind::Simulated;
     devices.panel = devices.other_packs = devices.language = true;
     Result<std::unique_ptr<ArtifactShow>> show =
-        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}, monotonic_now());
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0});
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }
     for (const std::string& note : (*show)->notes()) {
         say_line(options.program, note);
     }
-    return std::move(*show);
+    Exhibit exhibit = make_exhibit(settings, **show, monotonic_now());
+    return std::make_unique<LiveExhibit>(settings, std::move(*show), std::move(exhibit), display.name());
 }
 
 Result<void> run(const Request& request) {

@@ -1,10 +1,10 @@
 // The staff's picture, over an exhibit that only keeps a record of what it was asked.
 
-#include "app/exhibit/attract.h"
 #include "app/render/read_back.h"
-#include "app/show/staff_show.h"
+#include "app/show/live_exhibit.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/buttons.h"
+#include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
 
 #include <GLES3/gl31.h>
@@ -22,30 +22,29 @@ const MonotonicTime start{seconds(100)};
 
 struct Record {
     std::vector<int> ages; ///< of the buffers it was given
-    std::vector<Wish> wishes;
-    std::vector<Wish> taken_back;
-    int took = 0;
+    int times = 0;
 };
 
-class RecordingShow final : public Show {
+/// Draws nothing, and keeps what it was asked for.
+class RecordingStage final : public Stage {
 public:
-    explicit RecordingShow(Record& record) : record_(record) {}
-    void wish(Wish wish, MonotonicTime) override { record_.wishes.push_back(wish); }
-    void take_back(Wish wish, MonotonicTime) override { record_.taken_back.push_back(wish); }
-    [[nodiscard]] bool heeds(Wish wish) const override { return wish == Wish::NextArtifact; }
-    [[nodiscard]] DrawResult draw(MonotonicTime, const Situation&, const RenderTarget& target,
-                                  Redraw) override {
+    explicit RecordingStage(Record& record) : record_(record) {}
+    [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
+                                  const RenderTarget& target, Redraw) override {
         record_.ages.push_back(target.buffer_age);
         return {true, {}, {}, 1};
     }
-    void took(MonotonicTime, double) override { ++record_.took; }
-    [[nodiscard]] ShowState state(MonotonicTime) const override { return {"Cat", "en", {}, true}; }
+    void record_time(MonotonicTime, double) override { ++record_.times; }
+    [[nodiscard]] ShowState state(const Presentation&) const override { return {"Cat", "en", {}, true}; }
 
 private:
     Record& record_;
 };
 
-class RunStaff : public ::testing::Test {
+constexpr std::array chord{Command::StaffMode};
+constexpr std::array next{Command::NextArtifact};
+
+class Live : public ::testing::Test {
 protected:
     void SetUp() override {
         settings.panel.kind = PanelKind::Gpio;
@@ -54,15 +53,20 @@ protected:
         auto made = SurfacelessDisplay::create(320, 200);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
-        show = std::make_unique<StaffShow>(settings, std::make_unique<RecordingShow>(record), "a driver");
+        show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingStage>(record),
+                                             sample::exhibit(3, {"en", "de"}), "a driver");
         status.tracker = Sentence("the tracker is running");
         frame();
         frame();
     }
-    DrawResult frame(const Situation& situation = {}) {
+    DrawResult frame(std::span<const Command> commands = {}, const Situation& situation = {}) {
+        show->step(now, commands, situation);
+        if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
+            show->tell(status); // as the run's loop does
+        }
         const DrawResult drawn =
             show->draw(now, situation, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
-        show->took(now, 1.0);
+        show->record_time(now, 1.0);
         if (drawn.drawn) {
             EXPECT_TRUE(display->present(now));
         }
@@ -83,73 +87,32 @@ protected:
     MonotonicTime now = start;
 };
 
-TEST_F(RunStaff, TheChordBringsThePatternAndAPressEndsItAndMeansNothingElse) {
+TEST_F(Live, TheChordBringsThePatternAndAPressEndsIt) {
     EXPECT_FALSE(pattern_is_on());
-    show->chord(now, status);
-    frame();
+    frame(chord);
     EXPECT_TRUE(pattern_is_on());
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1}));
-    EXPECT_EQ(record.took, 2); // the pattern's time is none of the governor's
-    show->wish(Wish::NextArtifact, now);
-    EXPECT_TRUE(record.wishes.empty());
-    frame();
+    EXPECT_EQ(record.times, 2); // the pattern's time is none of the governor's
+    frame(next);
     frame();
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds nothing of its own
-    show->wish(Wish::NextArtifact, now);
-    EXPECT_EQ(record.wishes.size(), 1U);
-    EXPECT_TRUE(show->heeds(Wish::NextArtifact));
-    EXPECT_FALSE(show->heeds(Wish::NextLanguage));
 }
 
-TEST_F(RunStaff, TheChordTakesBackItsOwnPressesAndNoOthers) {
-    show->chord(now, status); // a panel that says no presses
-    EXPECT_TRUE(record.taken_back.empty());
-    show->chord(now, status);
-
-    const std::vector<Wish> first_and_last{Wish::PreviousArtifact, Wish::NextLanguage};
-    for (const Wish wish :
-         {Wish::NextArtifact, Wish::PreviousArtifact, Wish::NextLanguage, Wish::NextArtifact}) {
-        show->wish(wish, now);
-    }
-    show->chord(now, status);
-    EXPECT_EQ(record.wishes.size(), 4U) << "each at once";
-    EXPECT_EQ(record.taken_back, first_and_last);
-
-    show->wish(Wish::PreviousArtifact, now); // ends the pattern and means nothing else
-    show->wish(Wish::NextLanguage, now);
-    show->chord(now, status);
-    EXPECT_EQ(record.wishes.size(), 5U);
-    ASSERT_EQ(record.taken_back.size(), 3U);
-    EXPECT_EQ(record.taken_back.back(), Wish::NextLanguage);
-}
-
-TEST_F(RunStaff, OfTwoButtonsTheChordTakesBackPreviousAndNext) {
-    settings.panel.lines = {"4", "5"};
-    show->wish(Wish::PreviousArtifact, now);
-    show->wish(Wish::NextArtifact, now);
-    show->chord(now, status);
-    EXPECT_EQ(record.taken_back, (std::vector<Wish>{Wish::PreviousArtifact, Wish::NextArtifact}));
-}
-
-TEST_F(RunStaff, EndsByItselfAfterAMinuteOrByTheChord) {
-    show->chord(now, status);
-    const MonotonicTime end = now + StaffShow::length;
-    frame();
+TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
+    const MonotonicTime end = now + Exhibit::staff_time;
+    frame(chord);
     now = end - milliseconds(1);
     frame();
     EXPECT_EQ(record.ages.size(), 2U);
     frame(); // past it
     EXPECT_EQ(record.ages.size(), 3U);
-    show->chord(now, status);
-    frame();
-    show->chord(now, status);
-    frame();
+    frame(chord);
+    frame(chord);
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 0}));
 }
 
-TEST_F(RunStaff, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
-    show->chord(now, status);
-    frame();
+TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
+    frame(chord);
     const Image8 before = read_colour(display->framebuffer(), 320, 200);
     show->tell(status);
     EXPECT_FALSE(frame().drawn);
@@ -159,15 +122,12 @@ TEST_F(RunStaff, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
 }
 
-/// An exhibit whose artifacts are as white as can be, everywhere.
-class WhiteShow final : public Show {
+/// Artifacts as white as can be, everywhere.
+class WhiteStage final : public Stage {
 public:
-    void wish(Wish wish, MonotonicTime now) override { exhibit_.wish(wish, now); }
-    void take_back(Wish wish, MonotonicTime now) override { exhibit_.take_back(wish, now); }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
-                                  Redraw) override {
-        const Stand stand = attract_.at(now, situation.prop_known, situation.prop_age, {});
-        const auto brightness = static_cast<float>(exhibit_.at(now).brightness * stand.brightness);
+    [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation& presentation, const glm::dvec3&,
+                                  const RenderTarget& target, Redraw) override {
+        const auto brightness = static_cast<float>(presentation.brightness);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glDisable(GL_SCISSOR_TEST);
         glClearColor(brightness, brightness, brightness, 1.0F);
@@ -175,11 +135,7 @@ public:
         const PixelRectangle whole{0, 0, 320, 200};
         return {true, whole, whole, 1};
     }
-    [[nodiscard]] ShowState state(MonotonicTime) const override { return {"White", "en", {}, true}; }
-
-private:
-    Exhibit exhibit_{3, {"en", "de"}, "en", start};
-    Attract attract_{{0.0, 0.0}, true, start};
+    [[nodiscard]] ShowState state(const Presentation&) const override { return {"White", "en", {}, true}; }
 };
 
 /// WCAG 2.2's relative luminance of an sRGB colour.
@@ -192,12 +148,13 @@ double luminance_of(const glm::u8vec4& colour) {
 }
 
 /// Fingers on all buttons, mostly after the chord and then the quickest press there is; what the pixels show.
-TEST_F(RunStaff, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
+TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
     int most = 0;
     int patterns = 0;
     for (unsigned seed = 0; seed < 8; ++seed) {
         std::mt19937 random(seed);
-        show = std::make_unique<StaffShow>(settings, std::make_unique<WhiteShow>(), "a driver");
+        show = std::make_unique<LiveExhibit>(settings, std::make_unique<WhiteStage>(),
+                                             sample::exhibit(3, {"en", "de"}), "a driver");
         now = start;
         ButtonTimes times;
         times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: none is ignored
@@ -216,12 +173,13 @@ TEST_F(RunStaff, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
             levels = {chord || random() % 2 == 0, random() % 2 == 0, chord || random() % 2 == 0};
             events.clear();
             buttons.sample(now, levels, events);
+            std::vector<Command> commands;
             for (const PanelEvent& event : events) { // as the run's loop does
                 if (event.kind == PressKind::Chord) {
-                    show->chord(now, status);
+                    commands.push_back(Command::StaffMode);
                     ++patterns;
                 } else if (event.kind == PressKind::Press) {
-                    show->wish(static_cast<Wish>(event.button), now);
+                    commands.push_back(*command_of_button(event.button));
                 }
             }
             if (now >= prop_turns) {
@@ -232,7 +190,7 @@ TEST_F(RunStaff, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
             Situation situation;
             situation.prop_known = !lost;
             situation.prop_age = lost ? now - *lost : Nanoseconds(0);
-            frame(situation);
+            frame(commands, situation);
             const Image8 picture = read_colour(display->framebuffer(), 320, 200);
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const int x = k % 8 == 0 ? 0 : static_cast<int>(k % 8) * 44;

@@ -1,4 +1,4 @@
-#include "app/show/staff_show.h"
+#include "app/show/live_exhibit.h"
 
 #include "firmware_host/base/standard_error.h"
 
@@ -30,80 +30,55 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
                     status.median_ms, status.p95_ms, status.late, status.uptime_s)};
 }
 
-std::size_t index_of(Wish wish) {
-    return static_cast<std::size_t>(wish);
-}
-
 } // namespace
 
-void StaffShow::wish(Wish wish, MonotonicTime now) {
-    passed_on_[index_of(wish)] = !pattern_;
-    if (pattern_) {
-        end();
-    } else {
-        exhibit_->wish(wish, now);
-    }
+void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
+    presentation_ = exhibit_.step(now, commands, on_table);
+    follow_staff_mode();
 }
 
-/// The chord began with a press of the first and a press of the last button.
-void StaffShow::take_back_presses(MonotonicTime now) {
-    const std::size_t buttons = settings_.panel.buttons();
-    for (const Wish wish : {Wish::PreviousArtifact, buttons == 2 ? Wish::NextArtifact : Wish::NextLanguage}) {
-        if (std::exchange(passed_on_[index_of(wish)], false)) {
-            exhibit_->take_back(wish, now);
-        }
+void LiveExhibit::follow_staff_mode() {
+    if (presentation_.staff == (pattern_ != nullptr)) {
+        return;
     }
-}
-
-void StaffShow::chord(MonotonicTime now, const RunStatus& status) {
-    take_back_presses(now);
-    if (pattern_) {
-        end();
+    presents_ = 0;
+    if (!presentation_.staff) {
+        pattern_.reset();
         return;
     }
     Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings_);
     if (!pattern) {
         say_line("frustumscreen", fmt::format("no pattern for the staff: {}", pattern.error().message));
+        exhibit_.end_staff_mode();
         return;
     }
     pattern_ = std::move(*pattern);
-    until_ = now + length;
-    presents_ = 0;
-    tell(status);
 }
 
-void StaffShow::tell(const RunStatus& status) {
+void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
         pattern_->set_lines(lines_of(status, driver_));
     }
 }
 
-void StaffShow::end() {
-    pattern_.reset();
-    presents_ = 0;
-}
-
-DrawResult StaffShow::draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
-                           Redraw redraw) {
-    if (pattern_ && now >= until_) {
-        end();
-    }
-    // A buffer that is older than the change holds a picture of the other show.
+DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+                             Redraw redraw) {
+    // A buffer that is older than the change holds the other picture.
     RenderTarget own = target;
     if (presents_ && target.buffer_age > *presents_) {
         own.buffer_age = 0;
     }
-    const DrawResult drawn =
-        pattern_ ? pattern_->draw(now, situation, own, redraw) : exhibit_->draw(now, situation, own, redraw);
+    const DrawResult drawn = pattern_ ? pattern_->draw(now, on_table, own, redraw)
+                                      : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
     if (presents_ && drawn.drawn) {
         ++*presents_;
     }
     return drawn;
 }
 
-void StaffShow::took(MonotonicTime now, double ms) {
+void LiveExhibit::record_time(MonotonicTime now, double ms) {
     if (!pattern_) {
-        exhibit_->took(now, ms);
+        stage_->record_time(now, ms);
     }
 }
 

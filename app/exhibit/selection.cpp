@@ -1,0 +1,91 @@
+#include "app/exhibit/selection.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+std::size_t place_of(std::string_view language, std::span<const std::string> languages) {
+    return static_cast<std::size_t>(std::find(languages.begin(), languages.end(), language) -
+                                    languages.begin());
+}
+
+} // namespace
+
+Selection::Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
+                     MonotonicTime now)
+    : count_(artifact_count), languages_(std::move(languages)), language_count_(languages_.size()),
+      language_before_(place_of(language, languages_)), artifact_(0, fade_time, now),
+      language_(language_before_, fade_time, now) {
+    if (language_before_ == languages_.size()) {
+        languages_.push_back(std::move(language));
+    }
+}
+
+void Selection::take(Command command, MonotonicTime now) {
+    if (!accepts(command)) {
+        return;
+    }
+    if (command == Command::NextLanguage) {
+        language_before_ = language_.goal();
+        change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
+        return;
+    }
+    // With a language that is still to fade, after one that does already.
+    const MonotonicTime begin =
+        language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
+    artifact_.change_to((artifact_.goal() + (command == Command::NextArtifact ? 1 : count_ - 1)) % count_,
+                        now, begin);
+}
+
+/// With an artifact that is still to be dark, after one that fades in. Where they fade together, the caption
+/// has one brightness by either.
+void Selection::change_language(std::size_t which, MonotonicTime now) {
+    if (which != language_.goal()) {
+        language_.change_to(which, now,
+                            now < artifact_.dark() ? artifact_.begins() : std::max(now, artifact_.ends()));
+    }
+}
+
+void Selection::undo(Command command, MonotonicTime now) {
+    switch (command) {
+    case Command::PreviousArtifact:
+        take(Command::NextArtifact, now);
+        break;
+    case Command::NextArtifact:
+        take(Command::PreviousArtifact, now);
+        break;
+    case Command::NextLanguage:
+        change_language(language_before_, now);
+        break;
+    case Command::StaffMode:
+        break;
+    }
+}
+
+bool Selection::accepts(Command command) const {
+    switch (command) {
+    case Command::PreviousArtifact:
+    case Command::NextArtifact:
+        return count_ > 1;
+    case Command::NextLanguage:
+        return language_count_ > 1;
+    case Command::StaffMode:
+        break;
+    }
+    return false;
+}
+
+Shown Selection::at(MonotonicTime now) const {
+    if (count_ == 0) {
+        return {};
+    }
+    const Faded artifact = artifact_.at(now);
+    const Faded language = language_.at(now);
+    return {artifact.which, artifact.brightness, languages_[language.which],
+            std::min(artifact.brightness, language.brightness), artifact.changing || language.changing};
+}
+
+} // namespace frustumscreen

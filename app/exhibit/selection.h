@@ -1,0 +1,63 @@
+/// Which artifact is chosen, in which language, and how bright both are on their way there.
+///
+/// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h), a change of language
+/// only the caption. What is asked for while something fades in begins when that is done, and artifact and
+/// caption never fade one between the other: changes are at least 0.5 s apart, whatever is pressed. So the
+/// picture flashes at most twice a second, which leaves room for the staff's pattern to come and go. Three
+/// times is the limit of WCAG 2.3.1 and ITU-R BT.1702 for the sake of photosensitive people. A press still
+/// shows at once: either the picture dims, or it is changing anyway.
+///
+/// Time     `now` never goes back.
+/// Threads  values; one caller. `at` is pure.
+/// Errors   none. Without artifacts nothing is shown.
+#pragma once
+
+#include "app/exhibit/fade.h"
+#include "app/settings/command.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< out, and again in
+
+struct Shown {
+    std::size_t artifact = 0;
+    double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
+    std::string_view language; ///< of the caption; stands as long as the selection
+    double caption_brightness = 0.0;
+    bool changing = false; ///< a brightness moves, or is about to
+};
+
+class Selection {
+public:
+    /// `languages` (BCP 47): those that some artifact has a caption in, in the order the button goes through.
+    Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
+              MonotonicTime now);
+
+    /// A command that is not accepted changes nothing.
+    void take(Command command, MonotonicTime now);
+    /// Undoes the latest command of this kind.
+    void undo(Command command, MonotonicTime now);
+    /// There is something to change to.
+    [[nodiscard]] bool accepts(Command command) const;
+    [[nodiscard]] Shown at(MonotonicTime now) const;
+    /// The chosen one; its caption may be still to come.
+    [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
+
+private:
+    void change_language(std::size_t which, MonotonicTime now);
+
+    std::size_t count_;
+    std::vector<std::string> languages_; ///< and one more, where it begins in none of them
+    std::size_t language_count_;
+    std::size_t language_before_; ///< before the latest command for another
+    Fade artifact_;
+    Fade language_; ///< indices into `languages_`
+};
+
+} // namespace frustumscreen

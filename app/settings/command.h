@@ -1,0 +1,35 @@
+/// What the panel's buttons ask for. Nobody else knows which button means what.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace frustumscreen {
+
+enum class Command : std::uint8_t {
+    PreviousArtifact,
+    NextArtifact,
+    NextLanguage,
+    StaffMode, ///< the chord: the first and the last button were held together
+};
+
+/// Of button 0, 1 and 2; a panel may have fewer.
+inline constexpr std::array button_commands{Command::PreviousArtifact, Command::NextArtifact,
+                                            Command::NextLanguage};
+
+/// Nothing: there is no such button.
+[[nodiscard]] constexpr std::optional<Command> command_of_button(int button) {
+    const auto index = static_cast<std::size_t>(button);
+    return button >= 0 && index < button_commands.size() ? std::optional(button_commands[index])
+                                                         : std::nullopt;
+}
+/// `command` is one of `button_commands`.
+[[nodiscard]] constexpr int button_of(Command command) {
+    return static_cast<int>(std::find(button_commands.begin(), button_commands.end(), command) -
+                            button_commands.begin());
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,48 @@
+/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage, or for the staff as the
+/// alignment pattern with what there is to know: every device's state, level and error, frame times,
+/// versions.
+///
+/// Memory   the pattern is made when it is asked for and put away afterwards: it costs no one else anything.
+/// Threads  the render thread, with the display's context current.
+/// Errors   a typeface that is missing: the exhibit goes on, and a line on standard error says so.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/settings/settings.h"
+#include "app/show/pattern_show.h"
+#include "app/show/show.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace frustumscreen {
+
+class LiveExhibit final : public Show {
+public:
+    /// `driver`: the display's name for itself.
+    LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver)
+        : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)),
+          exhibit_(std::move(exhibit)) {}
+
+    void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
+    void tell(const RunStatus& status) override;
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+                                  Redraw redraw) override;
+    void record_time(MonotonicTime now, double ms) override;
+    [[nodiscard]] ShowState state() const override { return stage_->state(presentation_); }
+
+private:
+    void follow_staff_mode();
+
+    const Settings& settings_;
+    std::unique_ptr<Stage> stage_;
+    std::string driver_;
+    Exhibit exhibit_;
+    Presentation presentation_;            ///< of the latest step
+    std::unique_ptr<PatternShow> pattern_; ///< while it is on
+    std::optional<int> presents_;          ///< since the other picture was drawn last; nothing = it never was
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+// Exhibits to decide for: artifacts with a caption in each of some languages, on a table of the usual size.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen::sample {
+
+inline const MonotonicTime start{std::chrono::seconds(100)};
+
+inline ExhibitPlace place() {
+    ExhibitPlace place;
+    place.prop = make_prop({});
+    place.lens_m = {0.0, 0.3, 1.4};
+    place.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+    return place;
+}
+
+inline Exhibit exhibit(std::size_t artifacts, const std::vector<std::string>& languages,
+                       std::size_t buttons = 3) {
+    const CatalogueEntry entry{languages, {languages.size(), {{0.2, 0.05}, {0.1, 0.1}}}};
+    ExhibitPlace where = place();
+    where.buttons = buttons;
+    return {Catalogue(artifacts, entry), where, "en", start};
+}
+
+/// The prop lies still, or nobody knows where since `lost`.
+inline Situation situation(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
+    Situation situation;
+    situation.eye_m = {0.0, -0.55, 0.5};
+    situation.prop_known = !lost;
+    situation.prop_age = lost ? now - *lost : Nanoseconds(0);
+    return situation;
+}
+
+} // namespace frustumscreen::sample
