@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz [TARGET...]. Quiet
-# unless something fails.
+# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz [TARGET...]. On a
+# terminal ninja says how far it is; elsewhere one line does every 20 s, and the whole log only if something fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
@@ -12,11 +12,23 @@ fi
 
 log=build/$preset.log
 mkdir -p build
+# Ends with the process that it was started from.
+say_progress() {
+    local step
+    while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
+        step=$(grep -o '^\[[0-9]*/[0-9]*\]' "$log" | tail -n 1 || true)
+        printf '   %s of the build, %d s\n' "${step:-at the beginning}" "$SECONDS"
+    done
+}
 quietly() {
+    say_progress &
+    local progress=$!
     if ! "$@" >"$log" 2>&1; then
+        kill "$progress"
         cat "$log" >&2
         exit 1
     fi
+    kill "$progress"
 }
 if [[ ! -f build/$preset/build.ninja || CMakePresets.json -nt build/$preset/build.ninja ]]; then
     quietly cmake --preset "$preset"

@@ -1,4 +1,4 @@
-/// How far a picture is from the truth, as the conventions' 'Measuring' defines it.
+/// How far a picture is from the truth, as docs/conventions.md defines it.
 ///
 /// Units    millimetres, projector pixels, 8-bit sRGB codes, percent.
 /// Threads  pure; any.

@@ -1,4 +1,4 @@
-/// The truth that every picture is measured against: a ray cast of the source mesh, as the conventions define
+/// The truth that every picture is measured against: a ray cast of the source mesh, as docs/conventions.md defines
 /// it.
 ///
 /// For a projector pixel whose ray lights the prop at S, on a face turned towards the eye E, the colour is

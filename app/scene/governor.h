@@ -5,7 +5,7 @@
 /// artifact wants) the one that takes least time, if it meets the deadline; failing that, the finest level
 /// that meets it, with as many samples as fit; failing that, the quickest.
 ///
-/// Tolerance  half a projector pixel as that pixel lands on the face (conventions, Measuring): nearly all
+/// Tolerance  half a projector pixel as that pixel lands on the face (docs/conventions.md): nearly all
 ///          of a level's surface (p95) is off by no more, and all of it (max) by no more than two pixels.
 ///          The mean would hide a spout that is off by pixels, where a visitor looks; p95 alone hides a
 ///          strap of 3 % of the surface that a level has lost.

@@ -268,6 +268,14 @@ std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
     return front;
 }
 
+std::uintmax_t room_for_pack(int size) {
+    constexpr std::uintmax_t triangles_bytes = 20'000'000;
+    constexpr std::uintmax_t bytes_each_square = 200; // of all levels and the relief
+    constexpr std::uintmax_t most_bytes = std::uintmax_t{2} << 30;
+    const auto edge = static_cast<std::uintmax_t>(size);
+    return std::min(most_bytes, triangles_bytes + bytes_each_square * edge * edge);
+}
+
 Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     const Result<BoxFrame> frame = make_box_frame(mesh, up);

@@ -11,6 +11,7 @@
 #include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,10 @@ struct BakeOptions {
 
 /// Title, languages, captions and provenance are left for the caller to fill in.
 [[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
+
+/// Bytes of room that a pack of this size (texels) may need. The largest pack measured, a helmet of seven
+/// levels at 512, had 31 MB; this is some twice as much, and never more than a pack may have.
+[[nodiscard]] std::uintmax_t room_for_pack(int size);
 
 /// Indices of the levels on the front of error against cost (triangles; below some 1500 all cost a frame the
 /// same), cheapest first: each is nearer in the mean than the one before, and does not stray further in

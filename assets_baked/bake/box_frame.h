@@ -1,7 +1,7 @@
 /// The artifact's own normalised box, and its outermost vertices.
 ///
 /// Frames   box: up axis turned to +Z, bounding box centred on the Z axis, standing on z = 0, longest edge 1
-///          (conventions: placement by default). 64-bit, so that an artifact far from its origin keeps its
+///          (docs/conventions.md: placement). 64-bit, so that an artifact far from its origin keeps its
 ///          detail.
 /// Threads  pure; any.
 #pragma once

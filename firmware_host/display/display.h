@@ -21,7 +21,7 @@ public:
     [[nodiscard]] virtual int width() const = 0;
     [[nodiscard]] virtual int height() const = 0;
     /// GL name of the framebuffer to draw the next picture into: colour sRGB 8-bit, depth 24, stencil 8.
-    /// Row 0 of a read-back is the picture's top row (conventions of `Pinhole::clip_from_point`).
+    /// Row 0 of a read-back is the picture's top row (as `Pinhole::clip_from_point`).
     [[nodiscard]] virtual unsigned framebuffer() const = 0;
     /// How many presents ago the framebuffer held what it holds now; 0 = undefined, 1 = the last picture.
     [[nodiscard]] virtual int buffer_age() const = 0;

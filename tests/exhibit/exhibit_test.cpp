@@ -104,7 +104,7 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
         for (int k = 0; k < 60; ++k) {
             now += milliseconds(random() % 400);
             std::vector<Command> commands;
-            for (unsigned each = random() % 3; each > 0; --each) {
+            for (auto each = random() % 3; each > 0; --each) {
                 const std::size_t button = random() % (buttons + 1);
                 commands.push_back(button < buttons ? button_commands.at(button) : Command::StaffMode);
                 button < buttons ? ledger.press(button) : ledger.chord();

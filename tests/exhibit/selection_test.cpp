@@ -66,7 +66,7 @@ TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
         for (int ms = 0; ms <= 5000; ++ms) {
             const MonotonicTime now = press + milliseconds(ms);
             if (ms < 3000 && random() % static_cast<unsigned>(20 + run) == 0) {
-                selection.take(commandes.at(random() % commands.size()), now);
+                selection.take(commands.at(random() % commands.size()), now);
             }
             const Shown shown = selection.at(now);
             // A cubic ease over 250 ms moves by at most 1.5 / 250 each millisecond.

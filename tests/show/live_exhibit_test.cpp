@@ -83,7 +83,7 @@ protected:
     Record record;
     RunStatus status;
     std::unique_ptr<SurfacelessDisplay> display;
-    std::unique_ptr<StaffShow> show;
+    std::unique_ptr<LiveExhibit> show;
     MonotonicTime now = start;
 };
 

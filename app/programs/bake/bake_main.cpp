@@ -103,7 +103,7 @@ Result<void> check_output(const Arguments& arguments) {
     if (Result<void> safe = check_output_is_no_input(arguments.output, {{arguments.input}}); !safe) {
         return safe;
     }
-    if (Result<void> place = check_output_place(arguments.output, most_bytes_of_pack(arguments.options.size));
+    if (Result<void> place = check_output_place(arguments.output, room_for_pack(arguments.options.size));
         !place) {
         return place;
     }
