@@ -1,9 +1,9 @@
 #include "app/bench/error_plot.h"
 
 #include "app/bench/attainment.h"
-#include "app/bench/dominance.h"
+#include "app/bench/measures/dominance.h"
+#include "app/bench/measures/verdicts.h"
 #include "app/bench/plot.h"
-#include "app/bench/verdicts.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/bench/error_time.h"
+#include "app/bench/measures/error_time.h"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #include "app/bench/saved_results.h"
 
-#include "app/bench/report.h"
+#include "app/bench/measures/report.h"
 
 #include <nlohmann/json.hpp>
 

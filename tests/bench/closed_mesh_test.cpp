@@ -1,4 +1,4 @@
-#include "app/bench/closed_mesh.h"
+#include "app/bench/techniques/closed_mesh.h"
 
 #include <gtest/gtest.h>
 

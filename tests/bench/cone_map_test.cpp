@@ -1,5 +1,5 @@
-#include "app/bench/cone_map.h"
-#include "app/bench/max_mipmap.h"
+#include "app/bench/techniques/relief/cone_map.h"
+#include "app/bench/techniques/relief/max_mipmap.h"
 
 #include <gtest/gtest.h>
 

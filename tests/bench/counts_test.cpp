@@ -1,4 +1,4 @@
-#include "app/bench/counts.h"
+#include "app/bench/measures/counts.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/bake/bake.h"
 #include "firmware_host/base/file.h"

@@ -1,4 +1,4 @@
-#include "app/bench/pack_level.h"
+#include "app/bench/techniques/pack_level.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bench/drawn_near.h"
 

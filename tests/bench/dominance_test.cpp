@@ -1,7 +1,7 @@
 // Who dominates whom, on results that were made up.
 
-#include "app/bench/dominance.h"
-#include "app/bench/report.h"
+#include "app/bench/measures/dominance.h"
+#include "app/bench/measures/report.h"
 #include "app/bench/saved_results.h"
 
 #include <gtest/gtest.h>

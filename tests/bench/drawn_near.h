@@ -1,9 +1,9 @@
 /// For the bench's tests that draw: a picture of the small projector of near_stage.h.
 #pragma once
 
-#include "app/bench/measure.h"
-#include "app/bench/technique.h"
-#include "app/bench/truth.h"
+#include "app/bench/measures/measure.h"
+#include "app/bench/techniques/technique.h"
+#include "app/bench/truth/truth.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/bench/near_stage.h"

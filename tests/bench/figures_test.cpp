@@ -1,6 +1,6 @@
 // True figures are held, false ones are caught.
 
-#include "app/bench/figures.h"
+#include "app/bench/measures/figures.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bench/ring.h"
 

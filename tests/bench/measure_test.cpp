@@ -1,4 +1,4 @@
-#include "app/bench/measure.h"
+#include "app/bench/measures/measure.h"
 
 #include <gtest/gtest.h>
 

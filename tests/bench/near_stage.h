@@ -1,7 +1,7 @@
 /// A small projector that hangs over the table, for the bench's tests. Frames: table T, metres.
 #pragma once
 
-#include "app/bench/poses.h"
+#include "app/bench/truth/poses.h"
 
 namespace frustumscreen {
 

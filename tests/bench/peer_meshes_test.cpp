@@ -1,10 +1,10 @@
 // Peers that draw something else than the source mesh by rasterizing it: a ray cast, simplified meshes; and
 // which of them a person asks for.
 
-#include "app/bench/level_of_detail.h"
-#include "app/bench/peer_choice.h"
-#include "app/bench/peers.h"
-#include "app/bench/ray_cast.h"
+#include "app/bench/techniques/level_of_detail.h"
+#include "app/bench/techniques/peer_choice.h"
+#include "app/bench/techniques/peers.h"
+#include "app/bench/techniques/ray_cast.h"
 #include "tests/bench/drawn_near.h"
 #include "tests/bench/ring.h"
 

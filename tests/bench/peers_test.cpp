@@ -1,4 +1,4 @@
-#include "app/bench/peers.h"
+#include "app/bench/techniques/peers.h"
 #include "tests/bench/drawn_near.h"
 #include "tests/bench/ring.h"
 

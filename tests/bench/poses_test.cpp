@@ -1,4 +1,4 @@
-#include "app/bench/poses.h"
+#include "app/bench/truth/poses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "app/bench/peers.h"
-#include "app/bench/projection.h"
+#include "app/bench/measures/projection.h"
+#include "app/bench/techniques/peers.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/bench/near_stage.h"

@@ -1,6 +1,6 @@
-#include "app/bench/relief_images.h"
-#include "app/bench/relief_peers.h"
-#include "app/bench/relief_technique.h"
+#include "app/bench/techniques/relief/relief_images.h"
+#include "app/bench/techniques/relief/relief_peers.h"
+#include "app/bench/techniques/relief/relief_technique.h"
 #include "tests/bench/drawn_near.h"
 #include "tests/bench/ring.h"
 

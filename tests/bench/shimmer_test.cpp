@@ -1,4 +1,4 @@
-#include "app/bench/shimmer.h"
+#include "app/bench/measures/shimmer.h"
 #include "tests/bench/near_stage.h"
 #include "tests/bench/ring.h"
 

@@ -1,6 +1,6 @@
 // The time left of a run, at times that were made up.
 
-#include "app/bench/time_left.h"
+#include "app/bench/measures/time_left.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/bench/truth.h"
+#include "app/bench/truth/truth.h"
 
 #include <gtest/gtest.h>
 

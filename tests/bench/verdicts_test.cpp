@@ -1,5 +1,5 @@
-#include "app/bench/report.h"
-#include "app/bench/verdicts.h"
+#include "app/bench/measures/report.h"
+#include "app/bench/measures/verdicts.h"
 
 #include <gtest/gtest.h>
 

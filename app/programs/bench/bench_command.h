@@ -5,9 +5,9 @@
 /// Errors   as Result; the sentence goes to standard error by bench_main.cpp.
 #pragma once
 
-#include "app/bench/pack_level.h"
-#include "app/bench/technique_set.h"
-#include "app/bench/time_left.h"
+#include "app/bench/measures/technique_set.h"
+#include "app/bench/measures/time_left.h"
+#include "app/bench/techniques/pack_level.h"
 #include "assets_baked/bake/source_mesh.h"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "app/programs/bench/bench_counts.h"
 
-#include "app/bench/counts.h"
+#include "app/bench/measures/counts.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

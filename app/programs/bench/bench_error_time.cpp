@@ -1,9 +1,9 @@
 #include "app/programs/bench/bench_error_time.h"
 
 #include "app/bench/error_plot.h"
-#include "app/bench/error_time.h"
-#include "app/bench/figures.h"
-#include "app/bench/report.h"
+#include "app/bench/measures/error_time.h"
+#include "app/bench/measures/figures.h"
+#include "app/bench/measures/report.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "app/programs/bench/bench_projection.h"
 
-#include "app/bench/projection.h"
+#include "app/bench/measures/projection.h"
 
 #include <memory>
 

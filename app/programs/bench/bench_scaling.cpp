@@ -1,9 +1,9 @@
 #include "app/programs/bench/bench_scaling.h"
 
 #include "app/bench/error_plot.h"
-#include "app/bench/report.h"
-#include "app/bench/scaling.h"
-#include "app/bench/verdicts.h"
+#include "app/bench/measures/report.h"
+#include "app/bench/measures/scaling.h"
+#include "app/bench/measures/verdicts.h"
 
 #include <fmt/format.h>
 

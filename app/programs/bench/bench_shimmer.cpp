@@ -1,6 +1,6 @@
 #include "app/programs/bench/bench_shimmer.h"
 
-#include "app/bench/shimmer.h"
+#include "app/bench/measures/shimmer.h"
 
 #include <memory>
 

@@ -1,0 +1,133 @@
+/// How far the picture slips on the prop because the tracker and the projector take time: simulated motion or
+/// a recording, through a tracker of a given rate, latency and noise, through an estimator of poses, to the
+/// time at which the picture is lit.
+///
+/// Slip     at the prop: the distance of the origins plus half the prop's height times the angle between the
+///          pose drawn for and the true pose when it is lit.
+/// Time     of the simulation; the tracker's clock runs 0.03 % faster than its rate says, so that samples
+///          come at every phase between the pictures.
+/// Threads  pure; any. The same seed gives the same numbers with the same C++ library.
+#pragma once
+
+#include "app/bench/latency/hand_motion.h"
+#include "app/tracking/motion_filter.h"
+#include "app/tracking/pose_filter.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct TrackedBy {
+    std::string name;
+    double rate_hz = 60.0;
+    double latency_ms = 18.0; ///< from a pose until the exhibit has its sample
+    PoseNoise noise;          ///< each axis, RMS
+};
+
+struct LatencySetting {
+    double display_hz = 60.0;
+    double display_latency_ms = 17.0; ///< from the poll until the picture is lit
+    double lever_m = 0.06;            ///< half the prop's height
+};
+
+/// What is compared.
+struct Contestant {
+    std::string name;
+    std::function<std::unique_ptr<PoseFilter>(const PoseNoise&)> filter;
+    bool predicts = true;
+    bool shown = false; ///< through ShownPose, as the exhibit does
+};
+/// No filter; One Euro, constant velocity and the exhibit's filter, each without and with prediction; and the
+/// exhibit's as shown.
+[[nodiscard]] std::vector<Contestant> contestants();
+
+/// One picture of a run.
+struct LitPicture {
+    double lit_s = 0.0;
+    RigidTransform drawn;
+    RigidTransform truth;
+};
+
+[[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
+                                                   const TrackedBy& tracker, const LatencySetting& setting,
+                                                   const Contestant& contestant, std::uint64_t seed);
+/// The same for samples as they were recorded, with noise added where `tracker.noise` has any; the truth is
+/// what lies between them.
+[[nodiscard]] std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples,
+                                                   const TrackedBy& tracker, const LatencySetting& setting,
+                                                   const Contestant& contestant, std::uint64_t seed);
+
+inline constexpr double stop_speed_m_s = 0.5;
+inline constexpr double stop_braking_m_s2 = 5.0;
+inline constexpr double latency_speed_m_s = 0.25; ///< of the strokes against latency
+
+/// In mm, over the pictures after the first second.
+struct Slip {
+    double mean = 0.0;
+    double p95 = 0.0;
+    double rms = 0.0;
+};
+[[nodiscard]] Slip slip_of(std::span<const LitPicture> pictures, double lever_m);
+
+/// When stopping, along X: how far the picture goes past the place where the prop comes to stand, and how far
+/// it runs ahead of the prop meanwhile; the most of each run, in mm.
+struct Overshoot {
+    double mean = 0.0;
+    double p95 = 0.0; ///< of the runs
+    double worst = 0.0;
+    double rms = 0.0;
+    double ahead_mean = 0.0; ///< of the prop, from the braking on
+    double ahead_p95 = 0.0;
+    double ahead_rms = 0.0;
+};
+[[nodiscard]] Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting,
+                                     const Contestant& contestant, std::uint64_t seed);
+
+struct SpeedSlip {
+    double speed_m_s = 0.0;
+    Slip slip;
+};
+struct LatencySlip {
+    double total_ms = 0.0; ///< tracker and display
+    Slip slip;             ///< strokes at 0.25 m/s
+};
+struct ContestantResult {
+    std::string name;
+    bool predicts = false;
+    std::vector<SpeedSlip> strokes;
+    Slip rest;
+    Overshoot stop;
+    std::vector<LatencySlip> latencies;
+};
+struct TrackerResult {
+    TrackedBy tracker;
+    double total_ms = 0.0; ///< tracker and display
+    std::vector<ContestantResult> contestants;
+};
+
+struct LatencyOptions {
+    LatencySetting setting;
+    std::vector<double> speeds_m_s = {0.05, 0.1, 0.25, 0.5};
+    double length_s = 60.0;
+    std::uint64_t seed = 1;
+};
+[[nodiscard]] TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options);
+
+/// A recording that is replayed.
+struct Recording {
+    std::string name;
+    std::vector<RecordedPose> poses;
+    bool noisy = true; ///< false: of a motion capture, so that a tracker's noise is added
+};
+struct RecordingResult {
+    std::string name;
+    double total_ms = 0.0;
+    std::vector<std::pair<std::string, Slip>> slips; ///< by contestant
+};
+[[nodiscard]] RecordingResult measure_recording(const Recording& recording, const LatencyOptions& options);
+
+} // namespace frustumscreen

@@ -1,0 +1,152 @@
+#include "app/bench/latency/latency_report.h"
+
+#include "app/bench/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double least_gain = 0.4;
+constexpr double judged_speed_m_s = 0.25;
+constexpr double most_rest_mm = 0.15;
+constexpr double overshoot_margin_mm = 0.5;
+
+const ContestantResult& named(const TrackerResult& result, const std::string& name) {
+    const auto found =
+        std::find_if(result.contestants.begin(), result.contestants.end(),
+                     [&](const ContestantResult& contestant) { return contestant.name == name; });
+    assert(found != result.contestants.end());
+    return *found;
+}
+
+const Slip* at_speed(const ContestantResult& contestant, double speed_m_s) {
+    const auto found = std::find_if(contestant.strokes.begin(), contestant.strokes.end(),
+                                    [&](const SpeedSlip& stroke) { return stroke.speed_m_s == speed_m_s; });
+    return found != contestant.strokes.end() ? &found->slip : nullptr;
+}
+
+} // namespace
+
+std::vector<Verdict> judge(const TrackerResult& result, const LatencyOptions& options) {
+    std::vector<Verdict> verdicts;
+    const ContestantResult& shown = named(result, "exhibit, as shown");
+    const Slip* with = at_speed(shown, judged_speed_m_s);
+    const Slip* without = at_speed(named(result, "exhibit"), judged_speed_m_s);
+    if (with != nullptr && without != nullptr && without->rms > 0.0) {
+        const double gain = 1.0 - with->rms / without->rms;
+        verdicts.push_back(
+            {fmt::format("RMS slip at {:g} m/s at least {:g} % below the same filter's without "
+                         "prediction",
+                         judged_speed_m_s, 100.0 * least_gain),
+             fmt::format("{:.2f} mm against {:.2f} mm, {:.0f} % below", with->rms, without->rms,
+                         100.0 * gain),
+             gain >= least_gain});
+    }
+    verdicts.push_back({fmt::format("rest jitter <= {:g} mm RMS", most_rest_mm),
+                        fmt::format("{:.3f} mm against the truth", shown.rest.rms),
+                        shown.rest.rms <= most_rest_mm});
+    const double total_s = 1e-3 * (result.tracker.latency_ms + options.setting.display_latency_ms);
+    const double limit_mm = 1e3 * 0.5 * stop_braking_m_s2 * total_s * total_s + overshoot_margin_mm;
+    verdicts.push_back({fmt::format("overshoot when stopping from {:g} m/s at {:g} m/s^2 <= {:.2f} mm",
+                                    stop_speed_m_s, stop_braking_m_s2, limit_mm),
+                        fmt::format("95th percentile of the stops {:.2f} mm, mean {:.2f}, worst {:.2f}",
+                                    shown.stop.p95, shown.stop.mean, shown.stop.worst),
+                        shown.stop.p95 <= limit_mm});
+    return verdicts;
+}
+
+std::string latency_table(const TrackerResult& result, const LatencyOptions& options) {
+    const TrackedBy& tracker = result.tracker;
+    std::string text =
+        fmt::format("{}: {:g} Hz, {:g} ms + {:g} ms, {:g} mm, {:.2f} degrees\n"
+                    "mm: mean, 95th percentile, RMS\n{:<29}",
+                    tracker.name, tracker.rate_hz, tracker.latency_ms, options.setting.display_latency_ms,
+                    1e3 * tracker.noise.place_m, glm::degrees(tracker.noise.turn_rad), "");
+    for (const double speed_m_s : options.speeds_m_s) {
+        text += fmt::format(" {:>19}", fmt::format("{:g} m/s", speed_m_s));
+    }
+    text += fmt::format(" {:>6} {:>13} {:>13}\n", "rest", "overshoot", "runs ahead");
+    for (const ContestantResult& contestant : result.contestants) {
+        text += fmt::format("{:<29}", contestant.name);
+        for (const SpeedSlip& stroke : contestant.strokes) {
+            text +=
+                fmt::format("   {:5.2f} {:5.2f} {:5.2f}", stroke.slip.mean, stroke.slip.p95, stroke.slip.rms);
+        }
+        text += fmt::format(" {:6.3f} {:6.2f} {:6.2f} {:6.2f} {:6.2f}\n", contestant.rest.rms,
+                            contestant.stop.mean, contestant.stop.p95, contestant.stop.ahead_mean,
+                            contestant.stop.ahead_p95);
+    }
+    return text;
+}
+
+std::string recordings_table(std::span<const RecordingResult> recordings) {
+    std::string text = "recordings, mm: mean, 95th percentile, RMS\n";
+    for (const RecordingResult& recording : recordings) {
+        text += recording.name + "\n";
+        for (const auto& [name, slip] : recording.slips) {
+            text += fmt::format("  {:<29} {:6.2f} {:6.2f} {:6.2f}\n", name, slip.mean, slip.p95, slip.rms);
+        }
+    }
+    return text;
+}
+
+std::string latency_csv(std::span<const TrackerResult> results, std::span<const RecordingResult> recordings) {
+    std::string text = "source,contestant,motion,speed_m_s,latency_ms,mean_mm,p95_mm,rms_mm\n";
+    const auto row = [&](const std::string& source, const std::string& contestant, const char* motion,
+                         double speed_m_s, double latency_ms, const Slip& slip) {
+        text += fmt::format("\"{}\",\"{}\",{},{:g},{:g},{:.4f},{:.4f},{:.4f}\n", source, contestant, motion,
+                            speed_m_s, latency_ms, slip.mean, slip.p95, slip.rms);
+    };
+    for (const TrackerResult& result : results) {
+        for (const ContestantResult& contestant : result.contestants) {
+            const std::string& source = result.tracker.name;
+            for (const SpeedSlip& stroke : contestant.strokes) {
+                row(source, contestant.name, "strokes", stroke.speed_m_s, result.total_ms, stroke.slip);
+            }
+            for (const LatencySlip& latency : contestant.latencies) {
+                row(source, contestant.name, "latency", latency_speed_m_s, latency.total_ms, latency.slip);
+            }
+            row(source, contestant.name, "rest", 0.0, result.total_ms, contestant.rest);
+            const Overshoot& stop = contestant.stop;
+            row(source, contestant.name, "stop_overshoot", stop_speed_m_s, result.total_ms,
+                {stop.mean, stop.p95, stop.rms});
+            row(source, contestant.name, "stop_ahead", stop_speed_m_s, result.total_ms,
+                {stop.ahead_mean, stop.ahead_p95, stop.ahead_rms});
+        }
+    }
+    for (const RecordingResult& recording : recordings) {
+        for (const auto& [name, slip] : recording.slips) {
+            row(recording.name, name, "recording", 0.0, recording.total_ms, slip);
+        }
+    }
+    return text;
+}
+
+std::string latency_svg(std::span<const TrackerResult> results) {
+    std::vector<Plot> plots;
+    for (const TrackerResult& result : results) {
+        Plot plot;
+        plot.title = fmt::format("{}, strokes at {:g} m/s", result.tracker.name, latency_speed_m_s);
+        plot.x_label = "latency of tracker and display, ms";
+        plot.y_label = "RMS slip of the picture on the prop, mm";
+        plot.log_x = plot.log_y = false;
+        for (const ContestantResult& contestant : result.contestants) {
+            PlotSeries series;
+            series.name = contestant.name;
+            series.look.dashed = !contestant.predicts;
+            for (const LatencySlip& latency : contestant.latencies) {
+                series.points.push_back({{latency.total_ms, latency.slip.rms}});
+            }
+            plot.series.push_back(std::move(series));
+        }
+        plots.push_back(std::move(plot));
+    }
+    return svg_of(plots);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,27 @@
+/// The results of frustumscreen-bench latency as words, CSV and SVG.
+///
+/// Units    mm, ms.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/latency/latency.h"
+#include "app/bench/measures/verdicts.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The targets: 60 Hz display, 18 ms + 17 ms, 0.3 mm and 0.15 degrees. Judged is the exhibit as shown; the
+/// stop by the 95th percentile of the runs.
+[[nodiscard]] std::vector<Verdict> judge(const TrackerResult& result, const LatencyOptions& options);
+
+[[nodiscard]] std::string latency_table(const TrackerResult& result, const LatencyOptions& options);
+[[nodiscard]] std::string recordings_table(std::span<const RecordingResult> recordings);
+[[nodiscard]] std::string latency_csv(std::span<const TrackerResult> results,
+                                      std::span<const RecordingResult> recordings);
+/// Error against latency, one plot for each tracker.
+[[nodiscard]] std::string latency_svg(std::span<const TrackerResult> results);
+
+} // namespace frustumscreen

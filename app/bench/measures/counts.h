@@ -1,0 +1,57 @@
+/// What a frame of a pack's default level takes, in numbers that do not depend on the machine; and their
+/// change against a reference that the project keeps.
+///
+/// Counted  from the frame's plan, a mean over seeded poses: triangles and draw calls sent, vertices that
+///          they name (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
+///          vertices read, samples' colour and depth written and read back, the picture cleared. What the
+///          texture's cache lines and hidden fragments add is not in it.
+/// Threads  pure; any.
+/// Errors   settings without poses; a reference that is no such file.
+#pragma once
+
+#include "app/bench/measures/technique_set.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct FrameCounts {
+    double triangles = 0.0;
+    double vertices = 0.0;
+    double draw_calls = 0.0;
+    double samples = 0.0;
+    double bytes = 0.0;
+};
+
+struct CountedPack {
+    std::string artifact; ///< the source's file name, its triangles
+    std::string set_up;
+    FrameCounts counts;
+};
+
+/// The pack's default level over `poses` poses of `seed`.
+[[nodiscard]] Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses,
+                                               std::uint64_t seed);
+
+[[nodiscard]] std::string counts_json(std::span<const CountedPack> counted);
+[[nodiscard]] Result<std::vector<CountedPack>> read_counts(std::string_view text);
+
+/// A count of this much more than the reference's is a loss to be explained.
+inline constexpr double most_count_growth = 1.05;
+
+struct CountChange {
+    CountedPack now;
+    FrameCounts reference;
+    bool grown = false; ///< one of them beyond `most_count_growth`
+};
+/// Of those that the reference has.
+[[nodiscard]] std::vector<CountChange> changes(std::span<const CountedPack> counted,
+                                               std::span<const CountedPack> reference);
+/// A row each; beside each number its change in per cent, where the reference has it.
+[[nodiscard]] std::string counts_table(std::span<const CountedPack> counted,
+                                       std::span<const CountChange> against);
+
+} // namespace frustumscreen

@@ -1,0 +1,104 @@
+#include "app/bench/measures/dominance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+bool has_eye_image(const TechniqueResult& technique) {
+    return technique.kind == TechniqueKind::TwoPass || technique.kind == TechniqueKind::TwoPassLod;
+}
+
+bool of_one_mesh(const TechniqueResult& a, const TechniqueResult& b) {
+    return a.kind == b.kind && a.triangles == b.triangles;
+}
+
+/// Whether another eye image of the same mesh errs less at about the same cost, or no more at less.
+bool is_beaten(const SetUpResult& result, const TechniqueResult& one) {
+    return std::any_of(result.techniques.begin(), result.techniques.end(), [&one](const auto& other) {
+        return of_one_mesh(other, one) && errs_no_more(other, one) &&
+               other.times_floor <= one.times_floor * (1.0 + cost_tolerance) &&
+               (!errs_no_more(one, other) || other.times_floor < one.times_floor);
+    });
+}
+
+bool has_better_eye_image(const SetUpResult& result, const TechniqueResult& one) {
+    return is_beaten(result, one) ||
+           std::any_of(result.techniques.begin(), result.techniques.end(), [&](const auto& other) {
+               return of_one_mesh(other, one) && other.times_floor < one.times_floor &&
+                      !is_beaten(result, other);
+           });
+}
+
+std::string figures_of(const TechniqueResult& technique) {
+    const PictureError& mean = technique.error.mean;
+    return fmt::format("{} at {:.2f} x ({:.3f} %, {:.4f} mm, RMSE {:.2f})", technique.name,
+                       technique.times_floor, mean.silhouette_percent, mean.geometric_mean_mm,
+                       mean.sixteen_rays.rmse);
+}
+
+Verdict judge_level(const SetUpResult& result, const TechniqueResult& level) {
+    std::string dominating;
+    std::string tied;
+    const auto append = [](std::string& list, const std::string& more) {
+        list += (list.empty() ? "" : "; ") + more;
+    };
+    for (const TechniqueResult& peer : result.techniques) {
+        if (!is_judged_peer(peer.kind) || !errs_no_more(peer, level)) {
+            continue;
+        }
+        if (peer.times_floor * (1.0 + cost_tolerance) < level.times_floor) {
+            append(dominating, figures_of(peer));
+        } else if (peer.times_floor <= level.times_floor * (1.0 + cost_tolerance)) {
+            append(tied, figures_of(peer));
+        }
+    }
+    std::string found = dominating.empty() ? "none" : dominating;
+    found += " beside " + figures_of(level);
+    if (!tied.empty()) {
+        found += fmt::format("; within {:g} % of its cost: {}", 100.0 * cost_tolerance, tied);
+    }
+    return {fmt::format("{}: no peer dominates it", level.name), found, dominating.empty()};
+}
+
+} // namespace
+
+bool is_judged_peer(TechniqueKind kind) {
+    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel && kind != TechniqueKind::RayCast;
+}
+
+bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b) {
+    const PictureError& x = a.error.mean;
+    const PictureError& y = b.error.mean;
+    return x.silhouette_percent <= y.silhouette_percent && x.geometric_mean_mm <= y.geometric_mean_mm &&
+           x.sixteen_rays.rmse <= y.sixteen_rays.rmse;
+}
+
+std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result) {
+    std::vector<const TechniqueResult*> best;
+    for (const TechniqueResult& technique : result.techniques) {
+        if (!has_eye_image(technique) || !has_better_eye_image(result, technique)) {
+            best.push_back(&technique);
+        }
+    }
+    return best;
+}
+
+std::vector<Verdict> judge_dominance(const SetUpResult& result) {
+    std::vector<Verdict> verdicts;
+    if (std::none_of(result.techniques.begin(), result.techniques.end(),
+                     [](const TechniqueResult& technique) { return is_judged_peer(technique.kind); })) {
+        return verdicts;
+    }
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel) {
+            verdicts.push_back(judge_level(result, technique));
+        }
+    }
+    return verdicts;
+}
+
+} // namespace frustumscreen

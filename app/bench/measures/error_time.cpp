@@ -1,0 +1,133 @@
+#include "app/bench/measures/error_time.h"
+
+#include "app/bench/measures/side_by_side.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Fewer frame times than this have no steady median on a busy machine.
+constexpr int least_samples = 60;
+
+int rounds_of(const ErrorTimeOptions& options) {
+    return std::max(options.timing_rounds, least_samples / options.poses);
+}
+
+/// The pack's level `level` where its geometric error is greatest.
+Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
+                             std::uint32_t level) {
+    std::size_t k = 0;
+    while (set.results()[k].level != static_cast<int>(level)) {
+        ++k;
+    }
+    const std::vector<PictureError>& errors = set.results()[k].errors;
+    const auto worst = std::max_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) {
+        return a.geometric_mean_mm < b.geometric_mean_mm;
+    });
+    const BenchPose& pose = poses[static_cast<std::size_t>(worst - errors.begin())];
+    const Result<Drawn> drawn = set.drawn(k, pose);
+    if (!drawn) {
+        return tl::unexpected<Error>(drawn.error());
+    }
+    return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), *drawn);
+}
+
+Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth,
+                       const glm::dmat4& prop_from_artifact, const PeerChoice& choice) {
+    Result<void> added;
+    if (choice.mesh || choice.two_pass) {
+        added = set.add_peers(mesh, prop_from_artifact, choice.mesh,
+                              choice.two_pass ? choice.eye_pixels : std::vector<int>{});
+    }
+    if (added && choice.ray_cast) {
+        added = set.add_ray_cast(truth);
+    }
+    if (added && (choice.lod || choice.two_pass_lod)) {
+        added = set.add_levels_of_detail(mesh, prop_from_artifact, choice);
+    }
+    if (added && choice.relief) {
+        added = set.add_relief_peers(truth, mesh, prop_from_artifact, choice.relief_texels);
+    }
+    return added;
+}
+
+Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
+                            const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
+                            const StepProgress& progress) {
+    progress(set_up.name + ": meshes", 0.0);
+    Result<std::unique_ptr<TechniqueSet>> opened = TechniqueSet::open(set_up);
+    if (!opened) {
+        return tl::unexpected<Error>(opened.error());
+    }
+    TechniqueSet& set = **opened;
+    Result<std::vector<BenchPose>> poses =
+        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed);
+    if (!poses) {
+        return tl::unexpected<Error>(poses.error());
+    }
+    const glm::dmat4 prop_from_artifact = place(pack, set.stage().prop).prop_from_artifact;
+    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
+    if (!truth) {
+        return tl::unexpected<Error>(truth.error());
+    }
+    Result<void> ready;
+    for (std::uint32_t level = 0; ready && level < pack.levels.size(); ++level) {
+        ready = set.add_level(pack, level, options.picture);
+    }
+    if (ready) {
+        ready = add_peers(set, *mesh, *truth, prop_from_artifact, options.peers);
+    }
+    progress(set_up.name + ": meshes", 1.0);
+    progress(set_up.name + ": errors", 0.0);
+    if (ready) {
+        ready = set.measure_errors(*truth, *poses, 0,
+                                   [&](double done) { progress(set_up.name + ": errors", done); });
+    }
+    if (!ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
+    progress(set_up.name + ": times", 0.0);
+    set.measure_times(*poses, rounds_of(options),
+                      [&](double done) { progress(set_up.name + ": times", done); });
+    const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
+    SetUpResult result{set_up.name, set.driver(), pack.default_level, finest, {}, set.results(), {}};
+    for (const auto& [name, level] :
+         {std::pair("default", pack.default_level), std::pair("finest", finest)}) {
+        Result<Image8> picture = worst_picture(set, *truth, *poses, level);
+        if (!picture) {
+            return tl::unexpected<Error>(picture.error());
+        }
+        result.worst.emplace_back(name, std::move(*picture));
+    }
+    result.poses = std::move(*poses);
+    return result;
+}
+
+} // namespace
+
+std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
+                                 const ErrorTimeOptions& options) {
+    const PeerChoice& peers = options.peers;
+    const auto eye_images = static_cast<double>(peers.eye_pixels.size());
+    const auto details = static_cast<double>(peers.lod_triangles.size());
+    const double full = (peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0);
+    const double small = static_cast<double>(pack.levels.size()) + (peers.ray_cast ? 1.0 : 0.0) +
+                         (peers.lod ? details : 0.0) + (peers.two_pass_lod ? details * eye_images : 0.0);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
+    return {
+        {set_up.name + ": meshes", "meshes", 0.5 + 4e-6 * triangles},
+        {set_up.name + ": errors", "errors", options.poses * (0.3 + 0.04 * (small + full) + 2.0 * frames_s)},
+        {set_up.name + ": times", "times", options.poses * rounds_of(options) * frames_s}};
+}
+
+Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
+                               const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
+                               const StepProgress& progress) {
+    Result<SetUpResult> result = compare(set_up, pack, mesh, options, progress);
+    return result ? std::move(result) : at(set_up.name, result.error());
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,43 @@
+/// Error against run time: every technique over the same poses, measured against the truth and timed in one
+/// interleaved run; once for each set-up.
+///
+/// Threads  the one whose context is current; the truth is cast on every core.
+/// Errors   whatever the parts report, with the set-up's name in front.
+#pragma once
+
+#include "app/bench/measures/technique_set.h"
+#include "app/bench/measures/time_left.h"
+
+namespace frustumscreen {
+
+struct SetUpResult {
+    std::string name;
+    std::string driver;
+    std::uint32_t default_level = 0;
+    std::uint32_t finest_level = 0;
+    std::vector<BenchPose> poses;
+    std::vector<TechniqueResult> techniques; ///< the floor first
+    /// As `error_picture`: default and finest level, each in the pose of its greatest geometric error.
+    std::vector<std::pair<std::string, Image8>> worst;
+};
+
+struct ErrorTimeOptions {
+    int poses = 50;
+    std::uint64_t seed = 1;
+    int timing_rounds = 3; ///< at least; few poses are drawn more often
+    PictureOptions picture;
+    PeerChoice peers;
+};
+
+/// What is being done, and the share of it that is done.
+using StepProgress = std::function<void(const std::string& step, double done)>;
+
+/// The steps that `error_time` tells of, with guesses of their seconds.
+[[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
+                                               const ErrorTimeOptions& options);
+
+[[nodiscard]] Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
+                                             const std::shared_ptr<const SourceMesh>& mesh,
+                                             const ErrorTimeOptions& options, const StepProgress& progress);
+
+} // namespace frustumscreen

@@ -1,0 +1,70 @@
+#include "app/bench/measures/figures.h"
+
+#include "assets_baked/bake/level.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Source points farther from the finest level than this are ones that no visitor sees.
+constexpr float seen_reach_box = 5e-4F;
+
+bool agree(float said, float measured) {
+    const double s = static_cast<double>(said);
+    const double m = static_cast<double>(measured);
+    return std::abs(s - m) <= slack_share * std::max(s, m) + slack_box; // false for NaN
+}
+
+} // namespace
+
+std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh) {
+    std::vector<glm::dvec3> points;
+    points.reserve(mesh.positions.size());
+    for (const glm::dvec3& position : mesh.positions) {
+        points.emplace_back(pack.box_from_file * glm::dvec4(position, 1.0));
+    }
+    const SourceScene source(mesh, points);
+    const SourceSamples samples =
+        sample_source(source, surface_of(pack.levels.back(), pack.box_size), seen_reach_box);
+    std::vector<LevelFigures> figures;
+    for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
+        const PackLevel& level = pack.levels[k];
+        figures.push_back(
+            {k, level.error,
+             measure(level, pack.textures[level.texture], pack.box_size, source, samples, false)});
+    }
+    return figures;
+}
+
+std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box) {
+    std::vector<Verdict> verdicts;
+    for (const LevelFigures& each : figures) {
+        const auto mm = [mm_per_box](float box) { return mm_per_box * static_cast<double>(box); };
+        verdicts.push_back({fmt::format("level {}: the pack says {:.4f} mm mean, {:.4f} mm p95", each.level,
+                                        mm(each.said.mean_box), mm(each.said.p95_box)),
+                            fmt::format("measured {:.4f} mm mean, {:.4f} mm p95", mm(each.measured.mean_box),
+                                        mm(each.measured.p95_box)),
+                            agree(each.said.mean_box, each.measured.mean_box) &&
+                                agree(each.said.p95_box, each.measured.p95_box)});
+    }
+    return verdicts;
+}
+
+Result<void> require_true(std::span<const Verdict> figures, const std::string& pack) {
+    const auto false_one =
+        std::find_if(figures.begin(), figures.end(), [](const Verdict& verdict) { return !verdict.held; });
+    if (false_one == figures.end()) {
+        return {};
+    }
+    return bad_input(
+        fmt::format("{}: its own error figures are false, so the exhibit would choose its levels "
+                    "wrongly; {}, {}; bake it again",
+                    pack, false_one->what, false_one->found));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// Are a pack's error figures true? A kiosk draws what they say is good enough, so a pack that flatters
+/// itself shows a coarse artifact, and one that runs itself down a slow one. Each level is measured again
+/// against the source, as the bake measures it.
+///
+/// Units    millimetres on the configured prop.
+/// Held     a figure may be off by a quarter of itself and by `slack_box`: where on the source the sample
+///          points fall differs from the bake's.
+/// Threads  uses all cores; deterministic.
+#pragma once
+
+#include "app/bench/measures/verdicts.h"
+#include "app/geometry/prop_shape.h"
+#include "app/pack/pack.h"
+#include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+struct LevelFigures {
+    std::uint32_t level = 0;
+    LevelError said, measured; ///< box units
+};
+[[nodiscard]] std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh);
+
+inline constexpr double slack_box = 5e-5; ///< some micrometres on a prop
+inline constexpr double slack_share = 0.25;
+/// One for each level: mean and 95th percentile.
+[[nodiscard]] std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box);
+/// An error that names the first false figure.
+[[nodiscard]] Result<void> require_true(std::span<const Verdict> figures, const std::string& pack);
+
+} // namespace frustumscreen

@@ -1,0 +1,53 @@
+/// How far a picture is from the truth, as docs/conventions.md defines it.
+///
+/// Units    millimetres, projector pixels, 8-bit sRGB codes, percent.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/truth/truth.h"
+
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// What a technique drew. Shape as the truth's images.
+struct Drawn {
+    Image8 colour;
+    ImageFloat point_m; ///< hit point, prop frame; NaN = no hit
+};
+
+struct ColourError {
+    double rmse = 0.0;        ///< over the three channels of all pixels hit in both
+    double bad_percent = 0.0; ///< pixels off by more than 16 codes in any channel
+};
+
+struct PictureError {
+    std::int64_t truth_pixels = 0;   ///< the truth's artifact pixels
+    std::int64_t outline_pixels = 0; ///< of them, those with a 4-neighbour not hit
+    std::int64_t mismatched_pixels = 0;
+    double geometric_mean_mm = 0.0;
+    double geometric_p95_mm = 0.0;
+    double silhouette_percent = 0.0; ///< mismatched / truth pixels
+    double outline_shift_px = 0.0;   ///< mismatched / outline pixels
+    ColourError one_ray;
+    ColourError sixteen_rays; ///< zero where the truth has none
+};
+
+/// A truth without artifact pixels gives zero errors if nothing was drawn, and counts each drawn pixel as if
+/// there were one artifact pixel otherwise.
+[[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
+
+/// Value below which `share` of the values lie: the smallest with at least share * n values at or below it.
+/// Zero for none.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+/// Mean and worst of each figure over many pictures.
+struct ErrorSummary {
+    PictureError mean;
+    PictureError worst;  ///< each figure's own greatest
+    int worst_pose = -1; ///< index of the picture with the greatest silhouette error
+};
+[[nodiscard]] ErrorSummary summarise(std::span<const PictureError> errors);
+
+} // namespace frustumscreen

@@ -1,0 +1,96 @@
+/// The visitor's view, made from the projector's picture alone, against an ordinary perspective ray cast of
+/// the artifact standing in the prop: proof that the whole chain is right, not only self-consistent.
+///
+/// View     the exhibit's own picture of a pack's level (unlit, no compensation of the light, sRGB codes)
+///          through `visitor_view`, which knows neither the artifact nor the collineation.
+/// Truth    a ray from the eye through the visitor's pixel straight at the source mesh; black where it
+///          misses. It knows where the prop stands, and neither the projector nor the prop's faces.
+/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes:
+///          with 16 rays a pixel in both pictures, averaged in linear light; and with one ray through its
+///          centre, where a texture finer than a pixel makes every filtered picture differ. The projector's
+///          picture as the ray cast has it goes the same way: what it loses is lost between the two grids
+///          of pixels, not by us.
+/// Size     of the visitor's picture: the largest, up to the projector's own, with no pixel on the prop
+///          finer than the projector's: a step of one, in whichever direction, spans a projector pixel.
+/// Frames   table T; metres.
+/// Threads  the one whose context is current; views and rays are cast on every core.
+/// Errors   whatever the parts report, with the set-up's name in front.
+#pragma once
+
+#include "app/bench/measures/error_time.h"
+#include "app/bench/measures/verdicts.h"
+#include "app/exhibit/visitor_view.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// What the visitor should see. Shape: the camera's picture.
+struct VisitorTruth {
+    Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre meets a face of the prop
+    Image<std::uint8_t> hit;  ///< 1: the same ray meets the artifact
+    Image8 colour;            ///< black where no artifact is hit, and beside the prop
+};
+/// `rays_per_side` squared rays a pixel, spread as `VisitorViewOptions` spreads them.
+[[nodiscard]] VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene,
+                                        const VisitorCamera& camera, int rays_per_side);
+
+/// How much of a view is right.
+struct Agreement {
+    std::int64_t prop_pixels = 0;
+    std::int64_t prop_right = 0;
+    std::int64_t artifact_pixels = 0; ///< of the prop's
+    std::int64_t artifact_right = 0;
+
+    [[nodiscard]] double prop_percent() const;
+    [[nodiscard]] double artifact_percent() const;
+};
+[[nodiscard]] Agreement agreement(const Image8& view, const VisitorTruth& truth);
+
+/// The camera of the size that the block above asks for.
+[[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
+
+/// View, ray cast and difference of the prop side by side, enlarged; where a pixel is wrong the difference is
+/// red, elsewhere it is grey and four times as bright as it is.
+[[nodiscard]] Image8 side_by_side(const Image8& view, const VisitorTruth& truth);
+
+struct ProjectionOptions {
+    int poses = 10;
+    std::uint64_t seed = 1;
+    PictureOptions picture;
+};
+
+/// One level, or the ray-cast picture (level -1), in one pose.
+struct ProjectionRow {
+    std::string technique;
+    int level = -1;
+    int pose = 0;
+    glm::ivec2 size_px{0}; ///< of the visitor's picture
+    double least_span_px =
+        0.0; ///< projector pixels in a step of a visitor's pixel, least over prop and directions
+    Agreement one_ray;
+    Agreement sixteen_rays;
+};
+
+struct ProjectionResult {
+    std::string name; ///< of the set-up
+    std::vector<BenchPose> poses;
+    std::vector<ProjectionRow> rows; ///< ray-cast picture, default and finest level, pose by pose
+    Image8 worst; ///< side by side, 16 rays: the level and pose with the smallest share of right pixels
+};
+
+[[nodiscard]] Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,
+                                                  const std::shared_ptr<const SourceMesh>& mesh,
+                                                  const ProjectionOptions& options,
+                                                  const StepProgress& progress);
+
+inline constexpr double least_right_percent = 97.0; ///< of the prop's pixels, in every pose
+inline constexpr int most_codes_off = 16;
+
+[[nodiscard]] std::vector<Verdict> judge(const ProjectionResult& result);
+[[nodiscard]] std::string projection_csv(std::span<const ProjectionResult> results);
+[[nodiscard]] std::string projection_table(const ProjectionResult& result);
+
+} // namespace frustumscreen

@@ -1,0 +1,190 @@
+#include "app/bench/measures/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The figures of one picture, or of many summed up, in the order of the columns.
+struct Figure {
+    const char* name;
+    double (*of)(const PictureError&);
+};
+constexpr std::array figures = {
+    Figure{"silhouette_percent", [](const PictureError& e) { return e.silhouette_percent; }},
+    Figure{"outline_shift_px", [](const PictureError& e) { return e.outline_shift_px; }},
+    Figure{"geometric_mean_mm", [](const PictureError& e) { return e.geometric_mean_mm; }},
+    Figure{"geometric_p95_mm", [](const PictureError& e) { return e.geometric_p95_mm; }},
+    Figure{"rmse_1_ray", [](const PictureError& e) { return e.one_ray.rmse; }},
+    Figure{"bad_1_ray_percent", [](const PictureError& e) { return e.one_ray.bad_percent; }},
+    Figure{"rmse_16_rays", [](const PictureError& e) { return e.sixteen_rays.rmse; }},
+    Figure{"bad_16_rays_percent", [](const PictureError& e) { return e.sixteen_rays.bad_percent; }},
+};
+
+nlohmann::json json_of(const PictureError& error) {
+    nlohmann::json json;
+    for (const Figure& figure : figures) {
+        json[figure.name] = figure.of(error);
+    }
+    return json;
+}
+
+nlohmann::json json_of(const TechniqueResult& technique) {
+    nlohmann::json json = {{"name", technique.name},
+                           {"kind", name_of(technique.kind)},
+                           {"triangles", technique.triangles},
+                           {"median_ms", technique.time_ms.median},
+                           {"p10_ms", technique.time_ms.p10},
+                           {"p90_ms", technique.time_ms.p90},
+                           {"times_floor", technique.times_floor},
+                           {"cpu_ms", technique.cpu_ms},
+                           {"cpu_times_floor", technique.cpu_times_floor}};
+    if (technique.kind == TechniqueKind::PackLevel) {
+        json["level"] = technique.level;
+    }
+    if (technique.kind != TechniqueKind::Floor) {
+        json["mean"] = json_of(technique.error.mean);
+        json["worst"] = json_of(technique.error.worst);
+        json["worst_pose"] = technique.error.worst_pose;
+    }
+    return json;
+}
+
+nlohmann::json json_of(std::span<const Verdict> verdicts) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const Verdict& verdict : verdicts) {
+        json.push_back({{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
+    }
+    return json;
+}
+
+/// RFC 4180: a field that may hold commas.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return result + "\"";
+}
+
+} // namespace
+
+std::string summary_csv(std::span<const SetUpResult> results) {
+    std::string csv =
+        "set_up,technique,kind,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
+    for (const char* which : {"mean", "worst"}) {
+        for (const Figure& figure : figures) {
+            csv += fmt::format(",{}_{}", which, figure.name);
+        }
+    }
+    csv += ",worst_pose\n";
+    for (const SetUpResult& result : results) {
+        for (const TechniqueResult& technique : result.techniques) {
+            csv += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
+                               technique.name, name_of(technique.kind), technique.triangles,
+                               technique.time_ms.median, technique.time_ms.p10, technique.time_ms.p90,
+                               technique.times_floor, technique.cpu_ms, technique.cpu_times_floor);
+            for (const PictureError* error : {&technique.error.mean, &technique.error.worst}) {
+                for (const Figure& figure : figures) {
+                    csv += technique.errors.empty() ? std::string(",")
+                                                    : fmt::format(",{:.6f}", figure.of(*error));
+                }
+            }
+            csv += technique.errors.empty() ? std::string(",\n")
+                                            : fmt::format(",{}\n", technique.error.worst_pose);
+        }
+    }
+    return csv;
+}
+
+std::string poses_csv(std::span<const SetUpResult> results) {
+    std::string csv =
+        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,technique,truth_pixels,outline_pixels";
+    for (const Figure& figure : figures) {
+        csv += fmt::format(",{}", figure.name);
+    }
+    csv += "\n";
+    for (const SetUpResult& result : results) {
+        for (const TechniqueResult& technique : result.techniques) {
+            for (std::size_t k = 0; k < technique.errors.size(); ++k) {
+                const BenchPose& pose = result.poses[k];
+                const RigidTransform& prop = pose.table_from_prop;
+                csv += fmt::format("{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{}",
+                                   result.name, k, prop.translation.x, prop.translation.y, prop.rotation.w,
+                                   prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z, technique.name,
+                                   technique.errors[k].truth_pixels, technique.errors[k].outline_pixels);
+                for (const Figure& figure : figures) {
+                    csv += fmt::format(",{:.6f}", figure.of(technique.errors[k]));
+                }
+                csv += "\n";
+            }
+        }
+    }
+    return csv;
+}
+
+std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
+                        std::span<const Verdict> pack_figures) {
+    nlohmann::json json = {
+        {"pack", pack_title}, {"pack_figures", json_of(pack_figures)}, {"set_ups", nlohmann::json::array()}};
+    for (const SetUpResult& result : results) {
+        nlohmann::json set_up = {{"name", result.name},
+                                 {"driver", result.driver},
+                                 {"poses", result.poses.size()},
+                                 {"default_level", result.default_level},
+                                 {"techniques", nlohmann::json::array()},
+                                 {"verdicts", json_of(judge(result))}};
+        for (const TechniqueResult& technique : result.techniques) {
+            set_up["techniques"].push_back(json_of(technique));
+        }
+        json["set_ups"].push_back(std::move(set_up));
+    }
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const Verdict> pack_figures) {
+    std::string csv = "set_up,what,found,verdict\n";
+    const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
+        for (const Verdict& verdict : verdicts) {
+            csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
+                               verdict.held ? "held" : "missed");
+        }
+    };
+    add("pack", pack_figures);
+    for (const SetUpResult& result : results) {
+        add(result.name, judge(result));
+    }
+    return csv;
+}
+
+std::string console_table(const SetUpResult& result) {
+    std::string table =
+        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<23}{:>10}{:>9}{:>15}{:>9}{:>10}  "
+                    "{:<17}{:<17}{:<18}{:<15}\n",
+                    result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor",
+                    "CPU x fl.", "silhouette %", "outline px", "geometric mm", "RMSE 16 rays");
+    for (const TechniqueResult& technique : result.techniques) {
+        table += fmt::format("{:<23}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
+                             technique.triangles, technique.time_ms.median,
+                             fmt::format("{:.1f}..{:.1f}", technique.time_ms.p10, technique.time_ms.p90),
+                             technique.times_floor, technique.cpu_times_floor);
+        if (!technique.errors.empty()) {
+            const PictureError& mean = technique.error.mean;
+            const PictureError& worst = technique.error.worst;
+            table +=
+                fmt::format("  {:<17}{:<17}{:<18}{:<15}",
+                            fmt::format("{:.3f} / {:.3f}", mean.silhouette_percent, worst.silhouette_percent),
+                            fmt::format("{:.3f} / {:.3f}", mean.outline_shift_px, worst.outline_shift_px),
+                            fmt::format("{:.4f} / {:.4f}", mean.geometric_mean_mm, worst.geometric_mean_mm),
+                            fmt::format("{:.2f} / {:.2f}", mean.sixteen_rays.rmse, worst.sixteen_rays.rmse));
+        }
+        table += "\n";
+    }
+    return table + lines_of(judge(result));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,26 @@
+/// What the bench found, as CSV, JSON and a table for the console.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/measures/verdicts.h"
+
+#include <span>
+#include <string>
+
+namespace frustumscreen {
+
+/// One row for each technique of each set-up: mean and worst errors, times, ratio to the floor.
+[[nodiscard]] std::string summary_csv(std::span<const SetUpResult> results);
+/// One row for each technique in each pose.
+[[nodiscard]] std::string poses_csv(std::span<const SetUpResult> results);
+/// `pack_figures`: the verdicts on the pack's own figures.
+[[nodiscard]] std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
+                                      std::span<const Verdict> pack_figures);
+/// Every verdict: of which set-up ('pack': on the pack's own figures), what, found, held or missed.
+[[nodiscard]] std::string verdicts_csv(std::span<const SetUpResult> results,
+                                       std::span<const Verdict> pack_figures);
+/// The table that a person reads, with the verdicts below it.
+[[nodiscard]] std::string console_table(const SetUpResult& result);
+
+} // namespace frustumscreen

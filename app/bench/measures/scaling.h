@@ -1,0 +1,49 @@
+/// Cost against the source's size: the built-in amphora at several counts of triangles, each baked anew, all
+/// drawn in one interleaved run; and the two-pass method with the same full meshes.
+///
+/// Threads  the one whose context is current; bake and truth use every core.
+/// Errors   whatever generator, bake and techniques report.
+#pragma once
+
+#include "app/bench/measures/error_time.h"
+
+namespace frustumscreen {
+
+struct ScalingOptions {
+    std::vector<std::int64_t> triangles = {100'000, 1'000'000, 4'000'000};
+    int size = 512; ///< the bake's texels along the longest edge of a face
+    PictureOptions picture;
+    int poses = 10;
+    std::uint64_t seed = 1;
+    int timing_rounds = 5;
+    int two_pass_pixels = 1024;
+};
+
+/// One count of triangles, baked.
+struct ScalingSource {
+    std::shared_ptr<const SourceMesh> mesh;
+    Pack pack;
+    double bake_s = 0.0;
+};
+[[nodiscard]] Result<std::vector<ScalingSource>> bake_amphoras(const ScalingOptions& options,
+                                                               const StepProgress& progress);
+
+struct ScalingRow {
+    std::uint64_t source_triangles = 0;
+    double bake_s = 0.0;
+    TechniqueResult default_level;
+    TechniqueResult finest_level;
+    TechniqueResult two_pass;
+};
+
+inline constexpr double most_growth = 1.25; ///< default level's cost at the largest count over the smallest's
+
+[[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
+                                                      const std::vector<ScalingSource>& sources,
+                                                      const ScalingOptions& options,
+                                                      const StepProgress& progress);
+[[nodiscard]] std::string scaling_csv(std::span<const ScalingRow> rows);
+[[nodiscard]] std::string scaling_svg(std::span<const ScalingRow> rows);
+[[nodiscard]] std::string scaling_table(std::span<const ScalingRow> rows);
+
+} // namespace frustumscreen

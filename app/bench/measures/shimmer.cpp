@@ -1,0 +1,65 @@
+#include "app/bench/measures/shimmer.h"
+
+namespace frustumscreen {
+
+namespace {
+
+/// The default and finest level over every pose and direction.
+void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& options, const Progress& progress,
+             ShimmerResult& result) {
+    double worst_percent = -1.0;
+    const int sequences = 2 * static_cast<int>(result.poses.size());
+    for (int k = 0; k < sequences; ++k) {
+        const PushDirection direction = k % 2 == 0 ? PushDirection::Row : PushDirection::Column;
+        ShimmerSequence sequence(set.stage().settings, set.stage().prop,
+                                 result.poses[static_cast<std::size_t>(k / 2)], direction, options.steps);
+        sequence.cast(truth, options.sixteen_rays);
+        for (std::size_t technique = 0; technique < set.results().size(); ++technique) {
+            if (set.results()[technique].kind != TechniqueKind::PackLevel) {
+                continue;
+            }
+            ShimmerMaps maps;
+            const SequenceShimmer found =
+                sequence.judge([&](const BenchPose& pose) { return set.picture(technique, pose); }, maps);
+            if (found.excess_percent() > worst_percent) {
+                worst_percent = found.excess_percent();
+                result.worst = side_by_side(maps);
+            }
+            result.rows.push_back({set.results()[technique].name, k / 2, direction, found});
+        }
+        progress(static_cast<double>(k + 1) / sequences);
+    }
+}
+
+Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
+                              const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
+                              const StepProgress& progress) {
+    Result<std::unique_ptr<TechniqueSet>> set = open_default_and_finest(set_up, pack, options.picture);
+    if (!set) {
+        return tl::unexpected<Error>(set.error());
+    }
+    const PropShape& prop = (*set)->stage().prop;
+    Result<std::vector<BenchPose>> poses = draw_poses(set_up.settings, prop, options.poses, options.seed);
+    if (!poses) {
+        return tl::unexpected<Error>(poses.error());
+    }
+    const Result<Truth> truth = Truth::build(mesh, place(pack, prop).prop_from_artifact);
+    if (!truth) {
+        return tl::unexpected<Error>(truth.error());
+    }
+    ShimmerResult result{set_up.name, std::move(*poses), {}, {}};
+    measure(
+        **set, *truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); }, result);
+    return result;
+}
+
+} // namespace
+
+Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
+                              const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
+                              const StepProgress& progress) {
+    Result<ShimmerResult> result = compare(set_up, pack, mesh, options, progress);
+    return result ? std::move(result) : at(set_up.name, result.error());
+}
+
+} // namespace frustumscreen

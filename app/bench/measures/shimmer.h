@@ -1,0 +1,54 @@
+/// The default and finest level of a pack while the prop is moved by 0.1 pixel steps, against the ray cast;
+/// shimmer_sequence.h has the measure.
+///
+/// Limits   both ratios to one ray's <= 1 and the excess <= 0.1 % of the judged pixels, in every sequence.
+/// Threads  the one whose context is current; rays are cast on every core.
+/// Errors   whatever the parts report, with the set-up's name in front.
+#pragma once
+
+#include "app/bench/measures/error_time.h"
+#include "app/bench/measures/shimmer_sequence.h"
+#include "app/bench/measures/verdicts.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ShimmerOptions {
+    int poses = 3;
+    std::uint64_t seed = 1;
+    int steps = 20;
+    bool sixteen_rays = true; ///< the slower truth too
+    PictureOptions picture;
+};
+
+/// One level in one sequence.
+struct ShimmerRow {
+    std::string technique;
+    int pose = 0;
+    PushDirection direction = PushDirection::Row;
+    SequenceShimmer shimmer;
+};
+
+struct ShimmerResult {
+    std::string name; ///< of the set-up
+    std::vector<BenchPose> poses;
+    std::vector<ShimmerRow> rows;
+    /// `side_by_side` of the sequence with the most excess.
+    Image8 worst;
+};
+
+[[nodiscard]] Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
+                                            const std::shared_ptr<const SourceMesh>& mesh,
+                                            const ShimmerOptions& options, const StepProgress& progress);
+
+inline constexpr double most_ratio = 1.0;
+inline constexpr double most_excess_percent = 0.1;
+
+[[nodiscard]] std::vector<Verdict> judge(const ShimmerResult& result);
+[[nodiscard]] std::string shimmer_csv(std::span<const ShimmerResult> results);
+[[nodiscard]] std::string shimmer_table(const ShimmerResult& result);
+
+} // namespace frustumscreen

@@ -1,0 +1,119 @@
+#include "app/bench/measures/shimmer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Mean and greatest of a figure over the sequences of one level.
+struct Spans {
+    double mean = 0.0;
+    double worst = 0.0;
+};
+
+Spans spans(const std::vector<const ShimmerRow*>& rows, double (*figure)(const ShimmerRow&)) {
+    Spans found;
+    for (const ShimmerRow* row : rows) {
+        found.mean += figure(*row) / static_cast<double>(rows.size());
+        found.worst = std::max(found.worst, figure(*row));
+    }
+    return found;
+}
+
+double of_rms(const ShimmerRow& row) {
+    return row.shimmer.rms_ratio();
+}
+double of_q999(const ShimmerRow& row) {
+    return row.shimmer.q999_ratio();
+}
+double of_excess(const ShimmerRow& row) {
+    return row.shimmer.excess_percent();
+}
+
+std::vector<std::pair<std::string, std::vector<const ShimmerRow*>>> by_level(const ShimmerResult& result) {
+    std::vector<std::pair<std::string, std::vector<const ShimmerRow*>>> levels;
+    for (const ShimmerRow& row : result.rows) {
+        const auto level = std::find_if(levels.begin(), levels.end(),
+                                        [&row](const auto& other) { return other.first == row.technique; });
+        if (level == levels.end()) {
+            levels.push_back({row.technique, {&row}});
+        } else {
+            level->second.push_back(&row);
+        }
+    }
+    return levels;
+}
+
+} // namespace
+
+std::vector<Verdict> judge(const ShimmerResult& result) {
+    std::vector<Verdict> verdicts;
+    const auto add = [&verdicts](const std::string& what, const Spans& found, double most, const char* unit) {
+        verdicts.push_back({fmt::format("{} <= {:g}{}", what, most, unit),
+                            fmt::format("worst {:.3f}{}, mean {:.3f}{}", found.worst, unit, found.mean, unit),
+                            found.worst <= most});
+    };
+    for (const auto& [name, rows] : by_level(result)) {
+        add(name + ": shimmer / one ray's, RMS", spans(rows, of_rms), most_ratio, "");
+        add(name + ": shimmer / one ray's, 99.9 % of the pixels", spans(rows, of_q999), most_ratio, "");
+        add(name + ": pixels that shimmer where the ray cast does not", spans(rows, of_excess),
+            most_excess_percent, " %");
+    }
+    return verdicts;
+}
+
+std::string shimmer_csv(std::span<const ShimmerResult> results) {
+    std::string csv =
+        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,direction,technique,judged_pixels,"
+        "rms,q999,rms_1_ray,q999_1_ray,rms_16_rays,q999_16_rays,rms_ratio,q999_ratio,excess_pixels\n";
+    for (const ShimmerResult& result : results) {
+        for (const ShimmerRow& row : result.rows) {
+            const BenchPose& pose = result.poses[static_cast<std::size_t>(row.pose)];
+            const RigidTransform& prop = pose.table_from_prop;
+            csv += fmt::format(
+                "{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{},{:.4f},{:.4f},{:.4f},"
+                "{:.4f},",
+                result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
+                prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z,
+                row.direction == PushDirection::Row ? "row" : "column", row.technique,
+                row.shimmer.judged_pixels, row.shimmer.drawn.rms, row.shimmer.drawn.q999,
+                row.shimmer.one_ray.rms, row.shimmer.one_ray.q999);
+            csv += row.shimmer.sixteen_rays ? fmt::format("{:.4f},{:.4f},", row.shimmer.sixteen_rays->rms,
+                                                          row.shimmer.sixteen_rays->q999)
+                                            : std::string(",,");
+            csv += fmt::format("{:.4f},{:.4f},{}\n", row.shimmer.rms_ratio(), row.shimmer.q999_ratio(),
+                               row.shimmer.excess_pixels);
+        }
+    }
+    return csv;
+}
+
+std::string shimmer_table(const ShimmerResult& result) {
+    std::string table = fmt::format(
+        "{} set-up, {} poses, 2 directions; shimmer in codes, RMS / 99.9 %, mean over the sequences\n"
+        "{:<20}{:<18}{:<18}{:<18}{}\n",
+        result.name, result.poses.size(), "level", "drawn", "1 ray", "16 rays", "excess %, worst");
+    for (const auto& [name, rows] : by_level(result)) {
+        const auto text = [&rows = rows](double (*rms)(const ShimmerRow&),
+                                         double (*q999)(const ShimmerRow&)) {
+            return fmt::format("{:.2f} / {:.1f}", spans(rows, rms).mean, spans(rows, q999).mean);
+        };
+        const bool sixteen = rows.front()->shimmer.sixteen_rays.has_value();
+        table +=
+            fmt::format("{:<20}{:<18}{:<18}{:<18}{:.3f}\n", name,
+                        text([](const ShimmerRow& row) { return row.shimmer.drawn.rms; },
+                             [](const ShimmerRow& row) { return row.shimmer.drawn.q999; }),
+                        text([](const ShimmerRow& row) { return row.shimmer.one_ray.rms; },
+                             [](const ShimmerRow& row) { return row.shimmer.one_ray.q999; }),
+                        sixteen ? text([](const ShimmerRow& row) { return row.shimmer.sixteen_rays->rms; },
+                                       [](const ShimmerRow& row) { return row.shimmer.sixteen_rays->q999; })
+                                : std::string("-"),
+                        spans(rows, of_excess).worst);
+    }
+    return table + lines_of(judge(result));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,232 @@
+#include "app/bench/measures/technique_set.h"
+
+#include "app/bench/techniques/floor_technique.h"
+#include "app/bench/techniques/level_of_detail.h"
+#include "app/bench/techniques/ray_cast.h"
+#include "app/bench/techniques/relief/relief_peers.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/surfaceless_display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Every kind.
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 8> kind_names = {{
+    {TechniqueKind::Floor, "floor"},
+    {TechniqueKind::PackLevel, "pack level"},
+    {TechniqueKind::FullMesh, "full mesh"},
+    {TechniqueKind::TwoPass, "two-pass"},
+    {TechniqueKind::RayCast, "ray cast"},
+    {TechniqueKind::Lod, "LOD"},
+    {TechniqueKind::TwoPassLod, "two-pass LOD"},
+    {TechniqueKind::Relief, "relief"},
+}};
+
+TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
+    TechniqueResult result;
+    result.kind = kind;
+    result.level = level;
+    result.triangles = triangles;
+    return result;
+}
+
+std::string level_name(const Pack& pack, std::uint32_t level) {
+    return fmt::format("{} {}{}", pack.levels[level].technique == LevelTechnique::Relief ? "relief" : "mesh",
+                       level, level == pack.default_level ? " (default)" : "");
+}
+
+} // namespace
+
+std::string_view name_of(TechniqueKind kind) {
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [kind](const auto& one) { return one.first == kind; });
+    return named->second;
+}
+
+std::optional<TechniqueKind> kind_of(std::string_view name) {
+    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
+                                           [name](const auto& one) { return one.second == name; });
+    return named != kind_names.end() ? std::optional(named->first) : std::nullopt;
+}
+
+Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
+    const Pinhole& pinhole = set_up.settings.projector.pinhole;
+    Result<std::unique_ptr<SurfacelessDisplay>> display =
+        SurfacelessDisplay::create(pinhole.width, pinhole.height);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    const unsigned framebuffer = (*display)->framebuffer();
+    std::unique_ptr<TechniqueSet> set(new TechniqueSet(
+        std::move(*display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
+    Result<void> added = set->add(make_floor_technique(set->stage_), described(TechniqueKind::Floor, -1, 0));
+    if (!added) {
+        return tl::unexpected<Error>(added.error());
+    }
+    return set;
+}
+
+Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result) {
+    if (!technique) {
+        return tl::unexpected<Error>(technique.error());
+    }
+    result.name = (*technique)->name();
+    results_.push_back(std::move(result));
+    techniques_.push_back(std::move(*technique));
+    return {};
+}
+
+Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& usual) {
+    PictureOptions options = usual;
+    if (level + 1 == pack.levels.size()) {
+        options.samples =
+            std::max(options.samples, finest_samples); // as `render --technique finest` draws it
+    }
+    return add(
+        make_pack_level(stage_, pack, level, options, level_name(pack, level)),
+        described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));
+}
+
+Result<const PeerMesh*> TechniqueSet::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
+    Result<std::unique_ptr<PeerMesh>> uploaded = PeerMesh::upload(mesh, prop_from_artifact);
+    if (!uploaded) {
+        return tl::unexpected<Error>(uploaded.error());
+    }
+    meshes_.push_back(std::move(*uploaded));
+    return meshes_.back().get();
+}
+
+Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                     bool full_mesh, const std::vector<int>& two_pass_pixels) {
+    const Result<const PeerMesh*> peer = upload(mesh, prop_from_artifact);
+    if (!peer) {
+        return tl::unexpected<Error>(peer.error());
+    }
+    const std::uint64_t triangles = mesh.triangles.size();
+    Result<void> added;
+    if (full_mesh) {
+        added = add(make_full_mesh(stage_, **peer), described(TechniqueKind::FullMesh, -1, triangles));
+    }
+    for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
+        added = add(make_two_pass(stage_, **peer, two_pass_pixels[k]),
+                    described(TechniqueKind::TwoPass, -1, triangles));
+    }
+    return added;
+}
+
+Result<void> TechniqueSet::add_ray_cast(const Truth& truth) {
+    return add(make_ray_cast(stage_, truth.traced()),
+               described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size()));
+}
+
+Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                                const PeerChoice& choice) {
+    Result<void> added;
+    for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
+        const std::string name = fmt::format("LOD {}k", level.target / 1000);
+        const std::uint64_t triangles = level.mesh.triangles.size();
+        const Result<const PeerMesh*> peer = upload(level.mesh, prop_from_artifact);
+        if (!peer) {
+            return tl::unexpected<Error>(peer.error());
+        }
+        if (choice.lod) {
+            added = add(make_full_mesh(stage_, **peer, name), described(TechniqueKind::Lod, -1, triangles));
+        }
+        for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
+            added = add(make_two_pass(stage_, **peer, choice.eye_pixels[k], name),
+                        described(TechniqueKind::TwoPassLod, -1, triangles));
+        }
+        if (!added) {
+            return added;
+        }
+    }
+    return added;
+}
+
+Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                            const glm::dmat4& prop_from_artifact, int texels) {
+    Result<std::vector<ReliefPeer>> peers =
+        make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels);
+    if (!peers) {
+        return tl::unexpected<Error>(peers.error());
+    }
+    for (ReliefPeer& peer : *peers) {
+        (void)add(std::move(peer.technique), described(TechniqueKind::Relief, -1, peer.triangles));
+    }
+    return {};
+}
+
+Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
+    techniques_[k]->draw(pose);
+    return read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+}
+
+Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
+    Image8 colour = picture(k, pose);
+    Result<ImageFloat> points = techniques_[k]->hit_points(pose);
+    if (!points) {
+        return tl::unexpected<Error>(points.error());
+    }
+    return Drawn{std::move(colour), std::move(*points)};
+}
+
+Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
+                                          std::size_t first, const Progress& progress) {
+    for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+        const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), true);
+        for (std::size_t k = first; k < techniques_.size(); ++k) {
+            if (results_[k].kind == TechniqueKind::Floor) {
+                continue;
+            }
+            const Result<Drawn> seen = drawn(k, poses[pose]);
+            if (!seen) {
+                return tl::unexpected<Error>(seen.error());
+            }
+            results_[k].errors.push_back(measure(cast, *seen));
+        }
+        progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
+    }
+    for (std::size_t k = first; k < results_.size(); ++k) {
+        results_[k].error = summarise(results_[k].errors);
+    }
+    return {};
+}
+
+void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {
+    std::vector<Technique*> techniques;
+    for (const std::unique_ptr<Technique>& technique : techniques_) {
+        techniques.push_back(technique.get());
+    }
+    const std::vector<FrameTimes> times = time_interleaved(techniques, poses, TimingPlan{rounds}, progress);
+    for (std::size_t k = 0; k < techniques.size(); ++k) {
+        results_[k].time_ms = spread_of(times[k].wall_ms);
+        results_[k].cpu_ms = quantile(times[k].cpu_ms, 0.5);
+        results_[k].cpu_times_floor = results_[k].cpu_ms / results_[0].cpu_ms;
+        results_[k].times_floor = results_[k].time_ms.median / results_[0].time_ms.median;
+    }
+}
+
+Result<std::unique_ptr<TechniqueSet>> open_default_and_finest(const SetUp& set_up, const Pack& pack,
+                                                              const PictureOptions& options) {
+    Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
+    if (!set) {
+        return set;
+    }
+    const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
+    Result<void> added = (*set)->add_level(pack, pack.default_level, options);
+    if (added && finest != pack.default_level) {
+        added = (*set)->add_level(pack, finest, options);
+    }
+    if (!added) {
+        return tl::unexpected<Error>(added.error());
+    }
+    return set;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,108 @@
+/// The techniques that one run compares: all on one stage, on one display of their own.
+///
+/// Threads  the one that opened it: the display's context is current there.
+/// Errors   no display; what a technique's own making reports.
+#pragma once
+
+#include "app/bench/measures/measure.h"
+#include "app/bench/measures/timing.h"
+#include "app/bench/techniques/pack_level.h"
+#include "app/bench/techniques/peer_choice.h"
+#include "app/bench/techniques/peers.h"
+#include "app/pack/pack_file.h"
+#include "firmware_host/display/display.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Settings and the name that tables show.
+struct SetUp {
+    std::string name;
+    Settings settings;
+};
+
+enum class TechniqueKind {
+    Floor,
+    PackLevel,
+    FullMesh,
+    TwoPass,
+    RayCast, ///< the reference: reported, not judged
+    Lod,
+    TwoPassLod,
+    Relief, ///< relief images, marched or warped
+};
+/// As tables and files say it.
+[[nodiscard]] std::string_view name_of(TechniqueKind kind);
+[[nodiscard]] std::optional<TechniqueKind> kind_of(std::string_view name);
+
+struct TechniqueResult {
+    std::string name;
+    TechniqueKind kind = TechniqueKind::PackLevel;
+    int level = -1;                   ///< PackLevel
+    std::uint64_t triangles = 0;      ///< of what is drawn
+    std::vector<PictureError> errors; ///< one each pose; empty for the floor
+    ErrorSummary error;
+    Spread time_ms;
+    double times_floor = 0.0; ///< median / the floor's median
+    double cpu_ms = 0.0;      ///< median, all threads
+    double cpu_times_floor = 0.0;
+};
+
+class TechniqueSet {
+public:
+    /// With the floor as its first technique.
+    [[nodiscard]] static Result<std::unique_ptr<TechniqueSet>> open(const SetUp& set_up);
+    TechniqueSet(const TechniqueSet&) = delete;
+    TechniqueSet& operator=(const TechniqueSet&) = delete;
+
+    /// The pack must outlive the set.
+    [[nodiscard]] Result<void> add_level(const Pack& pack, std::uint32_t level,
+                                         const PictureOptions& options);
+    [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+                                         bool full_mesh, const std::vector<int>& two_pass_pixels);
+    [[nodiscard]] Result<void> add_ray_cast(const Truth& truth);
+    /// The source simplified; through the collineation and by two passes, as the choice says.
+    [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
+                                                    const glm::dmat4& prop_from_artifact,
+                                                    const PeerChoice& choice);
+
+    /// Peers that show relief images of `texels` a side.
+    [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+                                                const glm::dmat4& prop_from_artifact, int texels);
+
+    /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
+    [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
+
+    [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
+
+    /// Draws `poses` with techniques [first, end) and measures each picture against the truth.
+    [[nodiscard]] Result<void> measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
+                                              std::size_t first, const Progress& progress);
+    void measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress);
+
+    [[nodiscard]] const Stage& stage() const { return stage_; }
+    [[nodiscard]] std::string driver() const { return display_->name(); }
+    [[nodiscard]] const std::vector<TechniqueResult>& results() const { return results_; }
+
+private:
+    TechniqueSet(std::unique_ptr<Display> display, Stage stage)
+        : display_(std::move(display)), stage_(std::move(stage)) {}
+    [[nodiscard]] Result<const PeerMesh*> upload(const SourceMesh& mesh,
+                                                 const glm::dmat4& prop_from_artifact);
+    [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
+
+    std::unique_ptr<Display> display_; ///< first: its context outlives everything below
+    Stage stage_;
+    std::vector<std::unique_ptr<PeerMesh>> meshes_;
+    std::vector<std::unique_ptr<Technique>> techniques_;
+    std::vector<TechniqueResult> results_; ///< one each technique
+};
+
+/// The floor, the pack's default level and, where it is another, its finest. The pack must outlive the set.
+[[nodiscard]] Result<std::unique_ptr<TechniqueSet>>
+open_default_and_finest(const SetUp& set_up, const Pack& pack, const PictureOptions& options);
+
+} // namespace frustumscreen

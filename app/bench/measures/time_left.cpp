@@ -1,0 +1,78 @@
+#include "app/bench/measures/time_left.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+constexpr double least_share = 0.02; ///< of a step, before which it says nothing about itself
+}
+
+TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
+    for (WorkStep& step : steps) {
+        steps_.push_back({std::move(step), {}});
+    }
+}
+
+std::optional<double> TimeLeft::at(const std::string& name, double done, double now_s) {
+    const auto found = std::find_if(steps_.begin(), steps_.end(),
+                                    [&name](const Known& known) { return known.step.name == name; });
+    const auto index = static_cast<std::size_t>(found - steps_.begin());
+    if (found == steps_.end()) {
+        steps_.push_back({{name, name, 1.0}, {}});
+    }
+    Known& step = steps_[index];
+    if (current_ != index) {
+        current_ = index;
+        begun_s_ = now_s;
+        step.takes_s.reset();
+    }
+    const double passed_s = now_s - begun_s_;
+    if (done >= least_share) {
+        step.takes_s = passed_s / std::min(done, 1.0);
+    }
+    const bool planned = index < planned_;
+    const std::optional<double> takes_s = step.takes_s || !planned ? step.takes_s : expected_s(step.step);
+    if (!takes_s) {
+        return std::nullopt;
+    }
+    double left_s = std::fmax(0.0, *takes_s - passed_s);
+    for (std::size_t later = index + 1; later < planned_; ++later) {
+        left_s += expected_s(steps_[later].step).value_or(0.0);
+    }
+    return left_s;
+}
+
+std::optional<double> TimeLeft::expected_s(const WorkStep& step) const {
+    std::optional<double> of_kind_s;
+    double known_s = 0.0;
+    double known_guess = 0.0;
+    for (const Known& known : steps_) {
+        if (!known.takes_s) {
+            continue;
+        }
+        known_s += *known.takes_s;
+        known_guess += known.step.guess;
+        if (known.step.kind == step.kind) {
+            of_kind_s = *known.takes_s * step.guess / known.step.guess;
+        }
+    }
+    if (of_kind_s || known_guess <= 0.0) {
+        return of_kind_s;
+    }
+    return known_s * step.guess / known_guess;
+}
+
+std::string words_of_time(double seconds) {
+    if (seconds < 99.5) {
+        return fmt::format("{:.0f} s", std::fmax(seconds, 0.0));
+    }
+    const int minutes = static_cast<int>(std::lround(std::fmin(seconds, 1e8) / 60.0));
+    return minutes < 120 ? fmt::format("{} min", minutes)
+                         : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+} // namespace frustumscreen

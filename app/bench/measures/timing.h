@@ -1,0 +1,43 @@
+/// Frame times of several techniques, taken in one interleaved run so that whatever disturbs the machine
+/// disturbs all of them alike; the order is shuffled for every pose.
+///
+/// Cost     one time = one full redraw with glFinish, no read-back. Wall time is the conventions' figure; the
+///          process's CPU time over all threads goes with it, because other programs on the machine stretch
+///          the wall's. A ratio below 1 is possible: the floor textures the whole prop, a slender artifact
+///          only its own pixels.
+/// Threads  the one whose context is current.
+#pragma once
+
+#include "app/bench/techniques/technique.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Told as work goes on: the share that is done, 0..1.
+using Progress = std::function<void(double done)>;
+
+struct Spread {
+    double median = 0.0;
+    double p10 = 0.0;
+    double p90 = 0.0;
+};
+[[nodiscard]] Spread spread_of(const std::vector<double>& values);
+
+struct TimingPlan {
+    int rounds = 3; ///< each pose is drawn so often by every technique, round by round
+    int warm_up = 2;
+};
+
+struct FrameTimes {
+    std::vector<double> wall_ms; ///< one each round and pose
+    std::vector<double> cpu_ms;
+};
+/// One each technique.
+[[nodiscard]] std::vector<FrameTimes> time_interleaved(std::span<Technique* const> techniques,
+                                                       std::span<const BenchPose> poses,
+                                                       const TimingPlan& plan, const Progress& progress);
+
+} // namespace frustumscreen

@@ -1,0 +1,133 @@
+#include "app/bench/measures/verdicts.h"
+
+#include "app/bench/measures/dominance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+bool silhouette_holds(const PictureError& error, const Limits& limits) {
+    return error.silhouette_percent <= limits.silhouette_percent ||
+           error.outline_shift_px <= limits.outline_shift_px;
+}
+
+Verdict judge_silhouette(const TechniqueResult& level, const Limits& limits) {
+    const auto failed =
+        std::count_if(level.errors.begin(), level.errors.end(),
+                      [&limits](const PictureError& error) { return !silhouette_holds(error, limits); });
+    return {
+        fmt::format("silhouette <= {:g} % or {:g} px", limits.silhouette_percent, limits.outline_shift_px),
+        fmt::format("worst {:.3f} %, {:.3f} px; {} of {} poses beyond", level.error.worst.silhouette_percent,
+                    level.error.worst.outline_shift_px, failed, level.errors.size()),
+        failed == 0};
+}
+
+bool errors_hold(const TechniqueResult& level, const Limits& limits) {
+    return level.error.worst.geometric_mean_mm <= limits.geometric_mean_mm &&
+           level.error.worst.sixteen_rays.rmse <= limits.colour_rmse &&
+           std::all_of(level.errors.begin(), level.errors.end(),
+                       [&limits](const PictureError& error) { return silhouette_holds(error, limits); });
+}
+
+/// The cheapest level whose errors are fine, and whether it is cheap.
+Verdict judge_fine(const SetUpResult& result) {
+    const Limits& limits = fine_level_limits;
+    const TechniqueResult* fine = nullptr;
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel && errors_hold(technique, limits) &&
+            (fine == nullptr || technique.times_floor < fine->times_floor)) {
+            fine = &technique;
+        }
+    }
+    return {fmt::format("a fine level: <= {:g} % or {:g} px, <= {:g} mm at <= {:g} x floor",
+                        limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
+                        limits.times_floor),
+            fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
+                            : std::string("no level is as fine"),
+            fine != nullptr && fine->times_floor <= limits.times_floor};
+}
+
+} // namespace
+
+std::string lines_of(std::span<const Verdict> verdicts) {
+    std::string lines;
+    for (const Verdict& verdict : verdicts) {
+        lines += fmt::format("{} {} ({})\n", verdict.held ? "held  " : "MISSED", verdict.what, verdict.found);
+    }
+    return lines;
+}
+
+std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
+    const PictureError& worst = level.error.worst;
+    std::vector<Verdict> verdicts = {
+        judge_silhouette(level, limits),
+        {fmt::format("mean geometric error <= {:g} mm", limits.geometric_mean_mm),
+         fmt::format("worst pose {:.4f} mm", worst.geometric_mean_mm),
+         worst.geometric_mean_mm <= limits.geometric_mean_mm},
+        {fmt::format("colour RMSE <= {:g}", limits.colour_rmse),
+         fmt::format("worst pose {:.2f}", worst.sixteen_rays.rmse),
+         worst.sixteen_rays.rmse <= limits.colour_rmse}};
+    if (limits.times_floor > 0.0) {
+        verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
+                            fmt::format("{:.2f} x", level.times_floor),
+                            level.times_floor <= limits.times_floor});
+    }
+    return verdicts;
+}
+
+const TechniqueResult* cheapest_as_good(const SetUpResult& result, const TechniqueResult& two_pass) {
+    const TechniqueResult* best = nullptr;
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel && errs_no_more(technique, two_pass) &&
+            (best == nullptr || technique.times_floor < best->times_floor)) {
+            best = &technique;
+        }
+    }
+    return best;
+}
+
+double least_two_pass_speed_up(std::uint64_t triangles) {
+    return triangles >= 4 * least_two_pass_triangles ? 25.0 : 8.0;
+}
+
+std::vector<Verdict> judge(const SetUpResult& result) {
+    std::vector<Verdict> verdicts;
+    const auto add = [&verdicts](const std::string& whose, std::vector<Verdict> more) {
+        for (Verdict& verdict : more) {
+            verdict.what = whose + ": " + verdict.what;
+            verdicts.push_back(std::move(verdict));
+        }
+    };
+    for (const TechniqueResult& technique : result.techniques) {
+        if (technique.kind == TechniqueKind::PackLevel &&
+            technique.level == static_cast<int>(result.default_level)) {
+            add("default level", judge(technique, default_level_limits));
+            add("default level, pushed", judge(technique, pushed_default_limits));
+        }
+        if (technique.kind == TechniqueKind::PackLevel &&
+            technique.level == static_cast<int>(result.finest_level)) {
+            add("finest level", judge(technique, finest_level_limits));
+        }
+    }
+    for (const TechniqueResult* two_pass : at_best_eye_images(result)) {
+        if (two_pass->kind == TechniqueKind::TwoPass && two_pass->triangles >= least_two_pass_triangles) {
+            const double least = least_two_pass_speed_up(two_pass->triangles);
+            const TechniqueResult* level = cheapest_as_good(result, *two_pass);
+            const double speed_up = level != nullptr ? two_pass->times_floor / level->times_floor : 0.0;
+            add(two_pass->name, {{fmt::format("a level as good is >= {:g} x faster", least),
+                                  level != nullptr ? fmt::format("{}: {:.1f} x faster", level->name, speed_up)
+                                                   : std::string("no level is as good"),
+                                  speed_up >= least}});
+        }
+    }
+    verdicts.push_back(judge_fine(result));
+    const std::vector<Verdict> dominance = judge_dominance(result);
+    verdicts.insert(verdicts.end(), dominance.begin(), dominance.end());
+    return verdicts;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,51 @@
+/// The limits that the picture must hold, and whether it does.
+///
+/// Limits   hold in the worst pose unless they say mean. A silhouette passes in a pose where either its share
+///          of the artifact's pixels or its shift of the outline is within the limit (thin objects).
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/measures/error_time.h"
+
+#include <span>
+
+namespace frustumscreen {
+
+struct Limits {
+    double silhouette_percent = 0.0;
+    double outline_shift_px = 0.0;
+    double geometric_mean_mm = 0.0;
+    double colour_rmse = 0.0; ///< against 16 rays
+    double times_floor = 0.0; ///< 0: no limit
+};
+inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 5.0};
+inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
+/// What the front is pushed to: the default level again, and some level of the pack, a fine one.
+inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 3.5};
+inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 5.0};
+/// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
+/// million triangles and of four; smaller ones (5 % aside) are not judged.
+inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
+[[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
+
+struct Verdict {
+    std::string what; ///< the limit, with its number
+    std::string found;
+    bool held = false;
+};
+
+/// One line each: held or MISSED, the limit, what was found.
+[[nodiscard]] std::string lines_of(std::span<const Verdict> verdicts);
+
+[[nodiscard]] std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits);
+
+/// The cheapest level whose mean silhouette, geometric and colour errors are no larger than the two-pass
+/// method's; null if there is none.
+[[nodiscard]] const TechniqueResult* cheapest_as_good(const SetUpResult& result,
+                                                      const TechniqueResult& two_pass);
+
+/// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
+/// level, and whether a peer dominates a level.
+[[nodiscard]] std::vector<Verdict> judge(const SetUpResult& result);
+
+} // namespace frustumscreen

@@ -1,0 +1,80 @@
+#include "app/bench/techniques/pack_level.h"
+
+#include "app/render/hit_points.h"
+#include "app/scene/frame_plan.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Parts {
+    ArtifactGpu artifact;
+    Renderer renderer;
+    HitPointRenderer hit_points;
+};
+
+class PackLevelTechnique final : public Technique {
+public:
+    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::string name, Parts parts)
+        : stage_(stage), placed_(placed_level), name_(std::move(name)), parts_(std::move(parts)),
+          plan_(make_plan(stage.prop, placed_)) {}
+
+    [[nodiscard]] std::string name() const override { return name_; }
+    void draw(const BenchPose& pose) override {
+        plan(pose);
+        parts_.renderer.draw(plan_, &parts_.artifact, {stage_.framebuffer, 0}, Redraw::Everything);
+    }
+    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
+        plan(pose);
+        return parts_.hit_points.draw(plan_, &parts_.artifact);
+    }
+
+private:
+    void plan(const BenchPose& pose) {
+        const ProjectorSettings& projector = stage_.settings.projector;
+        plan_frame(stage_.prop, placed_,
+                   {projector.pinhole,
+                    projector.table_from_projector,
+                    pose.table_from_prop,
+                    {&pose.eye_m, 1},
+                    std::nullopt},
+                   plan_);
+    }
+
+    const Stage& stage_;
+    PlacedLevel placed_;
+    std::string name_;
+    Parts parts_;
+    FramePlan plan_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
+                                                   const PictureOptions& options, std::string name) {
+    Result<ArtifactGpu> artifact = ArtifactGpu::upload(pack, level);
+    if (!artifact) {
+        return tl::unexpected<Error>(artifact.error());
+    }
+    const int samples = options.samples > 0 ? options.samples : pack.samples;
+    RendererOptions needed{stage.width(), stage.height(), std::max(samples, default_samples)};
+    needed.cut_out = artifact->cut_out();
+    Result<Renderer> renderer = Renderer::create(needed);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    Result<HitPointRenderer> hit_points =
+        HitPointRenderer::create(stage.width(), stage.height(), artifact->cut_out());
+    if (!hit_points) {
+        return tl::unexpected<Error>(hit_points.error());
+    }
+    PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, level);
+    shown.samples = samples;
+    return std::make_unique<PackLevelTechnique>(
+        stage, shown, std::move(name),
+        Parts{std::move(*artifact), std::move(*renderer), std::move(*hit_points)});
+}
+
+} // namespace frustumscreen

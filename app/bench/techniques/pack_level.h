@@ -1,0 +1,25 @@
+/// A level of a pack through the exhibit's own plan and renderer, as the bench sees it.
+///
+/// Cost     the plan is made anew for every picture: it is part of the frame.
+/// Threads  the one whose context is current; the pack and stage must outlive the technique.
+#pragma once
+
+#include "app/bench/techniques/technique.h"
+#include "app/pack/pack_file.h"
+#include "app/render/renderer.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+/// How the exhibit's renderer is set up for the pictures that are measured.
+struct PictureOptions {
+    int samples = 0; ///< a pixel; 0 = what the pack asks for
+};
+
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,
+                                                                 std::uint32_t level,
+                                                                 const PictureOptions& options,
+                                                                 std::string name);
+
+} // namespace frustumscreen

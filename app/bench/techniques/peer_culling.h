@@ -1,0 +1,47 @@
+/// What a peer's mesh shows on each face, found on the CPU exactly as for the exhibit's own levels
+/// (visible_triangles.h): the peers get the same help.
+///
+/// Frame    prop frame outside, the mesh's own box (longest edge 1, corner at 0) inside.
+/// Threads  PeerTriangles: pure. VisibleParts: the one whose context is current.
+#pragma once
+
+#include "app/bench/techniques/peer_gl.h"
+#include "app/geometry/collineation.h"
+#include "app/scene/frame_plan.h"
+
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Made once for a mesh.
+struct PeerTriangles {
+    LevelTriangles triangles;
+    std::vector<std::size_t> first_cluster; ///< of each part (material); one more for the end
+    glm::dvec3 low_m{0.0};
+    double metres_per_box = 1.0;
+};
+/// Sorts the indices of each part into clusters, in place. Triangles of a mesh that is not closed are seen
+/// from both sides: they are culled by the faces' pyramids alone.
+[[nodiscard]] PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& box,
+                                           std::span<const std::span<std::uint32_t>> parts, bool closed);
+
+/// The triangles that may show, in a buffer; found anew for every picture.
+class VisibleParts {
+public:
+    VisibleParts() : buffer_(GlBuffer::generate()) {}
+    void find(const PeerTriangles& mesh, const PeerView& view);
+    void bind() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.get()); }
+    /// Of the view's face number `face`.
+    [[nodiscard]] const IndexRange& range(std::size_t face, std::size_t part) const {
+        return ranges_[face][part];
+    }
+
+private:
+    GlBuffer buffer_;
+    FrontTriangles front_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::vector<IndexRange>> ranges_; ///< [face][part]
+};
+
+} // namespace frustumscreen

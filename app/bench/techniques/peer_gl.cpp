@@ -1,0 +1,84 @@
+#include "app/bench/techniques/peer_gl.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string>
+
+namespace frustumscreen {
+
+Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format) {
+    OffscreenTarget target{GlTexture::generate(), GlRenderbuffer::generate(), GlFramebuffer::generate(),
+                           width, height};
+    glBindTexture(GL_TEXTURE_2D, target.colour.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, colour_format, width, height);
+    for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) {
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    }
+    for (const GLenum wrap : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) {
+        glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+    }
+    glBindRenderbuffer(GL_RENDERBUFFER, target.depth_stencil.get());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                              target.depth_stencil.get());
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return fail(ErrorKind::Internal,
+                    fmt::format("the driver cannot draw into a {} x {} picture of format {:#x}", width,
+                                height, colour_format));
+    }
+    return target;
+}
+
+ImageFloat read_points(const OffscreenTarget& target) {
+    Image<glm::vec4> raw(target.width, target.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+    glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_FLOAT, raw.texels.data());
+    ImageFloat points(target.width, target.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    for (std::size_t k = 0; k < raw.texels.size(); ++k) {
+        if (raw.texels[k].a != 0.0F) {
+            points.texels[k] = glm::vec3(raw.texels[k]);
+        }
+    }
+    return points;
+}
+
+PeerView peer_view(const Stage& stage, const BenchPose& pose) {
+    const TruthView view = view_of(stage.settings, pose);
+    PeerView result{
+        view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(), view.eye_m, {}};
+    for (const PropFace& face : stage.prop.faces) {
+        if (face.plane.distance(view.eye_m) > 0.0 &&
+            face.plane.distance(view.prop_from_projector.translation) > 0.0) {
+            result.faces.push_back(&face);
+        }
+    }
+    return result;
+}
+
+FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {
+    glBindVertexArray(array_.get());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+    glBindVertexArray(0);
+}
+
+void FaceQuads::set(const std::vector<const PropFace*>& faces) {
+    std::vector<glm::vec3> corners;
+    for (const PropFace* face : faces) {
+        corners.insert(corners.end(), face->corners.begin(), face->corners.end());
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec3)), corners.data(),
+                 GL_STREAM_DRAW);
+}
+
+void FaceQuads::draw(std::size_t face) const {
+    glBindVertexArray(array_.get());
+    glDrawArrays(GL_TRIANGLE_FAN, static_cast<GLint>(4 * face), 4);
+}
+
+} // namespace frustumscreen

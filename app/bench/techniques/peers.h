@@ -1,0 +1,24 @@
+/// The methods that the exhibit's own is compared with, drawing the full source mesh or a simplified one.
+///
+/// full mesh   through each visible face's collineation: one pass, exact up to texture filtering.
+/// two-pass    shader lamps (Raskar, Welch, Low & Bandyopadhyay 2001): the mesh as the eye sees it into a
+///             square picture cropped to the prop, then that picture projected from the eye onto the prop's
+///             faces.
+///
+/// Threads  the one whose context is current; the mesh and stage must outlive the technique.
+#pragma once
+
+#include "app/bench/techniques/peer_mesh.h"
+
+#include <memory>
+#include <string>
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
+                                                                std::string name = "full mesh");
+/// `eye_pixels`: side of the eye's picture. `of_mesh` follows its number in the name.
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh,
+                                                               int eye_pixels, std::string of_mesh = "");
+
+} // namespace frustumscreen

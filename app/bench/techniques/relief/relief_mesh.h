@@ -1,0 +1,27 @@
+/// Relief textures warped, as Oliveira, Bishop & McAllister have it and Kim, Shin & Kim project it on a prop:
+/// each single-layer image's texels are mapped from their depth to where the eye sees them on the prop's
+/// face.
+///
+/// Their pre-warp sends texel (u, v) of depth d to (u', v') = (linear in u, v, d) / (linear in u, v, d): the
+/// collineation of the face and the eye, restricted to the image's texels. So the images are drawn as grids
+/// of triangles through each face's collineation, which fills the holes between texels and warps them
+/// exactly; it replaces two passes of 1-D resampling over each image on the CPU and the texture mapping after
+/// them. Flat parts of a grid are simplified to a tolerance, which is what makes it fast: a driver's time
+/// goes to triangles.
+///
+/// Single   triangles across a jump of depth are left out; what no image sees first is missing. Where
+///          another image sees a surface more squarely and shows it, that image has it alone.
+/// Frame    the mesh in the prop's frame, metres; one material and texture for each image.
+/// Threads  `single_layer_mesh` any; the technique as peers.h.
+/// Source   Oliveira, Bishop & McAllister, Relief texture mapping, 2000; Kim, Shin & Kim 2008.
+#pragma once
+
+#include "app/bench/techniques/relief/relief_images.h"
+
+namespace frustumscreen {
+
+inline constexpr double single_layer_tolerance_m = 1e-4;
+
+[[nodiscard]] SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m);
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+#include "app/bench/techniques/relief/relief_peers.h"
+
+#include "app/bench/techniques/relief/relief_march.h"
+#include "app/bench/techniques/relief/relief_warp.h"
+
+#include <array>
+#include <utility>
+
+namespace frustumscreen {
+
+Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
+                                                  const SourceMesh& mesh,
+                                                  const glm::dmat4& prop_from_artifact, int texels) {
+    const ReliefImages images =
+        cast_relief_images(truth, placed_box(mesh, prop_from_artifact), stage.prop, texels);
+    std::vector<ReliefPeer> peers;
+    std::array<Result<std::unique_ptr<Technique>>, 4> marches{
+        make_linear_march(stage, images, {32, 5}), make_linear_march(stage, images, {128, 6}),
+        make_cone_march(stage, images), make_quadtree_march(stage, images)};
+    for (Result<std::unique_ptr<Technique>>& march : marches) {
+        if (!march) {
+            return tl::unexpected<Error>(march.error());
+        }
+        peers.push_back({std::move(*march), 0});
+    }
+    Result<ReliefWarp> warp = make_relief_warp(stage, images);
+    if (!warp) {
+        return tl::unexpected<Error>(warp.error());
+    }
+    peers.push_back({std::move(warp->technique), warp->triangles});
+    return peers;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,26 @@
+/// All the peers that show relief images, made from one cast of them.
+///
+/// Errors   what a technique's making reports.
+/// Threads  the one whose context is current; the stage must outlive the techniques.
+#pragma once
+
+#include "app/bench/techniques/technique.h"
+#include "app/bench/truth/truth.h"
+
+#include <memory>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ReliefPeer {
+    std::unique_ptr<Technique> technique;
+    std::uint64_t triangles = 0; ///< drawn as a mesh; 0 where the shader marches
+};
+
+/// `texels`: of a relief image's side, a power of two.
+[[nodiscard]] Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
+                                                                const SourceMesh& mesh,
+                                                                const glm::dmat4& prop_from_artifact,
+                                                                int texels);
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// One way to make the projector's picture, as the bench draws and times it.
+///
+/// Colour   drawn into the display's framebuffer, linear light in the shader; --unlit --no-light, so that it
+///          can be compared with the ray cast.
+/// Threads  the one that owns the display's context.
+#pragma once
+
+#include "app/bench/truth/poses.h"
+
+#include <string>
+
+namespace frustumscreen {
+
+/// What every technique draws on: one kiosk's settings, its prop and a framebuffer of the projector's size.
+struct Stage {
+    Settings settings;
+    PropShape prop;
+    unsigned framebuffer = 0;
+
+    [[nodiscard]] int width() const { return settings.projector.pinhole.width; }
+    [[nodiscard]] int height() const { return settings.projector.pinhole.height; }
+};
+
+class Technique {
+public:
+    virtual ~Technique() = default;
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// A full redraw, clear included. Whoever times it calls glFinish.
+    virtual void draw(const BenchPose& pose) = 0;
+    /// Each pixel's hit point in the prop's frame, metres; NaN = no hit.
+    [[nodiscard]] virtual Result<ImageFloat> hit_points(const BenchPose& pose) = 0;
+};
+
+} // namespace frustumscreen

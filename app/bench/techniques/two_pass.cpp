@@ -1,0 +1,234 @@
+#include "app/bench/techniques/peers.h"
+#include "firmware_host/gl/gl_program.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view project_vertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 clip_from_prop;
+uniform mat4 eye_clip_from_prop;
+out vec4 at_eye;
+void main() {
+    at_eye = eye_clip_from_prop * vec4(position, 1.0);
+    gl_Position = clip_from_prop * vec4(position, 1.0);
+})";
+
+/// Colours are bilinear in linear light; coverage (alpha) decides the silhouette, so that it stays sharp.
+/// Points are blended over those of the four neighbours that lie on the same surface as the nearest.
+constexpr std::string_view project_fragment = R"(
+in vec4 at_eye;
+uniform sampler2D eye_picture;
+#ifdef POINT
+uniform sampler2D eye_points;
+uniform float same_surface;
+#endif
+out vec4 result;
+void main() {
+    vec2 uv = 0.5 * at_eye.xy / at_eye.w + 0.5;
+    vec4 seen = texture(eye_picture, uv);
+    if (seen.a < 0.5) {
+        result = vec4(0.0);
+        return;
+    }
+#ifdef POINT
+    vec2 size = vec2(textureSize(eye_points, 0));
+    vec2 at = uv * size - 0.5;
+    vec2 part = fract(at);
+    ivec2 base = ivec2(floor(at));
+    ivec2 last = ivec2(size) - 1;
+    float best = -1.0;
+    vec3 nearest = vec3(0.0);
+    for (int k = 0; k < 4; ++k) {
+        ivec2 step = ivec2(k & 1, k >> 1);
+        vec2 w = mix(1.0 - part, part, vec2(step));
+        vec4 point = texelFetch(eye_points, clamp(base + step, ivec2(0), last), 0);
+        if (point.a > 0.0 && w.x * w.y > best) {
+            best = w.x * w.y;
+            nearest = point.xyz;
+        }
+    }
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+        ivec2 step = ivec2(k & 1, k >> 1);
+        vec2 w = mix(1.0 - part, part, vec2(step));
+        vec4 point = texelFetch(eye_points, clamp(base + step, ivec2(0), last), 0);
+        if (point.a > 0.0 && distance(point.xyz, nearest) < same_surface) {
+            sum += w.x * w.y * vec4(point.xyz, 1.0);
+        }
+    }
+    result = vec4(sum.xyz / sum.w, 1.0);
+#else
+    result = vec4(seen.rgb / seen.a, 1.0);
+#endif
+})";
+
+/// The eye's picture: a perspective from the eye, cropped to the visible faces; w = distance along the axis.
+glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
+    glm::dvec3 middle(0.0);
+    for (const PropFace* face : view.faces) {
+        for (const glm::dvec3& corner : face->corners) {
+            middle += corner / (4.0 * static_cast<double>(view.faces.size()));
+        }
+    }
+    const glm::dvec3 forward = glm::normalize(middle - view.eye_m);
+    const glm::dvec3 helper = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, helper));
+    const glm::dvec3 up = glm::cross(right, forward);
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    for (const PropFace* face : view.faces) {
+        for (const glm::dvec3& corner : face->corners) {
+            const glm::dvec3 to = corner - view.eye_m;
+            const glm::dvec2 slope =
+                glm::dvec2(glm::dot(to, right), glm::dot(to, up)) / glm::dot(to, forward);
+            low = glm::min(low, slope);
+            high = glm::max(high, slope);
+        }
+    }
+    double near = std::numeric_limits<double>::infinity();
+    double far = 0.0;
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec3 corner((k & 1U) != 0 ? box.high.x : box.low.x,
+                                (k & 2U) != 0 ? box.high.y : box.low.y,
+                                (k & 4U) != 0 ? box.high.z : box.low.z);
+        const double depth = glm::dot(corner - view.eye_m, forward);
+        near = std::fmin(near, depth);
+        far = std::fmax(far, depth);
+    }
+    far *= 1.01;
+    near = std::fmax(0.99 * near, 1e-3 * far);
+    const glm::dvec2 scale = 2.0 / (high - low);
+    const glm::dvec2 shift = -(high + low) / (high - low);
+    const auto row = [&view](const glm::dvec3& axis) {
+        return glm::dvec4(axis, -glm::dot(axis, view.eye_m));
+    };
+    const glm::dvec4 depth = row(forward);
+    const double a = (far + near) / (far - near);
+    const double b = -2.0 * far * near / (far - near);
+    return glm::transpose(glm::dmat4(scale.x * row(right) + shift.x * depth,
+                                     scale.y * row(up) + shift.y * depth, a * depth + glm::dvec4(0, 0, 0, b),
+                                     depth));
+}
+
+struct Pictures {
+    OffscreenTarget eye_colours;
+    OffscreenTarget eye_points;
+    OffscreenTarget points; ///< the projector's
+};
+
+class TwoPass final : public Technique {
+public:
+    TwoPass(const Stage& stage, const PeerMesh& mesh, std::string name, std::array<GlProgram, 2> project,
+            Pictures pictures)
+        : stage_(stage), mesh_(mesh), name_(std::move(name)), project_(std::move(project)),
+          pictures_(std::move(pictures)) {}
+
+    [[nodiscard]] std::string name() const override { return name_; }
+    void draw(const BenchPose& pose) override {
+        const PeerView view = peer_view(stage_, pose);
+        const glm::dmat4 eye = eye_clip(view, mesh_.box());
+        from_eye(pictures_.eye_colours, eye, PeerMesh::Output::Colour);
+        from_projector(stage_.framebuffer, project_[0].get(), view, eye);
+    }
+    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
+        const PeerView view = peer_view(stage_, pose);
+        const glm::dmat4 eye = eye_clip(view, mesh_.box());
+        from_eye(pictures_.eye_colours, eye, PeerMesh::Output::Colour);
+        from_eye(pictures_.eye_points, eye, PeerMesh::Output::Point);
+        glUseProgram(project_[1].get());
+        glUniform1i(glGetUniformLocation(project_[1].get(), "eye_points"), 1);
+        const double texel_m = glm::distance(mesh_.box().low, mesh_.box().high) / pictures_.eye_points.width;
+        glUniform1f(glGetUniformLocation(project_[1].get(), "same_surface"),
+                    static_cast<float>(4.0 * texel_m));
+        glActiveTexture(GL_TEXTURE1);
+        glBindTexture(GL_TEXTURE_2D, pictures_.eye_points.colour.get());
+        from_projector(pictures_.points.framebuffer.get(), project_[1].get(), view, eye);
+        return read_points(pictures_.points);
+    }
+
+private:
+    static void begin(GLuint framebuffer, int width, int height) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        glViewport(0, 0, width, height);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glDepthMask(GL_TRUE);
+        glStencilMask(0xFF);
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_STENCIL_TEST);
+        glDisable(GL_CULL_FACE);
+        glDisable(GL_BLEND);
+        glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    }
+
+    void from_eye(const OffscreenTarget& target, const glm::dmat4& eye, PeerMesh::Output output) {
+        begin(target.framebuffer.get(), target.width, target.height);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        mesh_.draw(eye, output, GL_CCW);
+        glDisable(GL_DEPTH_TEST);
+    }
+
+    void from_projector(GLuint framebuffer, GLuint program, const PeerView& view, const glm::dmat4& eye) {
+        begin(framebuffer, stage_.width(), stage_.height());
+        const glm::mat4 clip(view.clip_from_prop);
+        const glm::mat4 eye_clip_from_prop(eye);
+        glUseProgram(program);
+        glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_prop"), 1, GL_FALSE,
+                           glm::value_ptr(clip));
+        glUniformMatrix4fv(glGetUniformLocation(program, "eye_clip_from_prop"), 1, GL_FALSE,
+                           glm::value_ptr(eye_clip_from_prop));
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, pictures_.eye_colours.colour.get());
+        quads_.set(view.faces);
+        for (std::size_t k = 0; k < view.faces.size(); ++k) {
+            quads_.draw(k);
+        }
+    }
+
+    const Stage& stage_;
+    const PeerMesh& mesh_;
+    std::string name_;
+    std::array<GlProgram, 2> project_; ///< colours, points
+    Pictures pictures_;
+    FaceQuads quads_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh, int eye_pixels,
+                                                 std::string of_mesh) {
+    std::array<GlProgram, 2> project;
+    for (std::size_t k = 0; k < 2; ++k) {
+        Result<GlProgram> program =
+            make_program(k == 1 ? "#define POINT\n" : "", project_vertex, project_fragment);
+        if (!program) {
+            return tl::unexpected<Error>(program.error());
+        }
+        project[k] = std::move(*program);
+    }
+    Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_SRGB8_ALPHA8);
+    Result<OffscreenTarget> eye_points = make_target(eye_pixels, eye_pixels, GL_RGBA32F);
+    Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
+    for (const Result<OffscreenTarget>* target : {&colours, &eye_points, &points}) {
+        if (!*target) {
+            return tl::unexpected<Error>(target->error());
+        }
+    }
+    glBindTexture(GL_TEXTURE_2D, colours->colour.get());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return std::make_unique<TwoPass>(
+        stage, mesh, fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh),
+        std::move(project), Pictures{std::move(*colours), std::move(*eye_points), std::move(*points)});
+}
+
+} // namespace frustumscreen

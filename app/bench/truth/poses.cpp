@@ -1,0 +1,85 @@
+#include "app/bench/truth/poses.h"
+
+#include "app/settings/lit_zone.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace frustumscreen {
+
+namespace {
+
+/// std::uniform_real_distribution differs between libraries; this does not.
+class Draw {
+public:
+    explicit Draw(std::uint64_t seed) : engine_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53);
+    }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+BenchPose draw_one(const Settings& settings, Draw& draw) {
+    const double x = draw.between(-settings.table.width_m / 2.0, settings.table.width_m / 2.0);
+    const double y = draw.between(-settings.table.depth_m / 2.0, settings.table.depth_m / 2.0);
+    const double yaw = draw.between(-std::numbers::pi, std::numbers::pi);
+    const double lowest_sine = std::sin(settings.eye.lowest_elevation_deg * std::numbers::pi / 180.0);
+    const double sine = draw.between(lowest_sine, 1.0);
+    const double cosine = std::sqrt(1.0 - sine * sine);
+    const double azimuth = draw.between(-std::numbers::pi, std::numbers::pi);
+    const double distance = draw.between(settings.eye.nearest_m, settings.eye.farthest_m);
+    const glm::dvec3 foot(x, y, 0.0);
+    const glm::dvec3 towards_eye(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine);
+    return {{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), foot}, foot + distance * towards_eye};
+}
+
+} // namespace
+
+TruthView view_of(const Settings& settings, const BenchPose& pose) {
+    const RigidTransform prop_from_table = pose.table_from_prop.inverse();
+    return {settings.projector.pinhole, prop_from_table * settings.projector.table_from_projector,
+            prop_from_table.point(pose.eye_m)};
+}
+
+bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& pose) {
+    const RigidTransform projector_from_prop =
+        settings.projector.table_from_projector.inverse() * pose.table_from_prop;
+    const Pinhole& pinhole = settings.projector.pinhole;
+    for (const PropFace& face : prop.faces) {
+        for (const glm::dvec3& corner : face.corners) {
+            const glm::dvec3 on_table = pose.table_from_prop.point(corner);
+            const std::optional<glm::dvec2> pixel = pinhole.pixel(projector_from_prop.point(corner));
+            if (std::abs(on_table.x) > settings.table.width_m / 2.0 ||
+                std::abs(on_table.y) > settings.table.depth_m / 2.0 || !pixel || pixel->x < 0.0 ||
+                pixel->y < 0.0 || pixel->x > pinhole.width || pixel->y > pinhole.height) {
+                return false;
+            }
+        }
+    }
+    return every_seen_face_is_lit(settings, pose.table_from_prop, pose.eye_m);
+}
+
+Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropShape& prop, int count,
+                                          std::uint64_t seed) {
+    constexpr int most_tries_each = 10000;
+    Draw draw(seed);
+    std::vector<BenchPose> poses;
+    for (std::int64_t tries = 0; static_cast<int>(poses.size()) < count; ++tries) {
+        if (tries > static_cast<std::int64_t>(count) * most_tries_each) {
+            return fail(
+                ErrorKind::BadConfiguration,
+                "hardly any place on the table has the prop inside the picture with every face that is "
+                "seen lit; move the projector higher or make the prop smaller");
+        }
+        const BenchPose pose = draw_one(settings, draw);
+        if (in_zone(settings, prop, pose)) {
+            poses.push_back(pose);
+        }
+    }
+    return poses;
+}
+
+} // namespace frustumscreen

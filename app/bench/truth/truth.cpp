@@ -1,0 +1,167 @@
+#include "app/bench/truth/truth.h"
+
+#include "app/bench/truth/traced_mesh.h"
+#include "firmware_host/base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+struct PixelArea {
+    int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
+};
+
+/// The pixels that the prop's corners span; the whole picture if a corner is behind the projector.
+PixelArea pixels_of_prop(const PropShape& prop, const TruthView& view) {
+    const RigidTransform projector_from_prop = view.prop_from_projector.inverse();
+    const Pinhole& pinhole = view.projector;
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    for (const PropFace& face : prop.faces) {
+        for (const glm::dvec3& corner : face.corners) {
+            const std::optional<glm::dvec2> pixel = pinhole.pixel(projector_from_prop.point(corner));
+            if (!pixel) {
+                return {0, 0, pinhole.width, pinhole.height};
+            }
+            low = glm::min(low, *pixel);
+            high = glm::max(high, *pixel);
+        }
+    }
+    const auto clamped = [](double value, int size) {
+        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+    };
+    return {clamped(std::floor(low.x), pinhole.width), clamped(std::floor(low.y), pinhole.height),
+            clamped(std::ceil(high.x), pinhole.width), clamped(std::ceil(high.y), pinhole.height)};
+}
+
+/// Where the ray is inside `box`; false if it never is for t > 0. direction need not be unit.
+bool enters(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction, double& enter) {
+    double leave = std::numeric_limits<double>::infinity();
+    enter = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0) {
+            if (origin[axis] < box.low[axis] || origin[axis] > box.high[axis]) {
+                return false;
+            }
+            continue;
+        }
+        const double a = (box.low[axis] - origin[axis]) / direction[axis];
+        const double b = (box.high[axis] - origin[axis]) / direction[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+glm::u8vec4 code_of(const glm::vec3& linear) {
+    return {srgb8_from_linear(linear.r), srgb8_from_linear(linear.g), srgb8_from_linear(linear.b), 255};
+}
+
+} // namespace
+
+Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact) {
+    Result<std::shared_ptr<const TracedMesh>> traced = TracedMesh::build(std::move(mesh), prop_from_artifact);
+    if (!traced) {
+        return tl::unexpected<Error>(traced.error());
+    }
+    return Truth(std::move(*traced));
+}
+
+bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const {
+    double enter = 0.0;
+    if (!enters(traced_->box(), origin, direction, enter)) {
+        return false;
+    }
+    // Starting at the box keeps float's precision for the artifact.
+    const glm::dvec3 start = origin + enter * direction;
+    const glm::dvec3 unit = glm::normalize(direction);
+    RTCRayHit ray{};
+    ray.ray.org_x = static_cast<float>(start.x);
+    ray.ray.org_y = static_cast<float>(start.y);
+    ray.ray.org_z = static_cast<float>(start.z);
+    ray.ray.dir_x = static_cast<float>(unit.x);
+    ray.ray.dir_y = static_cast<float>(unit.y);
+    ray.ray.dir_z = static_cast<float>(unit.z);
+    ray.ray.tnear = 0.0F;
+    ray.ray.tfar = std::numeric_limits<float>::infinity();
+    ray.ray.mask = 0xFFFFFFFFU;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context{};
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(traced_->scene(), &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return false;
+    }
+    glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
+    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // else Embree's own stands
+    hit = {ray.hit.primID, start + t_u_v.x * unit,
+           surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
+    return true;
+}
+
+TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const {
+    const int width = view.projector.width;
+    const int height = view.projector.height;
+    const glm::u8vec4 black(0, 0, 0, 255);
+    TruthPicture picture{{width, height},
+                         {width, height},
+                         {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
+                         {width, height, black},
+                         {}};
+    if (sixteen_rays) {
+        picture.colour16 = Image8(width, height, black);
+    }
+    /// What the projector's ray through (u, v) must show: false if it does not light the prop.
+    enum class Seen { Nothing, Prop, Artifact };
+    const glm::dvec3 projector = view.prop_from_projector.translation;
+    const auto look = [&](double u, double v, Hit& hit) {
+        const glm::dvec3 light = view.prop_from_projector.direction(view.projector.ray({u, v}));
+        PropHit lit;
+        if (!intersect(prop, projector, light, lit)) {
+            return Seen::Nothing;
+        }
+        const Plane& face = prop.faces[static_cast<std::size_t>(lit.face)].plane;
+        if (!(face.distance(view.eye_m) > 0.0)) {
+            return Seen::Prop;
+        }
+        const glm::dvec3 on_face = projector + lit.t * light;
+        return first_hit(view.eye_m, on_face - view.eye_m, hit) ? Seen::Artifact : Seen::Prop;
+    };
+    const PixelArea area = pixels_of_prop(prop, view);
+    const auto cast_row = [&](int y) {
+        Hit hit;
+        for (int x = area.left; x < area.right; ++x) {
+            const Seen seen = look(x + 0.5, y + 0.5, hit);
+            picture.prop.at(x, y) = seen != Seen::Nothing ? 1 : 0;
+            if (seen != Seen::Artifact) {
+                continue;
+            }
+            picture.hit.at(x, y) = 1;
+            picture.point_m.at(x, y) = glm::vec3(hit.point_m);
+            picture.colour.at(x, y) = code_of(hit.colour.linear);
+            if (!sixteen_rays) {
+                continue;
+            }
+            glm::vec3 sum(0.0F);
+            for (int sub = 0; sub < 16; ++sub) {
+                const int column = sub % 4;
+                const int row = sub / 4;
+                if (look(x + (column + 0.5) / 4.0, y + (row + 0.5) / 4.0, hit) == Seen::Artifact) {
+                    sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
+                }
+            }
+            picture.colour16.at(x, y) = code_of(sum / 16.0F);
+        }
+    };
+    parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,
+                 [&](std::size_t begin, std::size_t) { cast_row(area.top + static_cast<int>(begin)); });
+    return picture;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,70 @@
+/// The truth that every picture is measured against: a ray cast of the source mesh, as docs/conventions.md defines
+/// it.
+///
+/// For a projector pixel whose ray lights the prop at S, on a face turned towards the eye E, the colour is
+/// that of the first hit of E + t (S - E), t > 0; black where there is none. Triangles are two-sided; alpha
+/// MASK is cut at its cut-off, BLEND is opaque. Colour = base colour * texture (bilinear, base level, linear
+/// light) * vertex colour.
+///
+/// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
+/// Set-up   vertices are placed and hits refined in 64-bit; Embree (float, robust) only finds the triangle.
+/// Threads  `cast_*` use every core inside; one call at a time is meant.
+#pragma once
+
+#include "app/bench/truth/surface_colour.h"
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "app/image/image.h"
+#include "firmware_host/base/result.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace frustumscreen {
+
+class TracedMesh;
+
+/// Who looks and who projects, seen from the prop.
+struct TruthView {
+    Pinhole projector;
+    RigidTransform prop_from_projector;
+    glm::dvec3 eye_m{0.0}; ///< prop frame
+};
+
+/// Shape  every image is [projector.height][projector.width].
+struct TruthPicture {
+    Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre lights the prop (any lit face)
+    Image<std::uint8_t> hit;  ///< 1: the artifact is seen there
+    ImageFloat point_m;       ///< where, prop frame; NaN = no hit
+    Image8 colour;            ///< one ray through the centre; sRGB codes
+    Image8 colour16; ///< 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit`
+};
+
+class Truth {
+public:
+    /// Errors: no triangles; a placement that is not finite; Embree has no memory.
+    [[nodiscard]] static Result<Truth> build(std::shared_ptr<const SourceMesh> mesh,
+                                             const glm::dmat4& prop_from_artifact);
+    struct Hit {
+        std::uint32_t triangle = 0;
+        glm::dvec3 point_m{0.0}; ///< prop frame
+        SurfaceColour colour;
+    };
+    /// First hit of origin + t direction, t > 0 (prop frame).
+    [[nodiscard]] bool first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const;
+
+    /// The whole picture; `sixteen_rays` false leaves `colour16` empty.
+    [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const;
+
+    /// What the rays are cast at, for the ray-cast peer.
+    [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
+
+private:
+    explicit Truth(std::shared_ptr<const TracedMesh> traced) : traced_(std::move(traced)) {}
+    std::shared_ptr<const TracedMesh> traced_;
+};
+
+} // namespace frustumscreen
