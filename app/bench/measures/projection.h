@@ -19,7 +19,7 @@
 
 #include "app/bench/measures/error_time.h"
 #include "app/bench/measures/verdicts.h"
-#include "app/exhibit/visitor_view.h"
+#include "app/simulation/visitor_view.h"
 
 #include <span>
 #include <string>

@@ -1,11 +1,11 @@
 #include "app/programs/frustumscreen/render_command.h"
 
-#include "app/exhibit/visitor_view.h"
 #include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/progress_line.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
+#include "app/simulation/visitor_view.h"
 #include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"

@@ -1,6 +1,5 @@
 #include "app/programs/frustumscreen/run_command.h"
 
-#include "app/exhibit/visitor_view.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/wiring.h"
@@ -10,6 +9,7 @@
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
 #include "app/show/run_report.h"
+#include "app/simulation/visitor_view.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/standard_error.h"

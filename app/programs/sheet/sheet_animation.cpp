@@ -1,6 +1,6 @@
 #include "app/programs/sheet/sheet_animation.h"
 
-#include "app/exhibit/visitor_view.h"
+#include "app/simulation/visitor_view.h"
 
 #include <webp/encode.h>
 #include <webp/mux.h>

@@ -6,8 +6,8 @@
 /// Errors   one line: file, line, what is wrong.
 #pragma once
 
-#include "app/exhibit/visitor_view.h"
 #include "app/settings/settings.h"
+#include "app/simulation/visitor_view.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/result.h"
 

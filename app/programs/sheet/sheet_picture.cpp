@@ -1,7 +1,7 @@
 #include "app/programs/sheet/sheet_picture.h"
 
 #include "app/exhibit/canvas.h"
-#include "app/exhibit/visitor_view.h"
+#include "app/simulation/visitor_view.h"
 
 #include <fmt/format.h>
 

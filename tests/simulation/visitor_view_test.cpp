@@ -1,4 +1,4 @@
-#include "app/exhibit/visitor_view.h"
+#include "app/simulation/visitor_view.h"
 
 #include <gtest/gtest.h>
 
