@@ -24,6 +24,8 @@ packages=(
     libdrm-dev libgbm-dev libudev-dev libxcvt-dev
     # a window on a desktop
     libsdl2-dev
+    # the bench's plots
+    python3-matplotlib
     # OpenGL ES without a screen
     libegl-dev libgles-dev libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )

@@ -2,7 +2,6 @@
 
 #include "app/bench/measures/dominance.h"
 #include "app/bench/measures/report.h"
-#include "app/bench/saved_results.h"
 
 #include <gtest/gtest.h>
 
@@ -100,56 +99,6 @@ TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
     EXPECT_EQ(best_of(30.0, 40.0, 50.0), "640;640 of another mesh;");
     EXPECT_EQ(best_of(30.0, 31.0, 50.0), "1024;640 of another mesh;"); // as good as for nothing
     EXPECT_EQ(best_of(30.0, 31.0, 32.0), "1600;640 of another mesh;");
-}
-
-TEST(SavedResults, WhatWasWrittenIsReadAgain) {
-    const SetUpResult result = with({technique("LOD 10k", TechniqueKind::Lod, 3.0, {0.3, 0.2, 9.5}, 9999)});
-    const Result<ArtifactResults> read = read_results(report_json({&result, 1}, "Cat", {}));
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->title, "Cat");
-    ASSERT_EQ(read->set_ups.size(), 1U);
-    ASSERT_EQ(read->set_ups[0].techniques.size(), 3U);
-    const TechniqueResult& lod = read->set_ups[0].techniques[2];
-    EXPECT_EQ(lod.kind, TechniqueKind::Lod);
-    EXPECT_EQ(lod.triangles, 9999U);
-    EXPECT_DOUBLE_EQ(lod.times_floor, 3.0);
-    EXPECT_DOUBLE_EQ(lod.error.mean.geometric_mean_mm, 0.2);
-    EXPECT_EQ(lines_of(judge_dominance(read->set_ups[0])), lines_of(judge_dominance(result)));
-}
-
-TEST(SavedResults, AMalformedFileIsOneLine) {
-    const SetUpResult result = with({});
-    const std::string good = report_json({&result, 1}, "Cat", {});
-    std::vector<std::string> bad = {"",
-                                    "{",
-                                    "[]",
-                                    "null",
-                                    "{\"pack\": 3, \"set_ups\": []}",
-                                    "{\"pack\": \"Cat\", \"set_ups\": []}",
-                                    "{\"pack\": \"Cat\", \"set_ups\": {\"name\": 1}}",
-                                    "\xff\xfe\n\n"};
-    for (const char* key : {"\"mean\"", "\"times_floor\"", "\"kind\"", "\"set_ups\"", "\"rmse_16_rays\""}) {
-        bad.push_back(good);
-        bad.back().replace(bad.back().find(key), 2, "\"_");
-    }
-    for (std::size_t length = 0; length < good.size() - 2; length += 97) {
-        bad.push_back(good.substr(0, length));
-    }
-    for (const std::string& text : bad) {
-        const Result<ArtifactResults> read = read_results(text);
-        ASSERT_FALSE(read) << text;
-        EXPECT_EQ(read.error().message.find('\n'), std::string::npos) << read.error().message;
-        EXPECT_NE(read.error().message.find("error-time"), std::string::npos) << read.error().message;
-    }
-}
-
-TEST(SavedResults, AKindThatIsNotKnownIsLeftOut) {
-    const SetUpResult result = with({technique("new", TechniqueKind::Lod, 3.0, middling)});
-    std::string text = report_json({&result, 1}, "Cat", {});
-    text.replace(text.find("\"LOD\""), 5, "\"a kind of 2050\"");
-    const Result<ArtifactResults> read = read_results(text);
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->set_ups[0].techniques.size(), 2U);
 }
 
 TEST(Verdicts, TheTableOfVerdictsHasFourFieldsARow) {

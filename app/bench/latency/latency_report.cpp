@@ -1,7 +1,5 @@
 #include "app/bench/latency/latency_report.h"
 
-#include "app/bench/plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -125,28 +123,6 @@ std::string latency_csv(std::span<const TrackerResult> results, std::span<const 
         }
     }
     return text;
-}
-
-std::string latency_svg(std::span<const TrackerResult> results) {
-    std::vector<Plot> plots;
-    for (const TrackerResult& result : results) {
-        Plot plot;
-        plot.title = fmt::format("{}, strokes at {:g} m/s", result.tracker.name, latency_speed_m_s);
-        plot.x_label = "latency of tracker and display, ms";
-        plot.y_label = "RMS slip of the picture on the prop, mm";
-        plot.log_x = plot.log_y = false;
-        for (const ContestantResult& contestant : result.contestants) {
-            PlotSeries series;
-            series.name = contestant.name;
-            series.look.dashed = !contestant.predicts;
-            for (const LatencySlip& latency : contestant.latencies) {
-                series.points.push_back({{latency.total_ms, latency.slip.rms}});
-            }
-            plot.series.push_back(std::move(series));
-        }
-        plots.push_back(std::move(plot));
-    }
-    return svg_of(plots);
 }
 
 } // namespace frustumscreen

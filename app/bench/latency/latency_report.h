@@ -1,4 +1,4 @@
-/// The results of frustumscreen-bench latency as words, CSV and SVG.
+/// The results of frustumscreen-bench latency as words and CSV.
 ///
 /// Units    mm, ms.
 /// Threads  pure; any.
@@ -21,7 +21,5 @@ namespace frustumscreen {
 [[nodiscard]] std::string recordings_table(std::span<const RecordingResult> recordings);
 [[nodiscard]] std::string latency_csv(std::span<const TrackerResult> results,
                                       std::span<const RecordingResult> recordings);
-/// Error against latency, one plot for each tracker.
-[[nodiscard]] std::string latency_svg(std::span<const TrackerResult> results);
 
 } // namespace frustumscreen

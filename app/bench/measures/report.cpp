@@ -1,5 +1,7 @@
 #include "app/bench/measures/report.h"
 
+#include "app/bench/measures/dominance.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -81,8 +83,9 @@ std::string summary_csv(std::span<const SetUpResult> results) {
             csv += fmt::format(",{}_{}", which, figure.name);
         }
     }
-    csv += ",worst_pose\n";
+    csv += ",worst_pose,best_eye_image\n";
     for (const SetUpResult& result : results) {
+        const std::vector<const TechniqueResult*> best = at_best_eye_images(result);
         for (const TechniqueResult& technique : result.techniques) {
             csv += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
                                technique.name, name_of(technique.kind), technique.triangles,
@@ -94,9 +97,23 @@ std::string summary_csv(std::span<const SetUpResult> results) {
                                                     : fmt::format(",{:.6f}", figure.of(*error));
                 }
             }
-            csv += technique.errors.empty() ? std::string(",\n")
-                                            : fmt::format(",{}\n", technique.error.worst_pose);
+            csv +=
+                technique.errors.empty() ? std::string(",") : fmt::format(",{}", technique.error.worst_pose);
+            csv += std::find(best.begin(), best.end(), &technique) != best.end() ? ",1\n" : ",0\n";
         }
+    }
+    return csv;
+}
+
+std::string limits_csv() {
+    std::string csv = "level,silhouette_percent,outline_shift_px,geometric_mean_mm,colour_rmse,times_floor\n";
+    for (const auto& [level, limits] : {std::pair{"default level", default_level_limits},
+                                        {"finest level", finest_level_limits},
+                                        {"default level pushed", pushed_default_limits},
+                                        {"fine level", fine_level_limits}}) {
+        csv += fmt::format("{},{:g},{:g},{:g},{:g},", level, limits.silhouette_percent,
+                           limits.outline_shift_px, limits.geometric_mean_mm, limits.colour_rmse);
+        csv += limits.times_floor > 0.0 ? fmt::format("{:g}\n", limits.times_floor) : "\n";
     }
     return csv;
 }

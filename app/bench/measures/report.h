@@ -10,8 +10,11 @@
 
 namespace frustumscreen {
 
-/// One row for each technique of each set-up: mean and worst errors, times, ratio to the floor.
+/// One row for each technique of each set-up: mean and worst errors, times, ratio to the floor;
+/// `best_eye_image` is 0 for a two-pass picture that another eye image of the same mesh betters, else 1.
 [[nodiscard]] std::string summary_csv(std::span<const SetUpResult> results);
+/// The limits that the verdicts hold, by the level that each is for; an empty field is no limit.
+[[nodiscard]] std::string limits_csv();
 /// One row for each technique in each pose.
 [[nodiscard]] std::string poses_csv(std::span<const SetUpResult> results);
 /// `pack_figures`: the verdicts on the pack's own figures.

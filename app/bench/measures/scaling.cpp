@@ -1,6 +1,5 @@
 #include "app/bench/measures/scaling.h"
 
-#include "app/bench/plot.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/bake/bake.h"
 
@@ -122,36 +121,6 @@ std::string scaling_csv(std::span<const ScalingRow> rows) {
         }
     }
     return csv;
-}
-
-std::string scaling_svg(std::span<const ScalingRow> rows) {
-    Plot cost{"Cost against the source's size: built-in amphora",
-              "source triangles",
-              "median frame time / floor",
-              true,
-              true,
-              {{"default level", {}}, {"finest level", {}}, {"two-pass, full mesh", {}}},
-              {}};
-    Plot error{"Geometric error of the same pictures",
-               "source triangles",
-               "mean distance, mm",
-               true,
-               true,
-               cost.series,
-               {}};
-    for (const ScalingRow& row : rows) {
-        const auto x = static_cast<double>(row.source_triangles);
-        std::size_t k = 0;
-        for (const TechniqueResult* technique : {&row.default_level, &row.finest_level, &row.two_pass}) {
-            cost.series[k].points.push_back(
-                {{x, technique->times_floor}, fmt::format("{:.2f} x", technique->times_floor)});
-            error.series[k].points.push_back(
-                {{x, technique->error.mean.geometric_mean_mm},
-                 fmt::format("{:.3f}", technique->error.mean.geometric_mean_mm)});
-            ++k;
-        }
-    }
-    return svg_of(std::array{cost, error});
 }
 
 std::string scaling_table(std::span<const ScalingRow> rows) {

@@ -43,7 +43,6 @@ inline constexpr double most_growth = 1.25; ///< default level's cost at the lar
                                                       const ScalingOptions& options,
                                                       const StepProgress& progress);
 [[nodiscard]] std::string scaling_csv(std::span<const ScalingRow> rows);
-[[nodiscard]] std::string scaling_svg(std::span<const ScalingRow> rows);
 [[nodiscard]] std::string scaling_table(std::span<const ScalingRow> rows);
 
 } // namespace frustumscreen

@@ -49,12 +49,6 @@ std::string_view name_of(TechniqueKind kind) {
     return named->second;
 }
 
-std::optional<TechniqueKind> kind_of(std::string_view name) {
-    const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
-                                           [name](const auto& one) { return one.second == name; });
-    return named != kind_names.end() ? std::optional(named->first) : std::nullopt;
-}
-
 Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
     const Pinhole& pinhole = set_up.settings.projector.pinhole;
     Result<std::unique_ptr<SurfacelessDisplay>> display =

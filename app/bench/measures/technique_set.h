@@ -36,7 +36,6 @@ enum class TechniqueKind {
 };
 /// As tables and files say it.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
-[[nodiscard]] std::optional<TechniqueKind> kind_of(std::string_view name);
 
 struct TechniqueResult {
     std::string name;

@@ -1,7 +1,5 @@
 #include "app/bench/stability/report.h"
 
-#include "app/bench/plot.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -94,40 +92,6 @@ std::string step_error_csv(std::span<const StepError> smoothers, std::span<const
         }
     }
     return csv;
-}
-
-namespace {
-
-void add_series(std::span<const StepError> errors, Plot& plot) {
-    constexpr double least = 1e-18; // an exact zero has no place on a logarithmic axis
-    for (const StepError& error : errors) {
-        if (plot.series.empty() || plot.series.back().name != error.what) {
-            plot.series.push_back({error.what, {}});
-        }
-        plot.series.back().points.push_back({{error.step, std::max(error.error, least)}, {}});
-    }
-}
-
-} // namespace
-
-std::string step_error_svg(std::span<const StepError> smoothers, std::span<const StepError> program) {
-    std::array plots{Plot{"A smoother's error against its step (no error at all: 1e-18)",
-                          "step / time constant",
-                          "error of the step response, of 1",
-                          true,
-                          true,
-                          {},
-                          {{1.0, "all of it"}}},
-                     Plot{"The program's dynamics against the step between frames",
-                          "step, s",
-                          "error",
-                          true,
-                          true,
-                          {},
-                          {}}};
-    add_series(smoothers, plots[0]);
-    add_series(program, plots[1]);
-    return svg_of(plots);
 }
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// What the stability cases found, as a table for the console, CSV, JSON and SVG.
+/// What the stability cases found, as a table for the console, CSV and JSON.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -23,8 +23,6 @@ struct MeasuredCase {
 [[nodiscard]] std::string stability_json(std::span<const MeasuredCase> cases);
 
 [[nodiscard]] std::string step_error_csv(std::span<const StepError> smoothers,
-                                         std::span<const StepError> program);
-[[nodiscard]] std::string step_error_svg(std::span<const StepError> smoothers,
                                          std::span<const StepError> program);
 
 } // namespace frustumscreen

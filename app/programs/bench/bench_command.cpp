@@ -1,5 +1,6 @@
 #include "app/programs/bench/bench_command.h"
 
+#include "app/bench/plots/draw_tables.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/sha256.h"
 #include "app/settings/settings.h"
@@ -127,6 +128,14 @@ Result<void> write_all(const std::filesystem::path& folder,
         }
     }
     return {};
+}
+
+Result<void> draw_all(const std::filesystem::path& folder, const std::vector<std::string>& tables) {
+    std::vector<std::string> paths;
+    for (const std::string& table : tables) {
+        paths.push_back((folder / table).string());
+    }
+    return draw_tables(plot_script(), paths);
 }
 
 } // namespace frustumscreen

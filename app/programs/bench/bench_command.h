@@ -78,6 +78,9 @@ struct LoadedArtifact {
 /// Files in --out, all or the first that fails.
 [[nodiscard]] Result<void> write_all(const std::filesystem::path& folder,
                                      const std::vector<std::pair<std::string, std::string>>& files);
+/// Draws tables that are in `folder`, each as an SVG beside it.
+[[nodiscard]] Result<void> draw_all(const std::filesystem::path& folder,
+                                    const std::vector<std::string>& tables);
 
 /// One artifact in every set-up: `measure(set_up, pack, mesh, steps)` gives a result whose `worst` is a
 /// picture; its `table` goes to the console, the pictures to NAME_SETUP.png, all results to NAME.csv.

@@ -1,6 +1,5 @@
 #include "app/programs/bench/bench_error_time.h"
 
-#include "app/bench/error_plot.h"
 #include "app/bench/measures/error_time.h"
 #include "app/bench/measures/figures.h"
 #include "app/bench/measures/report.h"
@@ -59,7 +58,6 @@ Result<SetUpResult> measure(const SetUp& set_up, const LoadedArtifact& artifact,
     progress.clear();
     fmt::print("{}\n", console_table(*result));
     std::fflush(stdout);
-    files.emplace_back("error_time_" + set_up.name + ".svg", error_time_svg(*result, artifact.pack->title));
     for (const auto& [level, picture] : result->worst) {
         files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level), as_text(encode_png(picture)));
     }
@@ -90,10 +88,13 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     files.emplace_back("error_time_poses.csv", poses_csv(results));
     files.emplace_back("error_time.json", report_json(results, artifact->pack->title, figures));
     files.emplace_back("verdicts.csv", verdicts_csv(results, figures));
+    files.emplace_back("limits.csv", limits_csv());
     if (Result<void> written = write_all(arguments.place.out, files); !written) {
         return written;
     }
-    return require_true(figures, arguments.artifact.pack.string());
+    const Result<void> drawn = draw_all(arguments.place.out, {"error_time.csv"});
+    const Result<void> figures_hold = require_true(figures, arguments.artifact.pack.string());
+    return figures_hold ? drawn : figures_hold;
 }
 
 } // namespace

@@ -78,8 +78,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         fmt::print("{}\n", recordings_table(recordings));
     }
     fmt::print("{}", lines_of(judge(results.front(), arguments.options)));
-    return write_all(arguments.out, {{"latency.csv", latency_csv(results, recordings)},
-                                     {"latency.svg", latency_svg(results)}});
+    Result<void> written = write_all(arguments.out, {{"latency.csv", latency_csv(results, recordings)}});
+    return written ? draw_all(arguments.out, {"latency.csv"}) : written;
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "app/programs/bench/bench_plot.h"
 
-#include "app/bench/saved_results.h"
-#include "firmware_host/base/file.h"
+#include "app/bench/plots/draw_tables.h"
 
 #include <memory>
 
@@ -15,20 +14,14 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments) {
-    std::vector<ArtifactResults> artifacts;
-    for (const std::filesystem::path& folder : arguments.from) {
-        const std::filesystem::path file = folder / "error_time.json";
-        const Result<Bytes> bytes = read_file(file);
-        if (!bytes) {
-            return tl::unexpected<Error>(bytes.error());
-        }
-        Result<ArtifactResults> results = read_results(as_text(*bytes));
-        if (!results) {
-            return at(file.string(), results.error());
-        }
-        artifacts.push_back(std::move(*results));
+    if (Result<void> made = write_all(arguments.out, {}); !made) {
+        return made;
     }
-    return write_all(arguments.out, {{"error_time_overall.svg", overall_svg(artifacts)}});
+    std::vector<std::string> words = {"--overall", (arguments.out / "error_time_overall.svg").string()};
+    for (const std::filesystem::path& folder : arguments.from) {
+        words.push_back(folder.string());
+    }
+    return draw_tables(plot_script(), words);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 #include "app/programs/bench/bench_scaling.h"
 
-#include "app/bench/error_plot.h"
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/scaling.h"
 #include "app/bench/measures/verdicts.h"
@@ -36,7 +35,6 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
     fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(*rows));
     std::fflush(stdout);
     files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(*rows));
-    files.emplace_back("scaling_" + set_up.name + ".svg", scaling_svg(*rows));
     for (const ScalingSource& source : sources) {
         if (arguments.no_peers || source.mesh->triangles.size() < least_two_pass_triangles) {
             continue;
@@ -55,9 +53,8 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
             fmt::format("Built-in amphora, {} triangles", source.mesh->triangles.size());
         fmt::print("{}\n{}\n", title, console_table(*result));
         std::fflush(stdout);
-        const std::string stem = fmt::format("two_pass_{}_{}", set_up.name, source.mesh->triangles.size());
-        files.emplace_back(stem + ".csv", summary_csv({&*result, 1}));
-        files.emplace_back(stem + ".svg", error_time_svg(*result, title));
+        files.emplace_back(fmt::format("two_pass_{}_{}.csv", set_up.name, source.mesh->triangles.size()),
+                           summary_csv({&*result, 1}));
     }
     return {};
 }
@@ -79,7 +76,15 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
             return measured;
         }
     }
-    return write_all(arguments.place.out, files);
+    std::vector<std::string> tables;
+    for (const auto& [name, text] : files) {
+        tables.push_back(name);
+    }
+    files.emplace_back("limits.csv", limits_csv());
+    if (Result<void> written = write_all(arguments.place.out, files); !written) {
+        return written;
+    }
+    return draw_all(arguments.place.out, tables);
 }
 
 } // namespace

@@ -32,16 +32,16 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const std::vector<StepError> program = program_step_errors();
     Result<void> written = write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
                                                      {"stability.json", stability_json(measured)},
-                                                     {"step_error.csv", step_error_csv(smoothers, program)},
-                                                     {"step_error.svg", step_error_svg(smoothers, program)}});
+                                                     {"step_error.csv", step_error_csv(smoothers, program)}});
     if (!written) {
         return written;
     }
+    Result<void> drawn = draw_all(arguments.out, {"step_error.csv"});
     if (!all_held(measured)) {
         return fail(ErrorKind::Internal, fmt::format("a bound was missed; {} says which",
                                                      (arguments.out / "stability.csv").string()));
     }
-    return {};
+    return drawn;
 }
 
 } // namespace

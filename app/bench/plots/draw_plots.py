@@ -1,0 +1,260 @@
+#!/usr/bin/python3
+"""Draws what frustumscreen-bench has measured: tables (CSV) as SVG files beside them.
+
+    draw_plots.py TABLE.csv...
+    draw_plots.py --overall OUT.svg FOLDER...    error_time.csv of several artifacts on one sheet
+
+The bench calls it; the name of a table says what it is. A table gives the same bytes each time. Exit status 1
+and one line on standard error where something is missing or broken.
+"""
+import csv
+import json
+import math
+import sys
+from pathlib import Path
+
+from panels import Failure, Panel, Series, save_column, save_sheet
+
+COST = "median frame time / that of the floor"
+FAINT = 0.3
+WORST_POSE_COLOUR = 6
+
+
+class Family:
+    """The techniques that share a line; colour, mark and width are the same in every plot."""
+
+    def __init__(self, name, colour, mark, width=1.5):
+        self.name = name
+        self.look = {"colour": colour, "mark": mark, "width": width}
+
+
+FAMILIES = {  # by the tables' column `kind`
+    "pack level": Family("pack's levels", 0, "o", 2.5),
+    "two-pass": Family("two-pass, full mesh", 1, "s"),
+    "two-pass LOD": Family("two-pass, LODs", 3, "s"),
+    "full mesh": Family("one pass, full mesh", 5, "D"),
+    "LOD": Family("one pass, LODs", 2, "^"),
+    "relief": Family("relief images", 7, "D"),
+    "ray cast": Family("ray cast (reference)", 4, "x"),
+}
+# Title, the axis's label, the column of mean and worst, the axis's least: no visitor sees less; the limit's column.
+ERRORS = (
+    ("Silhouette error", "% of the artifact's pixels", "silhouette_percent", 0.01, "silhouette_percent"),
+    ("Geometric error", "mean distance, mm", "geometric_mean_mm", 0.001, "geometric_mean_mm"),
+    ("Colour error", "RMSE against 16 rays, 8-bit codes", "rmse_16_rays", 1.0, "colour_rmse"),
+)
+DRAWN_LIMITS = ("default level", "finest level")
+
+
+def read_table(path):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise Failure(f"{path}: {error.strerror}") from error
+    if not rows:
+        raise Failure(f"{path}: holds no rows")
+    return rows
+
+
+def different(values):
+    """Each once, in the order of their first place."""
+    return list(dict.fromkeys(values))
+
+
+# Error over cost
+
+
+def pareto_front(points):
+    """Those that no other one is left of and below, by ascending cost; of equal ones the first."""
+    front = []
+    for point in sorted(points, key=lambda point: point[:2]):
+        if not front or point[1] < front[-1][1]:
+            front.append(point)
+    return front
+
+
+def median_attainment(artifacts):
+    """Where it changes, the least error that at least half of the artifacts reach at no more than that cost.
+
+    One list of (cost, error) each artifact; an empty one reaches nothing. Source: Grunert da Fonseca, Fonseca &
+    Hall 2001, 'Inferential performance assessment of stochastic optimisers and the attainment function'.
+    """
+    median = []
+    for cost in sorted(point[0] for points in artifacts for point in points):
+        reached = sorted(
+            min((error for at, error in points if at <= cost), default=math.inf) for points in artifacts)
+        half = reached[(len(reached) - 1) // 2]
+        if half < math.inf and (not median or half < median[-1][1]):
+            median.append((cost, half))
+    return median
+
+
+def label_of(row):
+    return f"{float(row['triangles']) / 1000:.0f}k" if row["kind"] in ("LOD", "two-pass LOD") else row["technique"]
+
+
+def points_of(rows, kind, column):
+    """(cost, error, label) of a family; of the two-pass pictures of one mesh only that of the best eye image."""
+    return [(float(row["times_floor"]), float(row[column]), label_of(row))
+            for row in rows if row["kind"] == kind and row["best_eye_image"] == "1"]
+
+
+def family_series(rows, kind, error):
+    """The family's front as a line; beside it, what is not on the front."""
+    family = FAMILIES[kind]
+    points = points_of(rows, kind, f"mean_{error}")
+    front = pareto_front(points)
+    beside = [point for point in points if point not in front]
+    series = [Series(family.name, front, **family.look),
+              Series(family.name, beside, joined=False, opacity=FAINT, in_legend=False, **family.look)]
+    if kind == "pack level":
+        worst = [point[:2] for point in points_of(rows, kind, f"worst_{error}")]
+        series.insert(1, Series("the same, worst pose", sorted(worst), WORST_POSE_COLOUR, "ring", 1.0, dashed=True))
+    return [one for one in series if one.points]
+
+
+def error_time_panels(rows, title, limits):
+    set_up = rows[0]["set_up"]
+    panels = []
+    for name, unit, error, least, limit in ERRORS:
+        panel = Panel(f"{name}: {title}, {set_up} set-up", COST, unit, y_least=least)
+        panel.series = [series for kind in FAMILIES for series in family_series(rows, kind, error)]
+        panel.limits = [(float(row[limit]), f"{row['level']}'s limit")
+                        for row in limits if row["level"] in DRAWN_LIMITS]
+        panels.append(panel)
+    return panels
+
+
+def limits_beside(path):
+    file = path.with_name("limits.csv")
+    return read_table(file) if file.exists() else []
+
+
+def pack_title(folder):
+    file = folder / "error_time.json"
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))["pack"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise Failure(f"{file}: does not say the pack's title; measure again") from error
+
+
+def draw_error_time(path):
+    rows = read_table(path)
+    title = pack_title(path.parent)
+    for set_up in different(row["set_up"] for row in rows):
+        own = [row for row in rows if row["set_up"] == set_up]
+        save_column(path.with_name(f"error_time_{set_up}.svg"),
+                    error_time_panels(own, title, limits_beside(path)))
+
+
+def draw_two_pass(path):
+    title = f"Built-in amphora, {path.stem.rsplit('_', 1)[1]} triangles"
+    save_column(path.with_suffix(".svg"), error_time_panels(read_table(path), title, limits_beside(path)))
+
+
+def overall_panel(artifacts, set_up, measure):
+    name, unit, error, least, _ = measure
+    panel = Panel(f"{name}, {set_up} set-up", COST, unit, corner="better ↙", y_least=least)
+    lines, members = [], []
+    for kind, family in FAMILIES.items():
+        found = [[point[:2] for point in points_of(rows, kind, f"mean_{error}")] for rows in artifacts]
+        found = [points for points in found if points]  # a small mesh has no LODs: nothing to be counted against
+        look = family.look | {"width": 3.5 if kind == "pack level" else 2.0}
+        lines.append(Series(family.name, median_attainment(found), stepped=True, **look))
+        members.append(Series(family.name, sum(found, []), joined=False, opacity=FAINT, in_legend=False, **look))
+    panel.series = [series for series in lines + members if series.points]
+    return panel
+
+
+def draw_overall(out, folders):
+    tables = [read_table(folder / "error_time.csv") for folder in folders]
+    titles = [pack_title(folder) for folder in folders]
+    panels = []
+    for set_up in different(row["set_up"] for rows in tables for row in rows):
+        own = [[row for row in rows if row["set_up"] == set_up] for rows in tables]
+        panels += [overall_panel(own, set_up, measure) for measure in ERRORS]
+    save_sheet(out, f"Error against cost, {len(titles)} artifact{'s' if len(titles) != 1 else ''}", panels, 3, [
+        "Lines: the error that at least half of the artifacts reach at that cost. Faint marks: each technique on each "
+        "artifact, mean of all poses. Two-pass at its best eye image; peers take one sample a pixel.",
+        f"Artifacts: {', '.join(titles)}."])
+
+
+# Everything else
+
+
+def draw_scaling(path):
+    rows = read_table(path)
+    names = ("default level", "finest level", "two-pass, full mesh")  # in this order for each count of triangles
+    panels = []
+    for title, unit, column, label in (
+            ("Cost against the source's size: built-in amphora", "median frame time / floor", "times_floor",
+             "{:.2f} x"),
+            ("Geometric error of the same pictures", "mean distance, mm", "mean_geometric_mm", "{:.3f}")):
+        panel = Panel(title, "source triangles", unit)
+        for k, name in enumerate(names):
+            points = [(float(row["source_triangles"]), float(row[column])) for row in rows[k::len(names)]]
+            panel.series.append(Series(name, [(x, y, label.format(y)) for x, y in points], k))
+        panels.append(panel)
+    save_column(path.with_suffix(".svg"), panels)
+
+
+def draw_latency(path):
+    rows = [row for row in read_table(path) if row["motion"] == "latency"]
+    panels = []
+    for tracker in different(row["source"] for row in rows):
+        own = [row for row in rows if row["source"] == tracker]
+        panel = Panel(f"{tracker}, strokes at {float(own[0]['speed_m_s']):g} m/s",
+                      "latency of tracker and display, ms", "RMS slip of the picture on the prop, mm", log=False)
+        marks = {}  # of the filters
+        for k, name in enumerate(different(row["contestant"] for row in own)):
+            points = [(float(row["latency_ms"]), float(row["rms_mm"])) for row in own if row["contestant"] == name]
+            filtered, _, predicted = name.partition(", ")  # 'exhibit', 'exhibit, predicted', 'exhibit, as shown'
+            marks.setdefault(filtered, "os^D"[len(marks) % 4])
+            mark = "ring" if predicted == "as shown" else marks[filtered]
+            panel.series.append(Series(name, points, k, mark, dashed=not predicted))
+        panels.append(panel)
+    save_column(path.with_suffix(".svg"), panels)
+
+
+def draw_step_error(path):
+    rows = read_table(path)
+    least = 1e-18  # an exact zero has no place on a logarithmic axis
+    smoothers = Panel("A smoother's error against its step (no error at all: 1e-18)", "step / time constant",
+                      "error of the step response, of 1", limits=[(1.0, "all of it")])
+    program = Panel("The program's dynamics against the step between frames", "step, s", "error")
+    for panel, unit in ((smoothers, "time constants"), (program, "s")):
+        own = [row for row in rows if row["step_unit"] == unit]
+        for k, what in enumerate(different(row["what"] for row in own)):
+            points = [(float(row["step"]), max(float(row["error"]), least)) for row in own if row["what"] == what]
+            panel.series.append(Series(what, points, k))
+    save_column(path.with_suffix(".svg"), [smoothers, program])
+
+
+TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_": draw_scaling,
+          "latency": draw_latency, "step_error": draw_step_error}
+
+
+def draw(path):
+    for start, drawn in TABLES.items():
+        if path.stem == start or start.endswith("_") and path.stem.startswith(start):
+            try:
+                return drawn(path)
+            except (KeyError, ValueError, TypeError) as error:
+                raise Failure(f"{path}: is not what this frustumscreen-bench writes ({error}); measure again") from error
+    raise Failure(f"{path}: no table that is drawn")
+
+
+def main(arguments):
+    if len(arguments) > 2 and arguments[0] == "--overall":
+        draw_overall(Path(arguments[1]), [Path(folder) for folder in arguments[2:]])
+    else:
+        for path in arguments:
+            draw(Path(path))
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except Failure as failure:
+        sys.exit(str(failure))

@@ -1,0 +1,67 @@
+// The bench's side of its plots, with scripts that stand in for the real one (tests/bench/plots has that).
+
+#include "app/bench/plots/draw_tables.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DrawTables : public ::testing::Test {
+protected:
+    DrawTables() : folder_(fs::path(testing::TempDir()) / ("draw_tables_" + std::to_string(::getpid()))) {
+        fs::create_directories(folder_);
+    }
+    ~DrawTables() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] fs::path script(const std::string& lines) const {
+        const fs::path path = folder_ / "script";
+        std::ofstream(path) << "#!/bin/sh\n" << lines;
+        fs::permissions(path, fs::perms::owner_all);
+        return path;
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(DrawTables, TheScriptGetsItsArgumentsAsTheyAre) {
+    const fs::path said = folder_ / "said";
+    const fs::path echo = script("printf '%s|' \"$@\" >'" + said.string() + "'\n");
+    ASSERT_TRUE(draw_tables(echo, {"a b.csv", "$HOME", ""}));
+    std::ifstream file(said);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "a b.csv|$HOME||");
+}
+
+TEST_F(DrawTables, TheLastLineThatAFailingScriptSaysIsTheError) {
+    const Result<void> drawn = draw_tables(script("echo one >&2; echo 'the other' >&2; exit 1\n"), {});
+    ASSERT_FALSE(drawn);
+    EXPECT_EQ(drawn.error().message, "the other");
+}
+
+TEST_F(DrawTables, AScriptThatFailsSilentlyOrDiesIsNamed) {
+    for (const char* lines : {"exit 3\n", "kill -9 $$\n"}) {
+        const Result<void> drawn = draw_tables(script(lines), {});
+        ASSERT_FALSE(drawn) << lines;
+        EXPECT_NE(drawn.error().message.find((folder_ / "script").string()), std::string::npos);
+    }
+}
+
+TEST_F(DrawTables, AWarningIsNoError) {
+    EXPECT_TRUE(draw_tables(script("echo a warning >&2\n"), {}));
+}
+
+TEST_F(DrawTables, WhereThereIsNoScriptThePackageIsNamed) {
+    const Result<void> drawn = draw_tables(folder_ / "none", {});
+    ASSERT_FALSE(drawn);
+    EXPECT_NE(drawn.error().message.find("python3-matplotlib"), std::string::npos);
+    EXPECT_EQ(drawn.error().message.find('\n'), std::string::npos);
+}
+
+} // namespace
+} // namespace frustumscreen

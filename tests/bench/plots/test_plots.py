@@ -1,0 +1,307 @@
+"""The plots against made-up tables: what is read back from the SVG stands where the tables say."""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+PLOTS = Path(__file__).resolve().parents[3] / "app/bench/plots"
+sys.path.insert(0, str(PLOTS))
+
+from draw_plots import main, median_attainment, pareto_front  # noqa: E402
+from panels import Failure, Panel, Series, save_column, save_sheet  # noqa: E402
+from svg import Svg  # noqa: E402
+
+# Three levels of a pack and three simplified meshes, the middle one dearer and worse than the first; the first
+# two-pass picture is bettered by the second one.
+TECHNIQUES = (  # technique, kind, triangles, cost, error, best eye image
+    ("floor", "floor", 0, 1.0, None, 1), ("mesh 0", "pack level", 1000, 2.0, 0.4, 1),
+    ("mesh 1", "pack level", 2000, 3.0, 0.2, 1), ("mesh 2", "pack level", 3000, 5.0, 0.1, 1),
+    ("LOD 5k", "LOD", 5000, 2.5, 0.5, 1), ("LOD 7k", "LOD", 7000, 2.9, 0.6, 1),
+    ("LOD 9k", "LOD", 9000, 4.0, 0.3, 1), ("two-pass 640", "two-pass", 9000, 8.0, 0.7, 0),
+    ("two-pass 1024", "two-pass", 9000, 9.0, 0.08, 1), ("new", "a kind of 2050", 9, 9.0, 0.08, 1))
+COLUMNS = ("silhouette_percent", "geometric_mean_mm", "rmse_16_rays")
+FACTORS = (1.0, 1.0, 20.0)  # of the error, for each column
+
+
+def error_time_rows(set_up):
+    for technique, kind, triangles, cost, error, best in TECHNIQUES:
+        row = {"set_up": set_up, "technique": technique, "kind": kind, "triangles": triangles, "times_floor": cost,
+               "best_eye_image": best}
+        for column, factor in zip(COLUMNS, FACTORS):
+            row[f"mean_{column}"] = "" if error is None else factor * error
+            row[f"worst_{column}"] = "" if error is None else 2 * factor * error
+        yield row
+
+
+def write_table(path, rows):
+    rows = list(rows)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+class Plots(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def error_time(self, name="", set_ups=("near",), title="Cat"):
+        folder = self.folder / name
+        folder.mkdir(exist_ok=True)
+        write_table(folder / "error_time.csv", (row for set_up in set_ups for row in error_time_rows(set_up)))
+        (folder / "error_time.json").write_text(json.dumps({"pack": title}))
+        write_table(folder / "limits.csv", [
+            {"level": level, "silhouette_percent": limit, "geometric_mean_mm": limit, "colour_rmse": 20 * limit}
+            for level, limit in (("default level", 0.25), ("finest level", 0.15), ("fine level", 0.99))])
+        return folder
+
+    def drawn(self, panels):
+        path = self.folder / "panels.svg"
+        save_column(path, panels)
+        return Svg(path)
+
+    def assert_at(self, svg, panel, series, points, log=True):
+        """The marks of a series stand where the ticks of the axes say that its points are."""
+        scaled = math.log10 if log else float
+        places = svg.marks(f"panel{panel}/{series}")
+        self.assertEqual(len(places), len(points), series)
+        for axis in (0, 1):
+            ticks = sorted((float(words.removeprefix("≤ ").replace("k", "e3").replace("M", "e6")), pixel)
+                           for words, pixel in svg.ticks(panel, axis).items())
+            (low, low_px), (high, high_px) = ticks[0], ticks[-1]
+            per_unit = (high_px - low_px) / (scaled(high) - scaled(low))
+            for point, place in zip(points, places):
+                self.assertAlmostEqual(place[axis], low_px + per_unit * (scaled(point[axis]) - scaled(low)), delta=0.01)
+
+
+class Fronts(unittest.TestCase):
+    def test_a_front_keeps_what_nothing_is_left_of_and_below(self):
+        self.assertEqual(pareto_front([(3, 1), (1, 3), (2, 4), (2, 2), (3, 1), (4, 1), (1, 5)]),
+                         [(1, 3), (2, 2), (3, 1)])
+        self.assertEqual(pareto_front([]), [])
+
+    def test_the_median_is_what_half_of_the_artifacts_reach(self):
+        three = [[(1, 10), (4, 2)], [(2, 8), (5, 1)], [(3, 20)]]
+        # At 1 one of three reaches anything; at 2 two do: 8 and 10; at 4: 2, 8 and 20; at 5: 1, 2 and 20.
+        self.assertEqual(median_attainment(three), [(2, 10), (4, 8), (5, 2)])
+        self.assertEqual(median_attainment(three[:1]), three[0])
+        self.assertEqual(median_attainment([]), [])
+        self.assertEqual(median_attainment([[], [], [(1, 1)]]), [])
+
+    def test_the_median_of_equal_artifacts_is_their_front(self):
+        points = [(1, 5), (2, 6), (3, 2), (9, 1)]
+        self.assertEqual(median_attainment([points] * 4), pareto_front(points))
+
+
+class ErrorTime(Plots):
+    def test_every_technique_stands_at_its_cost_and_error_in_three_plots(self):
+        main([str(self.error_time() / "error_time.csv")])
+        svg = Svg(self.folder / "error_time_near.svg")
+        for panel, factor in enumerate(FACTORS):
+            self.assert_at(svg, panel, "pack's levels", [(2, 0.4 * factor), (3, 0.2 * factor), (5, 0.1 * factor)])
+            self.assert_at(svg, panel, "the same, worst pose",
+                           [(2, 0.8 * factor), (3, 0.4 * factor), (5, 0.2 * factor)])
+            self.assert_at(svg, panel, "one pass, LODs", [(2.5, 0.5 * factor), (4, 0.3 * factor)])
+        words = svg.texts()
+        for label in ("mesh 0", "mesh 1", "mesh 2", "5k", "7k", "9k", "two-pass 1024"):
+            self.assertEqual(words.count(label), 3, label)
+        for title in ("Silhouette", "Geometric", "Colour"):
+            self.assertEqual(words.count(f"{title} error: Cat, near set-up"), 1)
+        self.assertNotIn("floor", words)
+        self.assertNotIn("new", words)
+
+    def test_what_is_not_on_its_familys_front_is_faint_and_not_on_the_line(self):
+        main([str(self.error_time() / "error_time.csv")])
+        svg = Svg(self.folder / "error_time_near.svg")
+        self.assert_at(svg, 0, "one pass, LODs/more", [(2.9, 0.6)])
+        self.assertEqual(len(svg.line("panel0/one pass, LODs")), 2)
+        self.assertEqual(svg.line("panel0/one pass, LODs/more"), [])
+        opacities = {use.get("style") for use in svg.groups["panel0/one pass, LODs/more"].iter()
+                     if use.tag.endswith("use")}
+        self.assertTrue(all("fill-opacity: 0.3" in style for style in opacities), opacities)
+
+    def test_a_two_pass_picture_that_another_eye_image_betters_is_left_out(self):
+        main([str(self.error_time() / "error_time.csv")])
+        svg = Svg(self.folder / "error_time_near.svg")
+        self.assert_at(svg, 0, "two-pass, full mesh", [(9, 0.08)])
+        self.assertNotIn("two-pass 640", svg.texts())
+
+    def test_a_family_without_members_is_not_in_the_legend(self):
+        main([str(self.error_time() / "error_time.csv")])
+        words = Svg(self.folder / "error_time_near.svg").texts()
+        self.assertEqual(words.count("one pass, LODs"), 3)
+        self.assertNotIn("ray cast (reference)", words)
+
+    def test_the_limits_of_default_and_finest_level_are_lines_across(self):
+        main([str(self.error_time() / "error_time.csv")])
+        svg = Svg(self.folder / "error_time_near.svg")
+        self.assertEqual(svg.texts().count("default level's limit"), 3)
+        self.assertEqual(svg.texts().count("finest level's limit"), 3)
+        ticks = svg.ticks(0, 1)
+        for limit, words in ((0.25, "default level's limit"), (0.15, "finest level's limit")):
+            line = svg.line(f"panel0/{words}")
+            self.assertEqual(line[0][1], line[1][1])
+            share = math.log10(limit / 0.1) / math.log10(0.5 / 0.1)
+            self.assertAlmostEqual(line[0][1], ticks["0.1"] + (ticks["0.5"] - ticks["0.1"]) * share, delta=0.01)
+        self.assertNotIn("fine level's limit", svg.texts())
+
+    def test_a_table_of_two_pass_alone_is_drawn_beside_it(self):
+        folder = self.error_time()
+        (folder / "error_time.csv").rename(folder / "two_pass_near_1000000.csv")
+        main([str(folder / "two_pass_near_1000000.csv")])
+        words = Svg(folder / "two_pass_near_1000000.svg").texts()
+        self.assertIn("Colour error: Built-in amphora, 1000000 triangles, near set-up", words)
+
+    def test_the_sheet_of_all_has_a_row_for_each_set_up_and_names_the_artifacts(self):
+        cat = self.error_time("cat", ("near", "kiosk"))
+        skull = self.error_time("skull", title="Skull & <bones>")
+        out = self.folder / "all.svg"
+        main(["--overall", str(out), str(cat), str(skull)])
+        svg = Svg(out)
+        words = svg.texts()
+        self.assertEqual(words.count("Error against cost, 2 artifacts"), 1)
+        self.assertEqual(words.count("Artifacts: Cat, Skull & <bones>."), 1)
+        self.assertEqual(sum(", near set-up" in text for text in words), 3)
+        self.assertEqual(sum(", kiosk set-up" in text for text in words), 3)
+        self.assertEqual(words.count("pack's levels"), 1)  # one legend
+        self.assertEqual(words.count("better ↙"), 6)
+        levels = [(2, 0.4), (3, 0.2), (5, 0.1)]
+        self.assert_at(svg, 0, "pack's levels/more", levels + levels)
+        self.assert_at(svg, 3, "pack's levels/more", levels)
+        self.assert_at(svg, 0, "pack's levels", levels)
+        self.assertEqual(len(svg.line("panel0/pack's levels")), 5)  # stepped
+        main(["--overall", str(out), str(skull)])
+        self.assertIn("Error against cost, 1 artifact", Svg(out).texts())
+
+
+class OtherTables(Plots):
+    def test_scaling_has_three_lines_over_the_sources_size(self):
+        rows = [{"source_triangles": triangles, "times_floor": cost * k, "mean_geometric_mm": 0.01 * k}
+                for triangles, cost in ((10_000, 1.5), (1_000_000, 2.0)) for k in (1, 2, 3)]
+        write_table(self.folder / "scaling_near.csv", rows)
+        main([str(self.folder / "scaling_near.csv")])
+        svg = Svg(self.folder / "scaling_near.svg")
+        self.assert_at(svg, 0, "default level", [(1e4, 1.5), (1e6, 2.0)])
+        self.assert_at(svg, 0, "two-pass, full mesh", [(1e4, 4.5), (1e6, 6.0)])
+        self.assert_at(svg, 1, "finest level", [(1e4, 0.02), (1e6, 0.02)])
+        for label in ("1.50 x", "2.00 x", "6.00 x"):
+            self.assertEqual(svg.texts().count(label), 1, label)
+
+    def test_latency_has_a_plot_for_each_tracker_and_dashes_what_does_not_predict(self):
+        rows = [{"source": tracker, "contestant": contestant, "motion": motion, "speed_m_s": 0.25,
+                 "latency_ms": latency, "rms_mm": 0.1 * latency}
+                for tracker in ("PATRIOT", "VIPER") for contestant in ("exhibit", "exhibit, predicted")
+                for motion in ("latency", "strokes") for latency in (20, 60)]
+        write_table(self.folder / "latency.csv", rows)
+        main([str(self.folder / "latency.csv")])
+        svg = Svg(self.folder / "latency.svg")
+        for panel in (0, 1):
+            self.assert_at(svg, panel, "exhibit", [(20, 2.0), (60, 6.0)], log=False)
+            self.assertIn("stroke-dasharray", svg.style(f"panel{panel}/exhibit"))
+            self.assertNotIn("stroke-dasharray", svg.style(f"panel{panel}/exhibit, predicted"))
+        self.assertIn("VIPER, strokes at 0.25 m/s", svg.texts())
+
+    def test_step_errors_have_a_plot_for_each_unit_and_an_exact_zero_its_place(self):
+        rows = [{"what": what, "step": step, "step_unit": unit, "error": error}
+                for what, unit in (("exact", "time constants"), ("governor", "s"))
+                for step, error in ((0.1, 0), (10, 0.5))]
+        write_table(self.folder / "step_error.csv", rows)
+        main([str(self.folder / "step_error.csv")])
+        svg = Svg(self.folder / "step_error.svg")
+        self.assert_at(svg, 0, "exact", [(0.1, 1e-18), (10, 0.5)])
+        self.assert_at(svg, 1, "governor", [(0.1, 1e-18), (10, 0.5)])
+        self.assertEqual(svg.texts().count("all of it"), 1)
+
+
+class Panels(Plots):
+    def test_points_that_the_axes_cannot_show_are_left_out(self):
+        nan, inf = math.nan, math.inf
+        svg = self.drawn([Panel("t", "x", "y", [Series("s", [(0, 1), (1, -1), (nan, 1), (1, nan), (1, inf), (1, 1)])])])
+        self.assertEqual(len(svg.marks("panel0/s")), 1)
+
+    def test_what_lies_below_the_least_of_the_axis_is_drawn_there(self):
+        panel = Panel("t", "x", "y", [Series("s", [(1, 1), (2, 0.001), (3, 1e-7), (4, 0)])], y_least=0.001)
+        svg = self.drawn([panel])
+        self.assert_at(svg, 0, "s", [(1, 1), (2, 0.001), (3, 0.001), (4, 0.001)])
+        self.assertIn("≤ 0.001", svg.texts())
+        panel.series[0].points = panel.series[0].points[:1]
+        self.assertNotIn("≤ 0.001", self.drawn([panel]).texts())  # nothing lies there
+
+    def test_any_words_are_text(self):
+        words = "Error & cost <\"quoted\"> $x^2$"
+        svg = self.drawn([Panel(words, words, words, [Series(words, [(1, 1, words)])], [(2, words)])])
+        self.assertEqual(svg.texts().count(words), 6)
+
+    def test_an_empty_plot_is_still_a_picture(self):
+        for log in (False, True):
+            self.assertIn("nothing", self.drawn([Panel("nothing", "x", "y", log=log)]).texts())
+        save_sheet(self.folder / "none.svg", "none", [], 3, [])
+        self.assertIn("none", Svg(self.folder / "none.svg").texts())
+
+    def test_labels_of_crowded_points_do_not_overlap(self):
+        words = "a label of some length"
+        points = [(1 + 0.01 * k, 1 + 0.005 * k, words) for k in range(12)] + [(10, 10)]
+        places = self.drawn([Panel("crowd", "x", "y", [Series("s", points)])]).place_of_texts(words)
+        self.assertGreaterEqual(len(places), 6)  # what finds no place is left out
+        for a in range(len(places)):
+            for b in range(a):
+                away = [abs(p - q) for p, q in zip(places[a], places[b])]
+                self.assertTrue(away[0] > 22 * 5 or away[1] > 11, (places[a], places[b]))  # 5 px a letter at least
+
+    def test_the_same_panels_give_the_same_bytes(self):
+        panel = Panel("t", "x", "y", [Series("s", [(1, 1, "a"), (2, 2, "b")], mark="s", dashed=True)], [(1.5, "limit")])
+        files = [self.folder / "one.svg", self.folder / "two.svg"]
+        for file in files:
+            save_column(file, [panel])
+        self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
+        self.assertEqual(len(list(self.folder.iterdir())), 2)  # no part of a file stays
+
+
+class WhatIsBroken(Plots):
+    def assert_said(self, arguments, words):
+        with self.assertRaisesRegex(Failure, words) as caught:
+            main([str(argument) for argument in arguments])
+        self.assertNotIn("\n", str(caught.exception))
+
+    def test_a_table_that_is_none_is_one_line(self):
+        folder = self.error_time()
+        table = folder / "error_time.csv"
+        good = table.read_text()
+        self.assert_said([folder / "other.csv"], "no table that is drawn")
+        self.assert_said([folder / "latency.csv"], "latency.csv: No such file")
+        for column in ("kind", "times_floor", "mean_rmse_16_rays", "best_eye_image"):
+            table.write_text(good.replace(column, "_", 1))
+            self.assert_said([table], "error_time.csv: .*measure again")
+        table.write_text(good.replace("2.0", "two", 1))
+        self.assert_said([table], "error_time.csv: .*measure again")
+        table.write_text("")
+        self.assert_said([table], "holds no rows")
+        table.write_bytes(b"\xff\xfe\n\n")
+        self.assert_said([table], "error_time.csv: .*measure again")
+
+    def test_a_report_without_a_title_is_one_line(self):
+        folder = self.error_time()
+        for text in ("", "{", "[]", "null", "{}"):
+            (folder / "error_time.json").write_text(text)
+            self.assert_said(["--overall", folder / "all.svg", folder], "error_time.json: .*measure again")
+
+    def test_without_matplotlib_the_package_is_named_and_the_table_stays(self):
+        table = self.error_time() / "error_time.csv"
+        (self.folder / "matplotlib.py").write_text("raise ImportError('none')\n")
+        done = subprocess.run([PLOTS / "draw_plots.py", table], capture_output=True, text=True, check=False,
+                              env=os.environ | {"PYTHONPATH": str(self.folder), "PYTHONDONTWRITEBYTECODE": "1"})
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\A.*python3-matplotlib.*\n\Z")
+        self.assertTrue(table.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
