@@ -74,7 +74,7 @@ TEST_F(PeerMeshes, ASimplifiedMeshLiesWithinTheSimplifiersError) {
         EXPECT_GT(level.mesh.triangles.size(), level.target / 2);
         const auto peer = PeerMesh::upload(level.mesh, glm::dmat4(1.0));
         ASSERT_TRUE(peer);
-        const auto drawn = make_full_mesh(stage_, **peer, "LOD");
+        const auto drawn = make_full_mesh(stage_, *peer, "LOD");
         ASSERT_TRUE(drawn);
         EXPECT_EQ((*drawn)->name(), "LOD");
         for (const BenchPose& pose : poses_) {
@@ -131,7 +131,7 @@ TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
         const auto truth = Truth::build(mesh_, glm::dmat4(1.0));
         const auto peer = PeerMesh::upload(*mesh_, glm::dmat4(1.0));
         ASSERT_TRUE(peer && truth);
-        const auto drawn = make_full_mesh(stage_, **peer);
+        const auto drawn = make_full_mesh(stage_, *peer);
         ASSERT_TRUE(drawn);
         for (const BenchPose& pose : poses_) {
             const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), false);

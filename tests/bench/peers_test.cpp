@@ -11,11 +11,11 @@ class Peers : public DrawnNear {
 protected:
     std::shared_ptr<SourceMesh> mesh_ = ring();
     Truth truth_ = Truth::build(mesh_, glm::dmat4(1.0)).value();
-    std::unique_ptr<PeerMesh> peer_ = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
+    std::shared_ptr<const PeerMesh> peer_ = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
 };
 
 TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
-    auto full = make_full_mesh(stage_, *peer_);
+    auto full = make_full_mesh(stage_, peer_);
     ASSERT_TRUE(full);
     const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 5);
     ASSERT_TRUE(poses);
@@ -32,8 +32,8 @@ TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
 TEST_F(Peers, TwoPassesComeNearerToTheRayCastWithALargerEyeImage) {
     const auto poses = draw_poses(stage_.settings, stage_.prop, 4, 6);
     ASSERT_TRUE(poses);
-    auto coarse = make_two_pass(stage_, *peer_, 128);
-    auto fine = make_two_pass(stage_, *peer_, 1024);
+    auto coarse = make_two_pass(stage_, peer_, 128);
+    auto fine = make_two_pass(stage_, peer_, 1024);
     ASSERT_TRUE(coarse && fine);
     for (const BenchPose& pose : *poses) {
         const TruthPicture truth = ray_cast(truth_, pose);

@@ -121,7 +121,7 @@ protected:
         const Stage stage{near_settings(), make_prop({}), (*display)->framebuffer()};
         auto mesh = std::make_shared<SourceMesh>(*ring());
         auto peer = PeerMesh::upload(*mesh, glm::dmat4(1.0));
-        auto full = make_full_mesh(stage, **peer);
+        auto full = make_full_mesh(stage, *peer);
         (*full)->draw(drawn);
         const Image8 picture = read_colour(stage.framebuffer, 640, 400);
         const VisitorScene scene = scene_of(stage.settings, stage.prop, stands);

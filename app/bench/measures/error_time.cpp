@@ -3,6 +3,7 @@
 #include "app/bench/measures/side_by_side.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace frustumscreen {
 
@@ -57,51 +58,38 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
                             const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
                             const StepProgress& progress) {
     progress(set_up.name + ": meshes", 0.0);
-    Result<std::unique_ptr<TechniqueSet>> opened = TechniqueSet::open(set_up);
+    std::vector<std::uint32_t> levels(pack.levels.size());
+    std::iota(levels.begin(), levels.end(), 0U);
+    Result<Comparison> opened =
+        open_comparison(set_up, pack, levels, mesh, {options.picture, options.poses, options.seed});
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }
-    TechniqueSet& set = **opened;
-    Result<std::vector<BenchPose>> poses =
-        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
-    const glm::dmat4 prop_from_artifact = place(pack, set.stage().prop).prop_from_artifact;
-    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
-    Result<void> ready;
-    for (std::uint32_t level = 0; ready && level < pack.levels.size(); ++level) {
-        ready = set.add_level(pack, level, options.picture);
-    }
-    if (ready) {
-        ready = add_peers(set, *mesh, *truth, prop_from_artifact, options.peers);
-    }
+    auto& [set, poses, truth, prop_from_artifact] = *opened;
+    Result<void> ready = add_peers(*set, *mesh, truth, prop_from_artifact, options.peers);
     progress(set_up.name + ": meshes", 1.0);
     progress(set_up.name + ": errors", 0.0);
     if (ready) {
-        ready = set.measure_errors(*truth, *poses, 0,
-                                   [&](double done) { progress(set_up.name + ": errors", done); });
+        ready = set->measure_errors(truth, poses, 0,
+                                    [&](double done) { progress(set_up.name + ": errors", done); });
     }
     if (!ready) {
         return tl::unexpected<Error>(ready.error());
     }
     progress(set_up.name + ": times", 0.0);
-    set.measure_times(*poses, rounds_of(options),
-                      [&](double done) { progress(set_up.name + ": times", done); });
+    set->measure_times(poses, rounds_of(options),
+                       [&](double done) { progress(set_up.name + ": times", done); });
     const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
-    SetUpResult result{set_up.name, set.driver(), pack.default_level, finest, {}, set.results(), {}};
+    SetUpResult result{set_up.name, set->driver(), pack.default_level, finest, {}, set->results(), {}};
     for (const auto& [name, level] :
          {std::pair("default", pack.default_level), std::pair("finest", finest)}) {
-        Result<Image8> picture = worst_picture(set, *truth, *poses, level);
+        Result<Image8> picture = worst_picture(*set, truth, poses, level);
         if (!picture) {
             return tl::unexpected<Error>(picture.error());
         }
         result.worst.emplace_back(name, std::move(*picture));
     }
-    result.poses = std::move(*poses);
+    result.poses = std::move(poses);
     return result;
 }
 

@@ -124,26 +124,19 @@ private:
 Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
                                  const std::shared_ptr<const SourceMesh>& mesh,
                                  const ProjectionOptions& options, const StepProgress& progress) {
-    Result<std::unique_ptr<TechniqueSet>> opened = open_default_and_finest(set_up, pack, options.picture);
+    Result<Comparison> opened = open_comparison(set_up, pack, default_and_finest(pack), mesh,
+                                                {options.picture, options.poses, options.seed});
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }
-    TechniqueSet& set = **opened;
-    Result<std::vector<BenchPose>> poses =
-        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
-    const Result<Truth> truth = Truth::build(mesh, place(pack, set.stage().prop).prop_from_artifact);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
-    ProjectionResult result{set_up.name, std::move(*poses), {}, {}};
+    TechniqueSet& set = *opened->set;
+    const Truth& truth = opened->truth;
+    ProjectionResult result{set_up.name, std::move(opened->poses), {}, {}};
     double worst_percent = std::numeric_limits<double>::infinity();
     for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
         const BenchPose& at = result.poses[pose];
-        Judge judge(*truth, scene_of(set.stage(), at));
-        const TruthPicture cast = truth->cast(set.stage().prop, view_of(set.stage().settings, at), true);
+        Judge judge(truth, scene_of(set.stage(), at));
+        const TruthPicture cast = truth.cast(set.stage().prop, view_of(set.stage().settings, at), true);
         const auto add = [&](ProjectionRow row, const std::string& technique, int level) {
             row.technique = technique;
             row.level = level;

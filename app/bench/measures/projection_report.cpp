@@ -1,3 +1,4 @@
+#include "app/bench/measures/csv_fields.h"
 #include "app/bench/measures/projection.h"
 
 #include <fmt/format.h>
@@ -90,22 +91,18 @@ std::vector<Verdict> judge(const ProjectionResult& result) {
 
 std::string projection_csv(std::span<const ProjectionResult> results) {
     std::string csv =
-        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,technique,width,height,least_span_px,"
-        "prop_pixels,right_percent,artifact_pixels,artifact_right_percent,right_16_rays_percent,"
-        "artifact_right_16_rays_percent\n";
+        fmt::format("set_up,pose,{},technique,width,height,least_span_px,prop_pixels,right_percent,"
+                    "artifact_pixels,artifact_right_percent,right_16_rays_percent,"
+                    "artifact_right_16_rays_percent\n",
+                    pose_columns);
     for (const ProjectionResult& result : results) {
         for (const ProjectionRow& row : result.rows) {
-            const BenchPose& pose = result.poses[static_cast<std::size_t>(row.pose)];
-            const RigidTransform& prop = pose.table_from_prop;
-            csv += fmt::format("{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{},{:.4f},{},{:."
-                               "4f},{},{:.4f},{:.4f},"
-                               "{:.4f}\n",
-                               result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
-                               prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z, row.technique,
-                               row.size_px.x, row.size_px.y, row.least_span_px, row.one_ray.prop_pixels,
-                               row.one_ray.prop_percent(), row.one_ray.artifact_pixels,
-                               row.one_ray.artifact_percent(), row.sixteen_rays.prop_percent(),
-                               row.sixteen_rays.artifact_percent());
+            csv += fmt::format("{},{},{},{},{},{},{:.4f},{},{:.4f},{},{:.4f},{:.4f},{:.4f}\n", result.name,
+                               row.pose, pose_fields(result.poses[static_cast<std::size_t>(row.pose)]),
+                               row.technique, row.size_px.x, row.size_px.y, row.least_span_px,
+                               row.one_ray.prop_pixels, row.one_ray.prop_percent(),
+                               row.one_ray.artifact_pixels, row.one_ray.artifact_percent(),
+                               row.sixteen_rays.prop_percent(), row.sixteen_rays.artifact_percent());
         }
     }
     return csv;

@@ -1,5 +1,6 @@
 #include "app/bench/measures/report.h"
 
+#include "app/bench/measures/csv_fields.h"
 #include "app/bench/measures/dominance.h"
 
 #include <fmt/format.h>
@@ -64,15 +65,6 @@ nlohmann::json json_of(std::span<const Verdict> verdicts) {
     return json;
 }
 
-/// RFC 4180: a field that may hold commas.
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        result += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return result + "\"";
-}
-
 } // namespace
 
 std::string summary_csv(std::span<const SetUpResult> results) {
@@ -119,8 +111,7 @@ std::string limits_csv() {
 }
 
 std::string poses_csv(std::span<const SetUpResult> results) {
-    std::string csv =
-        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,technique,truth_pixels,outline_pixels";
+    std::string csv = fmt::format("set_up,pose,{},technique,truth_pixels,outline_pixels", pose_columns);
     for (const Figure& figure : figures) {
         csv += fmt::format(",{}", figure.name);
     }
@@ -128,12 +119,9 @@ std::string poses_csv(std::span<const SetUpResult> results) {
     for (const SetUpResult& result : results) {
         for (const TechniqueResult& technique : result.techniques) {
             for (std::size_t k = 0; k < technique.errors.size(); ++k) {
-                const BenchPose& pose = result.poses[k];
-                const RigidTransform& prop = pose.table_from_prop;
-                csv += fmt::format("{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{}",
-                                   result.name, k, prop.translation.x, prop.translation.y, prop.rotation.w,
-                                   prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z, technique.name,
-                                   technique.errors[k].truth_pixels, technique.errors[k].outline_pixels);
+                csv += fmt::format("{},{},{},{},{},{}", result.name, k, pose_fields(result.poses[k]),
+                                   technique.name, technique.errors[k].truth_pixels,
+                                   technique.errors[k].outline_pixels);
                 for (const Figure& figure : figures) {
                     csv += fmt::format(",{:.6f}", figure.of(technique.errors[k]));
                 }

@@ -34,22 +34,15 @@ void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& option
 Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
                               const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
                               const StepProgress& progress) {
-    Result<std::unique_ptr<TechniqueSet>> set = open_default_and_finest(set_up, pack, options.picture);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
+    Result<Comparison> opened = open_comparison(set_up, pack, default_and_finest(pack), mesh,
+                                                {options.picture, options.poses, options.seed});
+    if (!opened) {
+        return tl::unexpected<Error>(opened.error());
     }
-    const PropShape& prop = (*set)->stage().prop;
-    Result<std::vector<BenchPose>> poses = draw_poses(set_up.settings, prop, options.poses, options.seed);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
-    const Result<Truth> truth = Truth::build(mesh, place(pack, prop).prop_from_artifact);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
-    ShimmerResult result{set_up.name, std::move(*poses), {}, {}};
+    ShimmerResult result{set_up.name, std::move(opened->poses), {}, {}};
     measure(
-        **set, *truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); }, result);
+        *opened->set, opened->truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); },
+        result);
     return result;
 }
 

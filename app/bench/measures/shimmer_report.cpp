@@ -1,3 +1,4 @@
+#include "app/bench/measures/csv_fields.h"
 #include "app/bench/measures/shimmer.h"
 
 #include <fmt/format.h>
@@ -67,20 +68,16 @@ std::vector<Verdict> judge(const ShimmerResult& result) {
 
 std::string shimmer_csv(std::span<const ShimmerResult> results) {
     std::string csv =
-        "set_up,pose,px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m,direction,technique,judged_pixels,"
-        "rms,q999,rms_1_ray,q999_1_ray,rms_16_rays,q999_16_rays,rms_ratio,q999_ratio,excess_pixels\n";
+        fmt::format("set_up,pose,{},direction,technique,judged_pixels,rms,q999,rms_1_ray,q999_1_ray,"
+                    "rms_16_rays,q999_16_rays,rms_ratio,q999_ratio,excess_pixels\n",
+                    pose_columns);
     for (const ShimmerResult& result : results) {
         for (const ShimmerRow& row : result.rows) {
-            const BenchPose& pose = result.poses[static_cast<std::size_t>(row.pose)];
-            const RigidTransform& prop = pose.table_from_prop;
-            csv += fmt::format(
-                "{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f},{},{},{},{:.4f},{:.4f},{:.4f},"
-                "{:.4f},",
-                result.name, row.pose, prop.translation.x, prop.translation.y, prop.rotation.w,
-                prop.rotation.z, pose.eye_m.x, pose.eye_m.y, pose.eye_m.z,
-                row.direction == PushDirection::Row ? "row" : "column", row.technique,
-                row.shimmer.judged_pixels, row.shimmer.drawn.rms, row.shimmer.drawn.q999,
-                row.shimmer.one_ray.rms, row.shimmer.one_ray.q999);
+            csv += fmt::format("{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},", result.name, row.pose,
+                               pose_fields(result.poses[static_cast<std::size_t>(row.pose)]),
+                               row.direction == PushDirection::Row ? "row" : "column", row.technique,
+                               row.shimmer.judged_pixels, row.shimmer.drawn.rms, row.shimmer.drawn.q999,
+                               row.shimmer.one_ray.rms, row.shimmer.one_ray.q999);
             csv += row.shimmer.sixteen_rays ? fmt::format("{:.4f},{:.4f},", row.shimmer.sixteen_rays->rms,
                                                           row.shimmer.sixteen_rays->q999)
                                             : std::string(",,");

@@ -1,6 +1,6 @@
 #include "app/bench/measures/technique_set.h"
 
-#include "app/bench/techniques/floor_technique.h"
+#include "app/bench/techniques/floor.h"
 #include "app/bench/techniques/level_of_detail.h"
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
@@ -59,7 +59,7 @@ Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
     const unsigned framebuffer = (*display)->framebuffer();
     std::unique_ptr<TechniqueSet> set(new TechniqueSet(
         std::move(*display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
-    Result<void> added = set->add(make_floor_technique(set->stage_), described(TechniqueKind::Floor, -1, 0));
+    Result<void> added = set->add(make_floor(set->stage_), described(TechniqueKind::Floor, -1, 0));
     if (!added) {
         return tl::unexpected<Error>(added.error());
     }
@@ -87,28 +87,19 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));
 }
 
-Result<const PeerMesh*> TechniqueSet::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
-    Result<std::unique_ptr<PeerMesh>> uploaded = PeerMesh::upload(mesh, prop_from_artifact);
-    if (!uploaded) {
-        return tl::unexpected<Error>(uploaded.error());
-    }
-    meshes_.push_back(std::move(*uploaded));
-    return meshes_.back().get();
-}
-
 Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                      bool full_mesh, const std::vector<int>& two_pass_pixels) {
-    const Result<const PeerMesh*> peer = upload(mesh, prop_from_artifact);
+    const auto peer = PeerMesh::upload(mesh, prop_from_artifact);
     if (!peer) {
         return tl::unexpected<Error>(peer.error());
     }
     const std::uint64_t triangles = mesh.triangles.size();
     Result<void> added;
     if (full_mesh) {
-        added = add(make_full_mesh(stage_, **peer), described(TechniqueKind::FullMesh, -1, triangles));
+        added = add(make_full_mesh(stage_, *peer), described(TechniqueKind::FullMesh, -1, triangles));
     }
     for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
-        added = add(make_two_pass(stage_, **peer, two_pass_pixels[k]),
+        added = add(make_two_pass(stage_, *peer, two_pass_pixels[k]),
                     described(TechniqueKind::TwoPass, -1, triangles));
     }
     return added;
@@ -125,15 +116,15 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
     for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
         const std::string name = fmt::format("LOD {}k", level.target / 1000);
         const std::uint64_t triangles = level.mesh.triangles.size();
-        const Result<const PeerMesh*> peer = upload(level.mesh, prop_from_artifact);
+        const auto peer = PeerMesh::upload(level.mesh, prop_from_artifact);
         if (!peer) {
             return tl::unexpected<Error>(peer.error());
         }
         if (choice.lod) {
-            added = add(make_full_mesh(stage_, **peer, name), described(TechniqueKind::Lod, -1, triangles));
+            added = add(make_full_mesh(stage_, *peer, name), described(TechniqueKind::Lod, -1, triangles));
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
-            added = add(make_two_pass(stage_, **peer, choice.eye_pixels[k], name),
+            added = add(make_two_pass(stage_, *peer, choice.eye_pixels[k], name),
                         described(TechniqueKind::TwoPassLod, -1, triangles));
         }
         if (!added) {
@@ -206,21 +197,35 @@ void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds
     }
 }
 
-Result<std::unique_ptr<TechniqueSet>> open_default_and_finest(const SetUp& set_up, const Pack& pack,
-                                                              const PictureOptions& options) {
+Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
+                                   std::span<const std::uint32_t> levels,
+                                   const std::shared_ptr<const SourceMesh>& mesh,
+                                   const ComparisonOptions& options) {
     Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
     if (!set) {
-        return set;
+        return tl::unexpected<Error>(set.error());
     }
+    const PropShape& prop = (*set)->stage().prop;
+    Result<std::vector<BenchPose>> poses = draw_poses(set_up.settings, prop, options.poses, options.seed);
+    if (!poses) {
+        return tl::unexpected<Error>(poses.error());
+    }
+    const glm::dmat4 prop_from_artifact = place(pack, prop).prop_from_artifact;
+    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
+    if (!truth) {
+        return tl::unexpected<Error>(truth.error());
+    }
+    for (const std::uint32_t level : levels) {
+        if (const Result<void> added = (*set)->add_level(pack, level, options.picture); !added) {
+            return tl::unexpected<Error>(added.error());
+        }
+    }
+    return Comparison{std::move(*set), std::move(*poses), std::move(*truth), prop_from_artifact};
+}
+
+std::vector<std::uint32_t> default_and_finest(const Pack& pack) {
     const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
-    Result<void> added = (*set)->add_level(pack, pack.default_level, options);
-    if (added && finest != pack.default_level) {
-        added = (*set)->add_level(pack, finest, options);
-    }
-    if (!added) {
-        return tl::unexpected<Error>(added.error());
-    }
-    return set;
+    return pack.default_level == finest ? std::vector{finest} : std::vector{pack.default_level, finest};
 }
 
 } // namespace frustumscreen

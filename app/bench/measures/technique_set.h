@@ -13,6 +13,7 @@
 #include "firmware_host/display/display.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -89,19 +90,31 @@ public:
 private:
     TechniqueSet(std::unique_ptr<Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
-    [[nodiscard]] Result<const PeerMesh*> upload(const SourceMesh& mesh,
-                                                 const glm::dmat4& prop_from_artifact);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;
-    std::vector<std::unique_ptr<PeerMesh>> meshes_;
     std::vector<std::unique_ptr<Technique>> techniques_;
     std::vector<TechniqueResult> results_; ///< one each technique
 };
 
-/// The floor, the pack's default level and, where it is another, its finest. The pack must outlive the set.
-[[nodiscard]] Result<std::unique_ptr<TechniqueSet>>
-open_default_and_finest(const SetUp& set_up, const Pack& pack, const PictureOptions& options);
+/// What a measurement of one pack starts from. The pack must outlive it.
+struct Comparison {
+    std::unique_ptr<TechniqueSet> set; ///< the floor and levels of the pack
+    std::vector<BenchPose> poses;
+    Truth truth;
+    glm::dmat4 prop_from_artifact{1.0};
+};
+struct ComparisonOptions {
+    PictureOptions picture;
+    int poses = 50;
+    std::uint64_t seed = 1;
+};
+[[nodiscard]] Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
+                                                 std::span<const std::uint32_t> levels,
+                                                 const std::shared_ptr<const SourceMesh>& mesh,
+                                                 const ComparisonOptions& options);
+/// The default level and, where it is another, the finest.
+[[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
 
 } // namespace frustumscreen

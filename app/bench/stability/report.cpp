@@ -1,7 +1,8 @@
 #include "app/bench/stability/report.h"
 
+#include "app/bench/measures/csv_fields.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,14 +13,6 @@ namespace {
 
 std::string_view verdict(const StabilityRow& row) {
     return row.held() ? "held" : "MISSED";
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        result += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return result + "\"";
 }
 
 } // namespace
@@ -64,24 +57,6 @@ std::string stability_csv(std::span<const MeasuredCase> cases) {
         }
     }
     return csv;
-}
-
-std::string stability_json(std::span<const MeasuredCase> cases) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const MeasuredCase& one : cases) {
-        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-        for (const StabilityRow& row : one.result.rows) {
-            rows.push_back({{"quantity", row.quantity},
-                            {"bound", row.bound},
-                            {"observed", row.observed},
-                            {"held", row.held()}});
-        }
-        list.push_back({{"theme", one.theme}, {"case", one.name}, {"rows", rows}});
-        if (!one.result.left_out.empty()) {
-            list.back()["left_out"] = one.result.left_out;
-        }
-    }
-    return nlohmann::ordered_json{{"all_held", all_held(cases)}, {"cases", list}}.dump(2) + "\n";
 }
 
 std::string step_error_csv(std::span<const StepError> smoothers, std::span<const StepError> program) {

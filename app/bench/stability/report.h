@@ -1,4 +1,4 @@
-/// What the stability cases found, as a table for the console, CSV and JSON.
+/// What the stability cases found, as a table for the console and CSV.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -20,7 +20,6 @@ struct MeasuredCase {
 /// case, quantity, bound, observed, verdict; and a line that counts them.
 [[nodiscard]] std::string stability_table(std::span<const MeasuredCase> cases);
 [[nodiscard]] std::string stability_csv(std::span<const MeasuredCase> cases);
-[[nodiscard]] std::string stability_json(std::span<const MeasuredCase> cases);
 
 [[nodiscard]] std::string step_error_csv(std::span<const StepError> smoothers,
                                          std::span<const StepError> program);

@@ -25,8 +25,8 @@ StabilityResult measure(const StabilityCase& which, const StabilityOptions& opti
         for (const int kind : {FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW}) {
             raised += std::fetestexcept(kind) != 0 ? 1.0 : 0.0;
         }
-        StabilityRow row{"kinds of floating-point exceptions raised", 0.0, raised}; // g++ 12 warns of less
-        result.rows.push_back(std::move(row));
+        const StabilityRow row{"kinds of floating-point exceptions raised", 0.0, raised};
+        result.rows.push_back(row); // moved, g++ 12 takes the string's end for out of bounds
     }
     return result;
 }

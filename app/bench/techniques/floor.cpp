@@ -1,11 +1,13 @@
 #include "app/bench/techniques/floor.h"
 
+#include "app/bench/techniques/peer_gl.h"
 #include "app/image/image.h"
 #include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <array>
+#include <limits>
 #include <string_view>
 
 namespace frustumscreen {
@@ -47,58 +49,53 @@ GlTexture make_texture() {
     return texture;
 }
 
+class Floor final : public Technique {
+public:
+    Floor(const Stage& stage, GlProgram program) : stage_(stage), program_(std::move(program)) {
+        glUseProgram(program_.get());
+        glUniform1i(glGetUniformLocation(program_.get(), "colour"), 0);
+    }
+
+    [[nodiscard]] std::string name() const override { return "floor"; }
+    void draw(const BenchPose& pose) override {
+        const PeerView view = peer_view(stage_, pose);
+        begin_picture(stage_.framebuffer, stage_.width(), stage_.height());
+        glUseProgram(program_.get());
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, texture_.get());
+        glBindVertexArray(no_attributes_.get());
+        for (const PropFace* face : view.faces) {
+            std::array<glm::vec4, 4> corners{};
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const glm::dvec4 corner = view.clip_from_prop * glm::dvec4(face->corners[k], 1.0);
+                corners[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
+            }
+            glUniform4fv(corners_, 4, glm::value_ptr(corners[0]));
+            glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+        }
+        glBindVertexArray(0);
+    }
+    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose&) override {
+        return ImageFloat(stage_.width(), stage_.height(),
+                          glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    }
+
+private:
+    const Stage& stage_;
+    GlProgram program_;
+    GLint corners_ = glGetUniformLocation(program_.get(), "corners");
+    GlTexture texture_ = make_texture();
+    GlVertexArray no_attributes_ = GlVertexArray::generate();
+};
+
 } // namespace
 
-Result<Floor> Floor::create() {
+Result<std::unique_ptr<Technique>> make_floor(const Stage& stage) {
     Result<GlProgram> program = make_program("", vertex, fragment);
     if (!program) {
         return tl::unexpected<Error>(program.error());
     }
-    Floor floor;
-    floor.program_ = std::move(*program);
-    floor.corners_ = glGetUniformLocation(floor.program_.get(), "corners");
-    floor.texture_ = make_texture();
-    floor.no_attributes_ = GlVertexArray::generate();
-    glUseProgram(floor.program_.get());
-    glUniform1i(glGetUniformLocation(floor.program_.get(), "colour"), 0);
-    return floor;
-}
-
-int Floor::draw(const PropShape& prop, const PlanView& view, unsigned framebuffer) const {
-    const RigidTransform projector_from_prop = view.table_from_projector.inverse() * view.table_from_prop;
-    const glm::dmat4 clip_from_prop = view.projector.clip_from_point() * projector_from_prop.matrix();
-    const glm::dvec3 projector = projector_from_prop.inverse().translation;
-    const glm::dvec3 eye = view.table_from_prop.inverse().point(view.eyes_m[0]);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, view.projector.width, view.projector.height);
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_STENCIL_TEST);
-    glDisable(GL_CULL_FACE);
-    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
-    glClearDepthf(1.0F);
-    glClearStencil(0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    glUseProgram(program_.get());
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, texture_.get());
-    glBindVertexArray(no_attributes_.get());
-    int drawn = 0;
-    for (const PropFace& face : prop.faces) {
-        if (!(face.plane.distance(eye) > 0.0) || !(face.plane.distance(projector) > 0.0)) {
-            continue;
-        }
-        std::array<glm::vec4, 4> corners{};
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const glm::dvec4 corner = clip_from_prop * glm::dvec4(face.corners[k], 1.0);
-            corners[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
-        }
-        glUniform4fv(corners_, 4, glm::value_ptr(corners[0]));
-        glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
-        ++drawn;
-    }
-    glBindVertexArray(0);
-    return drawn;
+    return std::make_unique<Floor>(stage, std::move(*program));
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,7 @@
 #include "app/bench/techniques/peer_gl.h"
 
+#include "firmware_host/gl/gl_program.h"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -32,11 +34,39 @@ Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format)
     return target;
 }
 
-ImageFloat read_points(const OffscreenTarget& target) {
-    Image<glm::vec4> raw(target.width, target.height);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-    glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_FLOAT, raw.texels.data());
-    ImageFloat points(target.width, target.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+void begin_picture(GLuint framebuffer, int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, width, height);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glStencilMask(0xFF);
+    for (const GLenum off : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) {
+        glDisable(off);
+    }
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
+                                     std::string_view fragment) {
+    OutputPrograms programs;
+    for (const Output output : {Output::Colour, Output::Point}) {
+        Result<GlProgram> program =
+            make_program(defines + (output == Output::Point ? "#define POINT\n" : ""), vertex, fragment);
+        if (!program) {
+            return tl::unexpected<Error>(program.error());
+        }
+        programs[static_cast<std::size_t>(output)] = std::move(*program);
+    }
+    return programs;
+}
+
+Result<ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
+    draw_into(points_.framebuffer.get(), pose, Output::Point);
+    Image<glm::vec4> raw(points_.width, points_.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, points_.framebuffer.get());
+    glReadPixels(0, 0, raw.width, raw.height, GL_RGBA, GL_FLOAT, raw.texels.data());
+    ImageFloat points(raw.width, raw.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     for (std::size_t k = 0; k < raw.texels.size(); ++k) {
         if (raw.texels[k].a != 0.0F) {
             points.texels[k] = glm::vec3(raw.texels[k]);

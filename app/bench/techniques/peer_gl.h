@@ -9,6 +9,9 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -23,8 +26,35 @@ struct OffscreenTarget {
 };
 [[nodiscard]] Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format);
 
-/// The first three channels of a bound float target; NaN where the fourth is 0.
-[[nodiscard]] ImageFloat read_points(const OffscreenTarget& target);
+/// Binds and clears a picture, with every test and mask as a new context has it.
+void begin_picture(GLuint framebuffer, int width, int height);
+
+enum class Output { Colour, Point }; ///< Point: the hit's place in the prop's frame, alpha 1
+/// One program for each output; POINT is defined for points.
+using OutputPrograms = std::array<GlProgram, 2>;
+[[nodiscard]] Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
+                                                   std::string_view fragment);
+
+/// A technique that draws points as it draws colours, into a picture of their own.
+class PeerTechnique : public Technique {
+public:
+    [[nodiscard]] std::string name() const override { return name_; }
+    void draw(const BenchPose& pose) override { draw_into(stage_.framebuffer, pose, Output::Colour); }
+    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override;
+
+protected:
+    /// `points`: a float target of the stage's size.
+    PeerTechnique(const Stage& stage, std::string name, OffscreenTarget points)
+        : stage_(stage), name_(std::move(name)), points_(std::move(points)) {}
+    virtual void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) = 0;
+
+    const Stage& stage_;
+
+private:
+    std::string name_;
+    OffscreenTarget points_;
+};
+
 /// What a pose means for the peers' passes.
 struct PeerView {
     glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero

@@ -1,7 +1,6 @@
 #include "app/bench/techniques/peer_mesh.h"
 
 #include "app/bench/techniques/closed_mesh.h"
-#include "firmware_host/gl/gl_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -75,11 +74,16 @@ GlTexture upload_texture(const Image8& image, Wrap wrap_u, Wrap wrap_v) {
 
 } // namespace
 
-Result<std::unique_ptr<PeerMesh>> PeerMesh::upload(const SourceMesh& mesh,
-                                                   const glm::dmat4& prop_from_artifact) {
-    std::unique_ptr<PeerMesh> peer(new PeerMesh());
-    if (Result<void> made = peer->make_programs(); !made) {
-        return tl::unexpected<Error>(made.error());
+Result<std::shared_ptr<const PeerMesh>>
+PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside) {
+    std::shared_ptr<PeerMesh> peer(new PeerMesh());
+    for (std::size_t masked = 0; masked < 2; ++masked) {
+        Result<OutputPrograms> programs =
+            make_programs(masked == 1 ? "#define MASKED\n" : "", vertex_source, fragment_source);
+        if (!programs) {
+            return tl::unexpected<Error>(programs.error());
+        }
+        peer->programs_[masked] = std::move(*programs);
     }
     peer->array_ = GlVertexArray::generate();
     glBindVertexArray(peer->array_.get());
@@ -97,22 +101,9 @@ Result<std::unique_ptr<PeerMesh>> PeerMesh::upload(const SourceMesh& mesh,
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::Internal, "the driver cannot hold the source mesh with its textures");
     }
+    peer->closed_ =
+        peer->closed_ || from_outside; // the driver leaves out backs; planes stay as they were found
     return peer;
-}
-
-Result<void> PeerMesh::make_programs() {
-    for (std::size_t output = 0; output < 2; ++output) {
-        for (std::size_t masked = 0; masked < 2; ++masked) {
-            const std::string defines =
-                std::string(output == 1 ? "#define POINT\n" : "") + (masked == 1 ? "#define MASKED\n" : "");
-            Result<GlProgram> program = make_program(defines, vertex_source, fragment_source);
-            if (!program) {
-                return tl::unexpected<Error>(program.error());
-            }
-            programs_[output][masked] = std::move(*program);
-        }
-    }
-    return {};
 }
 
 std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
@@ -214,7 +205,7 @@ void PeerMesh::draw_part(const Part& part, const IndexRange& range, const glm::m
     if (range.count == 0) {
         return;
     }
-    const GLuint program = programs_[output == Output::Point ? 1 : 0][part.cutoff >= 0.0F ? 1 : 0].get();
+    const GLuint program = programs_[part.cutoff >= 0.0F ? 1 : 0][static_cast<std::size_t>(output)].get();
     glUseProgram(program);
     glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_prop"), 1, GL_FALSE, glm::value_ptr(clip));
     glUniform4fv(glGetUniformLocation(program, "base_colour"), 1, glm::value_ptr(part.base_colour));

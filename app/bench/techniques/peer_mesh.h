@@ -18,10 +18,9 @@ namespace frustumscreen {
 
 class PeerMesh {
 public:
-    enum class Output { Colour, Point }; ///< Point: prop-frame position, alpha 1
-
-    [[nodiscard]] static Result<std::unique_ptr<PeerMesh>> upload(const SourceMesh& mesh,
-                                                                  const glm::dmat4& prop_from_artifact);
+    /// `from_outside`: its triangles are only to be seen from outside, also where it is not closed.
+    [[nodiscard]] static Result<std::shared_ptr<const PeerMesh>>
+    upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside = false);
     /// Into the bound framebuffer with the state as it is, but for culling: the backs of a closed mesh are
     /// left out. `front`: GL_CCW, or GL_CW where the clip matrix mirrors (row 0 of the projector's picture is
     /// its top).
@@ -30,8 +29,6 @@ public:
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front, const VisibleParts& visible,
               std::size_t face) const;
     [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }
-    /// Also of a mesh that is not closed, if its triangles are only to be seen from outside.
-    void leave_out_backs() { closed_ = true; }
     [[nodiscard]] const Box& box() const { return box_; }
 
 private:
@@ -43,7 +40,6 @@ private:
     };
 
     PeerMesh() = default;
-    [[nodiscard]] Result<void> make_programs();
     /// Positions as they were uploaded.
     std::vector<glm::vec3> upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
     void upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m);
@@ -58,7 +54,7 @@ private:
     std::vector<Part> parts_;
     GlBuffer indices_;
     PeerTriangles triangles_;
-    std::array<std::array<GlProgram, 2>, 2> programs_; ///< [output][masked]
+    std::array<OutputPrograms, 2> programs_; ///< [masked]
 };
 
 } // namespace frustumscreen

@@ -5,7 +5,7 @@
 ///             square picture cropped to the prop, then that picture projected from the eye onto the prop's
 ///             faces.
 ///
-/// Threads  the one whose context is current; the mesh and stage must outlive the technique.
+/// Threads  the one whose context is current; the stage must outlive the technique.
 #pragma once
 
 #include "app/bench/techniques/peer_mesh.h"
@@ -15,10 +15,11 @@
 
 namespace frustumscreen {
 
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, const PeerMesh& mesh,
-                                                                std::string name = "full mesh");
+[[nodiscard]] Result<std::unique_ptr<Technique>>
+make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, std::string name = "full mesh");
 /// `eye_pixels`: side of the eye's picture. `of_mesh` follows its number in the name.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh,
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage,
+                                                               std::shared_ptr<const PeerMesh> mesh,
                                                                int eye_pixels, std::string of_mesh = "");
 
 } // namespace frustumscreen

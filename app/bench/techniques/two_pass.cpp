@@ -1,5 +1,4 @@
 #include "app/bench/techniques/peers.h"
-#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -118,67 +117,41 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
                                      depth));
 }
 
-struct Pictures {
-    OffscreenTarget eye_colours;
-    OffscreenTarget eye_points;
-    OffscreenTarget points; ///< the projector's
-};
-
-class TwoPass final : public Technique {
+class TwoPass final : public PeerTechnique {
 public:
-    TwoPass(const Stage& stage, const PeerMesh& mesh, std::string name, std::array<GlProgram, 2> project,
-            Pictures pictures)
-        : stage_(stage), mesh_(mesh), name_(std::move(name)), project_(std::move(project)),
-          pictures_(std::move(pictures)) {}
-
-    [[nodiscard]] std::string name() const override { return name_; }
-    void draw(const BenchPose& pose) override {
-        const PeerView view = peer_view(stage_, pose);
-        const glm::dmat4 eye = eye_clip(view, mesh_.box());
-        from_eye(pictures_.eye_colours, eye, PeerMesh::Output::Colour);
-        from_projector(stage_.framebuffer, project_[0].get(), view, eye);
-    }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
-        const PeerView view = peer_view(stage_, pose);
-        const glm::dmat4 eye = eye_clip(view, mesh_.box());
-        from_eye(pictures_.eye_colours, eye, PeerMesh::Output::Colour);
-        from_eye(pictures_.eye_points, eye, PeerMesh::Output::Point);
-        glUseProgram(project_[1].get());
-        glUniform1i(glGetUniformLocation(project_[1].get(), "eye_points"), 1);
-        const double texel_m = glm::distance(mesh_.box().low, mesh_.box().high) / pictures_.eye_points.width;
-        glUniform1f(glGetUniformLocation(project_[1].get(), "same_surface"),
-                    static_cast<float>(4.0 * texel_m));
-        glActiveTexture(GL_TEXTURE1);
-        glBindTexture(GL_TEXTURE_2D, pictures_.eye_points.colour.get());
-        from_projector(pictures_.points.framebuffer.get(), project_[1].get(), view, eye);
-        return read_points(pictures_.points);
-    }
+    TwoPass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, std::string name,
+            OutputPrograms project, std::array<OffscreenTarget, 2> eye, OffscreenTarget points)
+        : PeerTechnique(stage, std::move(name), std::move(points)), mesh_(std::move(mesh)),
+          project_(std::move(project)), eye_(std::move(eye)) {}
 
 private:
-    static void begin(GLuint framebuffer, int width, int height) {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        glViewport(0, 0, width, height);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        glDepthMask(GL_TRUE);
-        glStencilMask(0xFF);
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_STENCIL_TEST);
-        glDisable(GL_CULL_FACE);
-        glDisable(GL_BLEND);
-        glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
+        const PeerView view = peer_view(stage_, pose);
+        const glm::dmat4 eye = eye_clip(view, mesh_->box());
+        from_eye(eye_[0], eye, Output::Colour);
+        const GLuint program = project_[static_cast<std::size_t>(output)].get();
+        if (output == Output::Point) {
+            from_eye(eye_[1], eye, Output::Point);
+            glUseProgram(program);
+            glUniform1i(glGetUniformLocation(program, "eye_points"), 1);
+            const double texel_m = glm::distance(mesh_->box().low, mesh_->box().high) / eye_[1].width;
+            glUniform1f(glGetUniformLocation(program, "same_surface"), static_cast<float>(4.0 * texel_m));
+            glActiveTexture(GL_TEXTURE1);
+            glBindTexture(GL_TEXTURE_2D, eye_[1].colour.get());
+        }
+        from_projector(framebuffer, program, view, eye);
     }
 
-    void from_eye(const OffscreenTarget& target, const glm::dmat4& eye, PeerMesh::Output output) {
-        begin(target.framebuffer.get(), target.width, target.height);
+    void from_eye(const OffscreenTarget& target, const glm::dmat4& eye, Output output) {
+        begin_picture(target.framebuffer.get(), target.width, target.height);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
-        mesh_.draw(eye, output, GL_CCW);
+        mesh_->draw(eye, output, GL_CCW);
         glDisable(GL_DEPTH_TEST);
     }
 
     void from_projector(GLuint framebuffer, GLuint program, const PeerView& view, const glm::dmat4& eye) {
-        begin(framebuffer, stage_.width(), stage_.height());
+        begin_picture(framebuffer, stage_.width(), stage_.height());
         const glm::mat4 clip(view.clip_from_prop);
         const glm::mat4 eye_clip_from_prop(eye);
         glUseProgram(program);
@@ -187,33 +160,26 @@ private:
         glUniformMatrix4fv(glGetUniformLocation(program, "eye_clip_from_prop"), 1, GL_FALSE,
                            glm::value_ptr(eye_clip_from_prop));
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, pictures_.eye_colours.colour.get());
+        glBindTexture(GL_TEXTURE_2D, eye_[0].colour.get());
         quads_.set(view.faces);
         for (std::size_t k = 0; k < view.faces.size(); ++k) {
             quads_.draw(k);
         }
     }
 
-    const Stage& stage_;
-    const PeerMesh& mesh_;
-    std::string name_;
-    std::array<GlProgram, 2> project_; ///< colours, points
-    Pictures pictures_;
+    std::shared_ptr<const PeerMesh> mesh_;
+    OutputPrograms project_;
+    std::array<OffscreenTarget, 2> eye_; ///< by output
     FaceQuads quads_;
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerMesh& mesh, int eye_pixels,
-                                                 std::string of_mesh) {
-    std::array<GlProgram, 2> project;
-    for (std::size_t k = 0; k < 2; ++k) {
-        Result<GlProgram> program =
-            make_program(k == 1 ? "#define POINT\n" : "", project_vertex, project_fragment);
-        if (!program) {
-            return tl::unexpected<Error>(program.error());
-        }
-        project[k] = std::move(*program);
+Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
+                                                 int eye_pixels, std::string of_mesh) {
+    Result<OutputPrograms> project = make_programs("", project_vertex, project_fragment);
+    if (!project) {
+        return tl::unexpected<Error>(project.error());
     }
     Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_SRGB8_ALPHA8);
     Result<OffscreenTarget> eye_points = make_target(eye_pixels, eye_pixels, GL_RGBA32F);
@@ -227,8 +193,9 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, const PeerM
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return std::make_unique<TwoPass>(
-        stage, mesh, fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh),
-        std::move(project), Pictures{std::move(*colours), std::move(*eye_points), std::move(*points)});
+        stage, std::move(mesh),
+        fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh), std::move(*project),
+        std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
 }
 
 } // namespace frustumscreen

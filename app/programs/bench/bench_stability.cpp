@@ -31,7 +31,6 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const std::vector<StepError> smoothers = smoother_step_errors();
     const std::vector<StepError> program = program_step_errors();
     Result<void> written = write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
-                                                     {"stability.json", stability_json(measured)},
                                                      {"step_error.csv", step_error_csv(smoothers, program)}});
     if (!written) {
         return written;

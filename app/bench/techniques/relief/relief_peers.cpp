@@ -1,7 +1,10 @@
 #include "app/bench/techniques/relief/relief_peers.h"
 
+#include "app/bench/techniques/peers.h"
 #include "app/bench/techniques/relief/relief_march.h"
-#include "app/bench/techniques/relief/relief_warp.h"
+#include "app/bench/techniques/relief/relief_mesh.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <utility>
@@ -23,11 +26,17 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         }
         peers.push_back({std::move(*march), 0});
     }
-    Result<ReliefWarp> warp = make_relief_warp(stage, images);
+    const SourceMesh grids = single_layer_mesh(images, single_layer_tolerance_m);
+    Result<std::shared_ptr<const PeerMesh>> warped = PeerMesh::upload(grids, glm::dmat4(1.0), true);
+    if (!warped) {
+        return tl::unexpected<Error>(warped.error());
+    }
+    Result<std::unique_ptr<Technique>> warp =
+        make_full_mesh(stage, std::move(*warped), fmt::format("relief warp {}", texels));
     if (!warp) {
         return tl::unexpected<Error>(warp.error());
     }
-    peers.push_back({std::move(warp->technique), warp->triangles});
+    peers.push_back({std::move(*warp), grids.triangles.size()});
     return peers;
 }
 

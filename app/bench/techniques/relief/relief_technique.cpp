@@ -1,7 +1,5 @@
 #include "app/bench/techniques/relief/relief_technique.h"
 
-#include "firmware_host/gl/gl_program.h"
-
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -132,16 +130,15 @@ std::string constants_of(const ReliefImages& images) {
 }
 
 struct ReliefGl {
-    std::array<GlProgram, 2> programs; ///< colours, points
+    OutputPrograms programs;
     GlTexture relief;
     GlTexture colours;
-    OffscreenTarget points;
 };
 
-class ReliefTechnique final : public Technique {
+class ReliefTechnique final : public PeerTechnique {
 public:
-    ReliefTechnique(const Stage& stage, const Box& box, std::string name, ReliefGl gl)
-        : stage_(stage), box_(box), name_(std::move(name)), gl_(std::move(gl)),
+    ReliefTechnique(const Stage& stage, const Box& box, std::string name, ReliefGl gl, OffscreenTarget points)
+        : PeerTechnique(stage, std::move(name), std::move(points)), box_(box), gl_(std::move(gl)),
           array_(GlVertexArray::generate()), corners_(GlBuffer::generate()) {
         glBindVertexArray(array_.get());
         glBindBuffer(GL_ARRAY_BUFFER, corners_.get());
@@ -150,27 +147,11 @@ public:
         glBindVertexArray(0);
     }
 
-    [[nodiscard]] std::string name() const override { return name_; }
-    void draw(const BenchPose& pose) override { draw_into(stage_.framebuffer, gl_.programs[0].get(), pose); }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
-        draw_into(gl_.points.framebuffer.get(), gl_.programs[1].get(), pose);
-        return read_points(gl_.points);
-    }
-
 private:
-    void draw_into(GLuint framebuffer, GLuint program, const BenchPose& pose) {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        glViewport(0, 0, stage_.width(), stage_.height());
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        for (const GLenum off : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) {
-            glDisable(off);
-        }
-        glDepthMask(GL_TRUE);
-        glStencilMask(0xFF);
-        glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
+        begin_picture(framebuffer, stage_.width(), stage_.height());
         const PeerView view = peer_view(stage_, pose);
-        set_uniforms(program, view);
+        set_uniforms(gl_.programs[static_cast<std::size_t>(output)].get(), view);
         glActiveTexture(GL_TEXTURE1);
         glBindTexture(GL_TEXTURE_2D_ARRAY, gl_.colours.get());
         glActiveTexture(GL_TEXTURE0);
@@ -215,9 +196,7 @@ private:
         glBindVertexArray(0);
     }
 
-    const Stage& stage_;
     Box box_;
-    std::string name_;
     ReliefGl gl_;
     GlVertexArray array_;
     GlBuffer corners_;
@@ -300,30 +279,24 @@ void set_layer(int level, int layer, const Image<glm::u16vec4>& image) {
 
 Result<std::unique_ptr<Technique>> make_relief_technique(const Stage& stage, const ReliefImages& images,
                                                          ReliefSearch search) {
-    ReliefGl gl;
-    for (std::size_t k = 0; k < 2; ++k) {
-        std::string fragment(common_source);
-        fragment += search.source;
-        fragment += main_source;
-        Result<GlProgram> program =
-            make_program(search.defines + constants_of(images) + (k == 1 ? "#define POINT\n" : ""),
-                         vertex_source, fragment);
-        if (!program) {
-            return tl::unexpected<Error>(program.error());
-        }
-        gl.programs[k] = std::move(*program);
+    std::string fragment(common_source);
+    fragment += search.source;
+    fragment += main_source;
+    Result<OutputPrograms> programs =
+        make_programs(search.defines + constants_of(images), vertex_source, fragment);
+    if (!programs) {
+        return tl::unexpected<Error>(programs.error());
     }
     Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    gl.points = std::move(*points);
-    gl.relief = std::move(search.relief);
-    gl.colours = upload_colours(images);
+    ReliefGl gl{std::move(*programs), std::move(search.relief), upload_colours(images)};
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::Internal, "the driver cannot hold the relief images");
     }
-    return std::make_unique<ReliefTechnique>(stage, images.box, std::move(search.name), std::move(gl));
+    return std::make_unique<ReliefTechnique>(stage, images.box, std::move(search.name), std::move(gl),
+                                             std::move(*points));
 }
 
 } // namespace frustumscreen

@@ -1,0 +1,19 @@
+/// Fields that several of the bench's tables have.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/truth/poses.h"
+
+#include <string>
+
+namespace frustumscreen {
+
+/// RFC 4180: a field that may hold commas.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+/// Where prop and eye are, in table coordinates; the prop's turn about the vertical as a quaternion.
+inline constexpr const char* pose_columns = "px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m";
+[[nodiscard]] std::string pose_fields(const BenchPose& pose);
+
+} // namespace frustumscreen
