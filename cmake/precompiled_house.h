@@ -1,4 +1,9 @@
-// What most files of the rooms and programs include; see precompiled.cmake.
+/// What most files of the rooms and programs include; see precompiled.cmake.
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <tl/expected.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,8 +28,3 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <fmt/format.h>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <tl/expected.hpp>

@@ -36,8 +36,13 @@ constexpr std::array table{
 
 const std::vector<std::string> languages{"en", "de", "fr"};
 
+/// After as many frames as it takes until nothing fades: a caption appears from the frame on that places it.
 Presentation settled(Exhibit& exhibit, MonotonicTime now) {
-    return exhibit.step(now + rest, {}, situation(now + rest));
+    const MonotonicTime end = now + rest;
+    for (; now < end; now += milliseconds(50)) {
+        static_cast<void>(exhibit.step(now, {}, situation(now)));
+    }
+    return exhibit.step(end, {}, situation(end));
 }
 
 TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
@@ -53,6 +58,7 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
         const Presentation shown = settled(exhibit, now);
         EXPECT_EQ(shown.artifact, static_cast<std::size_t>(row.artifact_step + 4) % 4);
         EXPECT_EQ(shown.language, languages[static_cast<std::size_t>(row.language_step)]);
+        ASSERT_TRUE(shown.caption);
         EXPECT_EQ(shown.caption->language, static_cast<std::size_t>(row.language_step));
         EXPECT_TRUE(shown.settled);
         EXPECT_EQ(shown.brightness, 1.0);

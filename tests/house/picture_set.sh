@@ -3,7 +3,8 @@
 # level, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two builds that draw
 # alike leave folders that are equal byte for byte:
 #
-#   tests/house/picture_set.sh BIN FOLDER        BIN: where the programs are; FOLDER: made anew
+#   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: made anew; BAKER: where those are
+#                                                    that bake the packs, if others
 #   diff -r FOLDER OTHER_FOLDER
 set -euo pipefail
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -12,7 +13,7 @@ rm -rf "$folder"
 mkdir -p "$folder"
 folder=$(realpath "$folder")
 packs=$folder/packs
-"$root/tests/hil/bake_packs.sh" "$bin" "$packs"
+"$root/tests/hil/bake_packs.sh" "$(realpath "${3:-$1}")" "$packs"
 
 # Pictures, and what was counted: all columns but the time that a frame took.
 keep() {

@@ -195,8 +195,8 @@ TEST(Layers, NothingOfTheHostIncludesTheExhibit) {
 
 TEST(Layers, NothingOfTheKioskUsesTheBake) {
     const Table table = read_table();
-    for (const std::string room :
-         {"geometry", "tracking", "pack", "settings", "scene", "exhibit", "render", "image", "show", "simulation"}) {
+    for (const std::string room : {"geometry", "tracking", "pack", "settings", "scene", "exhibit", "render",
+                                   "image", "show", "simulation"}) {
         const auto found = table.uses.find(room);
         if (found == table.uses.end()) {
             continue;

@@ -1,5 +1,5 @@
-/// The truth that every picture is measured against: a ray cast of the source mesh, as docs/conventions.md defines
-/// it.
+/// The truth that every picture is measured against: a ray cast of the source mesh, as docs/conventions.md
+/// defines it.
 ///
 /// For a projector pixel whose ray lights the prop at S, on a face turned towards the eye E, the colour is
 /// that of the first hit of E + t (S - E), t > 0; black where there is none. Triangles are two-sided; alpha
