@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/image/image.h"
+#include "app/render/shader_cache.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
@@ -29,16 +30,12 @@ private:
 
 class CaptionPass {
 public:
-    [[nodiscard]] static Result<CaptionPass> create();
+    [[nodiscard]] static CaptionPass create();
     /// Draws the caption, then blackens the prop. Number of draw calls; nothing without a caption.
-    int draw(const CaptionPlan& plan, const CaptionGpu* caption) const;
+    int draw(const CaptionPlan& plan, const CaptionGpu* caption, const ShaderCache& shaders) const;
 
 private:
     CaptionPass() = default;
-
-    GlProgram program_;
-    GLint corners_ = -1;
-    GLint brightness_ = -1;
     GlVertexArray no_attributes_;
 };
 

@@ -6,14 +6,17 @@
 
 namespace frustumscreen {
 
-Result<HitPointRenderer> HitPointRenderer::create(int width, int height, bool cut_out) {
-    Result<FacePass> pass = FacePass::create(FaceOutput::HitPoint, {true, false, false, cut_out});
-    if (!pass) {
-        return tl::unexpected<Error>(pass.error());
+Result<HitPointRenderer> HitPointRenderer::create(int width, int height, const std::set<ShaderKey>& draws) {
+    HitPointRenderer renderer(width, height);
+    std::set<ShaderKey> shaders{{ShaderKey::Pass::Outline}};
+    for (ShaderKey key : draws) {
+        if (key.pass == ShaderKey::Pass::Surface) {
+            shaders.insert(places_of(key));
+        }
     }
-    HitPointRenderer renderer(std::move(*pass));
-    renderer.width_ = width;
-    renderer.height_ = height;
+    if (Result<void> ready = renderer.shaders_.prepare(shaders); !ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
     renderer.framebuffer_ = GlFramebuffer::generate();
     renderer.points_ = GlRenderbuffer::generate();
     renderer.depth_stencil_ = GlRenderbuffer::generate();
@@ -41,7 +44,7 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const ArtifactGpu* arti
     glStencilMask(0xFF);
     glClearBufferfv(GL_COLOR, 0, nothing.data());
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
-    pass_.draw(plan, {artifact, nullptr});
+    pass_.draw(plan, {artifact, nullptr}, shaders_, {}, FacePass::Output::Places);
     ImageFloat image(width_, height_);
     std::vector<glm::vec4> read(image.texels.size());
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, read.data());

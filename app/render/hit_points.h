@@ -7,21 +7,26 @@
 #include "app/render/face_pass.h"
 #include "firmware_host/gl/gl_handle.h"
 
+#include <set>
+
 namespace frustumscreen {
 
 class HitPointRenderer {
 public:
     /// Errors: the driver cannot draw into float pictures.
-    [[nodiscard]] static Result<HitPointRenderer> create(int width, int height, bool cut_out = false);
+    /// `draws`: of the renderer whose plans these are.
+    [[nodiscard]] static Result<HitPointRenderer> create(int width, int height,
+                                                         const std::set<ShaderKey>& draws);
     /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top.
     [[nodiscard]] ImageFloat draw(const FramePlan& plan, const ArtifactGpu* artifact);
 
 private:
-    explicit HitPointRenderer(FacePass pass) : pass_(std::move(pass)) {}
+    HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 
-    int width_ = 0;
-    int height_ = 0;
-    FacePass pass_;
+    int width_;
+    int height_;
+    ShaderCache shaders_;
+    FacePass pass_ = FacePass::create();
     GlFramebuffer framebuffer_;
     GlRenderbuffer points_;
     GlRenderbuffer depth_stencil_;

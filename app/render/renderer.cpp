@@ -35,7 +35,7 @@ void clear(GLbitfield what) {
 
 } // namespace
 
-Result<Renderer> Renderer::create(const RendererOptions& options) {
+Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& needs) {
     for (const std::string_view extension : {"GL_EXT_texture_sRGB_decode", "GL_EXT_sRGB_write_control"}) {
         if (!driver_has(extension)) {
             return fail(
@@ -43,41 +43,19 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
                 fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
         }
     }
-    Result<FacePass> pass = FacePass::create(
-        FaceOutput::Colour, {options.plain, options.compensated, options.level_fades, options.cut_out});
-    if (!pass) {
-        return tl::unexpected<Error>(pass.error());
+    Renderer renderer(width, height);
+    renderer.samples_ = needs.samples;
+    if (Result<void> ready = renderer.shaders_.prepare(shaders_of(needs)); !ready) {
+        return tl::unexpected<Error>(ready.error());
     }
-    Renderer renderer(std::move(*pass));
-    renderer.options_ = options;
-    if (options.captions) {
-        Result<CaptionPass> caption = CaptionPass::create();
-        if (!caption) {
-            return tl::unexpected<Error>(caption.error());
-        }
-        renderer.caption_ = std::move(*caption);
-    }
-    if (options.samples != 1) {
-        Result<SampleGrid> grid = SampleGrid::create(options.width, options.height, options.samples);
+    if (needs.samples != 1) {
+        Result<SampleGrid> grid = SampleGrid::create(width, height, needs.samples);
         if (!grid) {
             return tl::unexpected<Error>(grid.error());
         }
         renderer.sample_grid_ = std::move(*grid);
     }
     return renderer;
-}
-
-std::vector<Program> Renderer::programs() const {
-    std::vector<Program> made;
-    pass_.list_programs(made);
-    if (caption_) {
-        made.push_back(Program::Caption);
-    }
-    if (sample_grid_) {
-        made.push_back(Program::TileClear);
-        made.push_back(Program::TileAverage);
-    }
-    return made;
 }
 
 std::uint64_t Renderer::bytes() const {
@@ -87,7 +65,7 @@ std::uint64_t Renderer::bytes() const {
 PixelRectangle Renderer::to_redraw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) const {
     const auto age = static_cast<std::size_t>(std::max(target.buffer_age, 0));
     if (redraw == Redraw::Everything || age == 0 || age > pictures_) {
-        return {0, 0, options_.width, options_.height};
+        return {0, 0, width_, height_};
     }
     if (history_[age - 1].hash == plan.hash) {
         return {}; // the buffer holds this picture
@@ -116,17 +94,17 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
 /// on for itself.
 void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                      DrawResult& result) const {
-    const int samples = plan.samples > 0 ? plan.samples : options_.samples;
+    const int samples = plan.samples > 0 ? plan.samples : samples_;
     const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty();
     const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
-        sample_grid_->begin(plan.lit, raster);
+        sample_grid_->begin(plan.lit, raster, shaders_);
         draw_caption(plan, shows, intersected(plan.caption.bounds, plan.lit.bounds()), raster, result);
-        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, raster);
+        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, shaders_, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    glViewport(0, 0, options_.width, options_.height);
+    glViewport(0, 0, width_, height_);
     glEnable(GL_SCISSOR_TEST);
     set_scissor(result.redrawn);
     clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
@@ -134,22 +112,22 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
     draw_caption(plan, shows, plan.caption.bounds, {}, result);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-        sample_grid_->average(plan.lit, raster);
+        sample_grid_->average(plan.lit, raster, shaders_);
     } else if (!plan.faces.empty()) {
-        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming});
+        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
 void Renderer::draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
                             const Raster& raster, DrawResult& result) const {
-    if (part.empty() || !caption_) {
+    if (part.empty()) {
         return;
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     glEnable(GL_SCISSOR_TEST);
     set_scissor(part, raster);
-    result.draw_calls += caption_->draw(plan.caption, shows.caption);
+    result.draw_calls += caption_.draw(plan.caption, shows.caption, shaders_);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
 }

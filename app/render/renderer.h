@@ -9,38 +9,25 @@
 #include "app/render/caption_pass.h"
 #include "app/render/face_pass.h"
 #include "app/render/sample_grid.h"
+#include "app/render/shader_cache.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/shader_key.h"
 #include "firmware_host/base/result.h"
 
 #include <array>
 #include <optional>
+#include <set>
 
 namespace frustumscreen {
 
-/// What pictures are drawn with unless someone asks for another number.
+/// Samples a pixel lie on a regular grid and are averaged in linear light: 1, 2, 4, 8 or 16. More smooth the
+/// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on llvmpipe
+/// that takes half the time of the driver's own multisampling.
+///
 /// What a pack may ask for: the live exhibit has room for it.
 inline constexpr int default_samples = 8;
 /// For those who do not count the cost: the finest level.
 inline constexpr int finest_samples = 16;
-
-struct RendererOptions {
-    int width = 0;
-    int height = 0;
-    /// Samples a pixel, on a regular grid, averaged in linear light: 1, 2, 4, 8 or 16. More smooth the
-    /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on
-    /// llvmpipe that takes half the time of the driver's own multisampling.
-    int samples = default_samples; ///< the most; a plan may ask for fewer, and for more where there is room
-    bool level_fades = false;      ///< a plan may fade from one level to another
-    bool plain = true;             ///< a plan may leave the light as it is
-    bool compensated = true;       ///< a plan may even it out
-    bool captions = true;          ///< a plan may have one
-    bool cut_out = false;          ///< an artifact may have texels that are cut out
-};
-
-[[nodiscard]] inline RendererOptions options_of(const PassNeeds& needs, int width, int height) {
-    return {width,          height,       needs.samples, needs.level_fades, needs.plain, needs.compensated,
-            needs.captions, needs.cut_out};
-}
 
 /// Display::framebuffer and Display::buffer_age.
 struct RenderTarget {
@@ -63,7 +50,8 @@ enum class Redraw {
 
 class Renderer {
 public:
-    [[nodiscard]] static Result<Renderer> create(const RendererOptions& options);
+    /// Of pictures of that size. Compiles every shader of the needs: no frame compiles one.
+    [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs);
 
     /// What the plan shows. Neither is touched if the plan has no need of it.
     struct Shows {
@@ -79,8 +67,8 @@ public:
     DrawResult draw(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                     Redraw redraw = Redraw::Changes);
 
-    /// The programs that were made.
-    [[nodiscard]] std::vector<Program> programs() const;
+    /// Those that were compiled.
+    [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
     /// Of GPU memory, as the driver says, but for the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -89,7 +77,7 @@ private:
         std::uint64_t hash = 0;
         PixelRectangle bounds;
     };
-    explicit Renderer(FacePass pass) : pass_(std::move(pass)) {}
+    Renderer(int width, int height) : width_(width), height_(height) {}
     void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
                DrawResult& result) const;
     void draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
@@ -97,9 +85,12 @@ private:
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
 
-    RendererOptions options_;
-    FacePass pass_;
-    std::optional<CaptionPass> caption_;
+    int width_, height_;
+    int samples_ =
+        1; ///< a pixel, that there is room for; a plan may ask for fewer, and for more of a smaller part
+    ShaderCache shaders_;
+    FacePass pass_ = FacePass::create();
+    CaptionPass caption_ = CaptionPass::create();
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample
     std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_

@@ -1,53 +1,15 @@
 #include "app/render/sample_grid.h"
 
 #include "app/render/gl_memory.h"
-#include "firmware_host/gl/gl_program.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 namespace frustumscreen {
 
 namespace {
-
-/// Rectangles of the picture's pixels, six corners each, at the far plane.
-constexpr std::string_view tiles_vertex = R"(
-uniform vec4 rectangles[MOST_RECTANGLES]; // x, y, width, height
-uniform vec2 picture;                     // size in pixels
-void main() {
-    int corner = gl_VertexID % 6;
-    vec4 r = rectangles[gl_VertexID / 6];
-    vec2 pixel = r.xy + r.zw * vec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);
-    gl_Position = vec4(2.0 * pixel / picture - 1.0, 1.0, 1.0);
-}
-)";
-constexpr std::string_view black_fragment = R"(
-out vec4 result;
-void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
-)";
-// A bilinear fetch where four texels meet is their average; the sampler decodes sRGB before it. A pixel of
-// more than 2 x 2 samples takes one fetch for each 2 x 2.
-constexpr std::string_view average_fragment = R"(
-uniform sampler2D enlarged;
-uniform ivec4 raster; // samples along a pixel's sides, the pixel at the larger picture's corner
-out vec4 result;
-void main() {
-    vec2 texel = 1.0 / vec2(textureSize(enlarged, 0));
-    ivec2 fetches = max(raster.xy / 2, ivec2(1));
-    vec2 middle = (gl_FragCoord.xy - vec2(raster.zw)) * vec2(raster.xy) * texel;
-    vec2 first = middle - vec2(fetches - 1) * texel;
-    vec4 sum = vec4(0.0);
-    for (int y = 0; y < fetches.y; ++y) {
-        for (int x = 0; x < fetches.x; ++x) {
-            sum += textureLod(enlarged, first + 2.0 * vec2(x, y) * texel, 0.0);
-        }
-    }
-    result = sum / float(fetches.x * fetches.y);
-}
-)";
 
 constexpr std::size_t corners_per_rectangle = 6;
 
@@ -82,31 +44,8 @@ Result<SampleGrid> SampleGrid::create(int width, int height, int most_samples) {
     if (Result<void> ready = made.make_target(); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
-    if (Result<void> ready = made.make_programs(); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    made.no_attributes_ = GlVertexArray::generate();
     return made;
-}
-
-Result<void> SampleGrid::make_programs() {
-    const std::string defines = fmt::format("#define MOST_RECTANGLES {}\n", LitTiles::most_rectangles);
-    Result<GlProgram> clear = make_program(defines, tiles_vertex, black_fragment);
-    Result<GlProgram> average = make_program(defines, tiles_vertex, average_fragment);
-    if (!clear || !average) {
-        return tl::unexpected<Error>(clear ? average.error() : clear.error());
-    }
-    clear_ = std::move(*clear);
-    average_ = std::move(*average);
-    for (const GlProgram* program : {&clear_, &average_}) {
-        glUseProgram(program->get());
-        glUniform2f(glGetUniformLocation(program->get(), "picture"), static_cast<float>(width_),
-                    static_cast<float>(height_));
-    }
-    clear_rectangles_ = glGetUniformLocation(clear_.get(), "rectangles");
-    average_rectangles_ = glGetUniformLocation(average_.get(), "rectangles");
-    average_raster_ = glGetUniformLocation(average_.get(), "raster");
-    no_attributes_ = GlVertexArray::generate();
-    return {};
 }
 
 Result<void> SampleGrid::make_target() {
@@ -149,13 +88,14 @@ std::uint64_t SampleGrid::bytes() const {
     return bytes_of_texture(colour_) + bytes_of_renderbuffer(depth_stencil_);
 }
 
-void SampleGrid::draw_tiles(const LitTiles& tiles, GLint rectangles) const {
+void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
+    glUniform2f(shader.at(Uniform::Picture), static_cast<float>(width_), static_cast<float>(height_));
     std::array<glm::vec4, LitTiles::most_rectangles> corners{};
     std::size_t count = 0;
     for (const PixelRectangle& r : tiles.rectangles()) {
         corners[count++] = glm::vec4(r.x, r.y, r.width, r.height);
     }
-    glUniform4fv(rectangles, static_cast<GLsizei>(count), &corners[0].x);
+    glUniform4fv(shader.at(Uniform::Rectangles), static_cast<GLsizei>(count), &corners[0].x);
     glBindVertexArray(no_attributes_.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_per_rectangle * count));
     glBindVertexArray(0);
@@ -176,7 +116,7 @@ Raster SampleGrid::raster(const LitTiles& tiles, int samples) const {
     return {of(samples), samples > most ? glm::ivec2(part.x, part.y) : glm::ivec2(0)};
 }
 
-void SampleGrid::begin(const LitTiles& tiles, const Raster& raster) const {
+void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     set_viewport({width_, height_}, raster);
     glDisable(GL_SCISSOR_TEST);
@@ -189,19 +129,26 @@ void SampleGrid::begin(const LitTiles& tiles, const Raster& raster) const {
     glStencilMask(0xFF);
     glStencilFunc(GL_ALWAYS, 0, 0xFF);
     glStencilOp(GL_REPLACE, GL_REPLACE, GL_REPLACE);
-    glUseProgram(clear_.get());
-    draw_tiles(tiles, clear_rectangles_);
+    if (const Shader* const clear = shaders.find({ShaderKey::Pass::TileClear})) {
+        clear->use();
+        draw_tiles(tiles, *clear);
+    }
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
 }
 
-void SampleGrid::average(const LitTiles& tiles, const Raster& raster) const {
-    glUseProgram(average_.get());
-    glUniform4i(average_raster_, raster.fragments.x, raster.fragments.y, raster.corner.x, raster.corner.y);
+void SampleGrid::average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
+    const Shader* const average = shaders.find({ShaderKey::Pass::TileAverage});
+    if (average == nullptr) {
+        return;
+    }
+    average->use();
+    glUniform4i(average->at(Uniform::Raster), raster.fragments.x, raster.fragments.y, raster.corner.x,
+                raster.corner.y);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, colour_.get());
-    draw_tiles(tiles, average_rectangles_);
+    draw_tiles(tiles, *average);
 }
 
 } // namespace frustumscreen

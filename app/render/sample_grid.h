@@ -4,11 +4,12 @@
 /// as well as the outlines.
 ///
 /// Colour   averaged in linear light.
-/// Threads  the render thread; `begin` and `average` allocate nothing.
+/// Threads  the render thread; `begin` and `average` allocate nothing. Their shaders have been prepared.
 /// Errors   a number of samples that has no grid; a picture larger than the driver draws.
 #pragma once
 
 #include "app/render/raster.h"
+#include "app/render/shader_cache.h"
 #include "app/scene/lit_tiles.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
@@ -29,18 +30,17 @@ public:
     /// How the tiles lie in the larger picture: `samples` a pixel, or as many as it has room for.
     [[nodiscard]] Raster raster(const LitTiles& tiles, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
-    void begin(const LitTiles& tiles, const Raster& raster) const;
+    void begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
     /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
-    void average(const LitTiles& tiles, const Raster& raster) const;
+    void average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
 
     /// Of GPU memory, as the driver says.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     SampleGrid() = default;
-    [[nodiscard]] Result<void> make_programs();
     [[nodiscard]] Result<void> make_target();
-    void draw_tiles(const LitTiles& tiles, GLint rectangles) const;
+    void draw_tiles(const LitTiles& tiles, const Shader& shader) const;
 
     int width_ = 0, height_ = 0; ///< of the picture
     glm::ivec2 room_{1, 1};      ///< samples along a pixel's sides, if all of the picture is drawn
@@ -48,8 +48,6 @@ private:
     GlFramebuffer framebuffer_;
     GlTexture colour_;
     GlRenderbuffer depth_stencil_;
-    GlProgram clear_, average_;
-    GLint clear_rectangles_ = -1, average_rectangles_ = -1, average_raster_ = -1;
     GlVertexArray no_attributes_;
 };
 

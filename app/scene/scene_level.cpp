@@ -127,7 +127,9 @@ SceneLevel whole_level(const Pack& pack, std::uint32_t level) {
     SceneLevel whole;
     whole.level = level;
     whole.mesh = mesh;
-    whole.texels_per_box = texels_per_box(mesh, pack.textures[mesh.texture], pack.box_size);
+    const Image8& texture = pack.textures[mesh.texture];
+    whole.texels_per_box = texels_per_box(mesh, texture, pack.box_size);
+    whole.cut_out = has_cut_texels(texture);
     return whole;
 }
 
@@ -169,18 +171,24 @@ std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
                          std::max(1, texture.height >> level.finest_mip)),
              "the projector's pixels are never so fine"});
     }
-    if (const int samples = needs_of(plan, level).samples; samples < plan.passes.samples) {
+    if (const int samples = needs_of(plan, level).samples; samples < plan.needs.samples) {
         left_out.push_back(
             {UnusedDetail,
-             fmt::format("room for {} samples a pixel; room for {} is enough", plan.passes.samples, samples),
+             fmt::format("room for {} samples a pixel; room for {} is enough", plan.needs.samples, samples),
              "no pose is seen so slantingly that it takes more"});
     }
     return left_out;
 }
 
-PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {
-    PassNeeds needs = plan.passes;
+RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {
+    RenderNeeds needs = plan.needs;
     needs.samples = level.samples > 0 ? std::min(level.samples, needs.samples) : needs.samples;
+    if (level.cut_out) {
+        for (ShaderKey key : plan.needs.draws) {
+            key.cut_out = key.pass == ShaderKey::Pass::Surface;
+            needs.draws.insert(key);
+        }
+    }
     return needs;
 }
 
@@ -195,11 +203,11 @@ std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture) {
     return bytes;
 }
 
-std::uint64_t gpu_bytes(const PassNeeds& passes, int width, int height) {
+std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     constexpr std::uint64_t bytes_per_sample = 4 + 4; // colour; depth and stencil
-    return passes.samples > 1 ? bytes_per_sample * static_cast<std::uint64_t>(passes.samples) *
-                                    static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)
-                              : 0;
+    return needs.samples > 1 ? bytes_per_sample * static_cast<std::uint64_t>(needs.samples) *
+                                   static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)
+                             : 0;
 }
 
 std::uint64_t caption_gpu_bytes(int width, int height) {

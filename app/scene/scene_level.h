@@ -34,6 +34,7 @@ struct SceneLevel {
     std::uint32_t level = 0;
     PackLevel mesh;              ///< what may be seen
     double texels_per_box = 0.0; ///< of the whole level
+    bool cut_out = false;        ///< the texture leaves out texels (alpha below one half)
     int finest_mip = 0;          ///< finer ones are never sampled
     int samples = 0;             ///< a pixel, the most that a view takes; 0 = not known
     std::size_t unseen_triangles = 0;
@@ -50,12 +51,12 @@ struct SceneLevel {
 
 /// The plan's, with no more room for samples than the level takes. A view that takes more than there is room
 /// for is drawn elsewhere in it, and rounds differently, so the room is never made larger.
-[[nodiscard]] PassNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
+[[nodiscard]] RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
 
 /// Bytes of GPU memory: vertices and mip levels of a level; the larger picture of several samples a pixel; a
 /// caption with its mip levels.
 [[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture);
-[[nodiscard]] std::uint64_t gpu_bytes(const PassNeeds& passes, int width, int height);
+[[nodiscard]] std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height);
 [[nodiscard]] std::uint64_t caption_gpu_bytes(int width, int height);
 
 } // namespace frustumscreen

@@ -99,27 +99,39 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
         {UnusedCaptions, "captions, the typeface and the captions' pass", std::string(why)});
 }
 
-void choose_passes(const SceneRequest& request, ScenePlan& plan) {
+void choose_shaders(const SceneRequest& request, ScenePlan& plan) {
     const bool all = (plan.economies & UnusedShaders) == 0;
-    PassNeeds& passes = plan.passes;
     const std::uint32_t first = plan.rungs.front().level;
-    passes.level_fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
-                                            [&](const Rung& rung) { return rung.level != first; });
-    passes.plain = all || !request.light;
-    passes.compensated = all || request.light;
-    passes.captions = !plan.captions.empty() || (plan.economies & UnusedCaptions) == 0;
-    for (const Rung& rung : plan.rungs) {
-        passes.samples = std::max({passes.samples, rung.samples, request.room});
+    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
+                                          [&](const Rung& rung) { return rung.level != first; });
+    const bool plain = all || !request.light;
+    const bool even = all || request.light;
+    RenderNeeds& needs = plan.needs;
+    for (const bool even_light : {false, true}) {
+        for (const bool dithered : {false, true}) {
+            if ((even_light ? even : plain) && (fades || !dithered)) {
+                ShaderKey key;
+                key.dithered = dithered;
+                key.even_light = even_light;
+                needs.draws.insert(key);
+            }
+        }
     }
-    if (!passes.plain) {
+    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0) {
+        needs.draws.insert({ShaderKey::Pass::TablePicture});
+    }
+    for (const Rung& rung : plan.rungs) {
+        needs.samples = std::max({needs.samples, rung.samples, request.room});
+    }
+    if (!plain) {
         plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
                                  "the projector's light is evened out in every picture"});
     }
-    if (!passes.compensated) {
+    if (!even) {
         plan.left_out.push_back(
             {UnusedShaders, "the shader with light compensation", "the light is left as it is"});
     }
-    if (!passes.level_fades) {
+    if (!fades) {
         plan.left_out.push_back(
             {UnusedShaders, "the shaders that fade from one level to another", "only one level is drawn"});
     }
@@ -191,48 +203,6 @@ std::string_view name_of(Economy economy) {
     return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(economy))));
 }
 
-std::string_view name_of(Program program) {
-    constexpr std::array<std::string_view, 12> names{"outline of a face",
-                                                     "artifact in plain light",
-                                                     "artifact in even light",
-                                                     "fading artifact in plain light",
-                                                     "fading artifact in even light",
-                                                     "cut-out artifact in plain light",
-                                                     "cut-out artifact in even light",
-                                                     "fading cut-out artifact in plain light",
-                                                     "fading cut-out artifact in even light",
-                                                     "caption",
-                                                     "clearing of tiles",
-                                                     "averaging of samples"};
-    return names.at(static_cast<std::size_t>(program));
-}
-
-PassNeeds united(const PassNeeds& a, const PassNeeds& b) {
-    return {std::max(a.samples, b.samples), a.plain || b.plain,       a.compensated || b.compensated,
-            a.level_fades || b.level_fades, a.captions || b.captions, a.cut_out || b.cut_out};
-}
-
-std::vector<Program> programs_of(const PassNeeds& needs) {
-    std::vector<Program> programs{Program::Outline};
-    const auto add = [&](bool needed, Program program) {
-        if (needed) {
-            programs.push_back(program);
-        }
-    };
-    add(needs.plain, Program::Artifact);
-    add(needs.compensated, Program::ArtifactCompensated);
-    add(needs.plain && needs.level_fades, Program::ArtifactFading);
-    add(needs.compensated && needs.level_fades, Program::ArtifactCompensatedFading);
-    add(needs.cut_out && needs.plain, Program::CutOut);
-    add(needs.cut_out && needs.compensated, Program::CutOutCompensated);
-    add(needs.cut_out && needs.plain && needs.level_fades, Program::CutOutFading);
-    add(needs.cut_out && needs.compensated && needs.level_fades, Program::CutOutCompensatedFading);
-    add(needs.captions, Program::Caption);
-    add(needs.samples > 1, Program::TileClear);
-    add(needs.samples > 1, Program::TileAverage);
-    return programs;
-}
-
 Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
     const Result<std::uint32_t> asked = level_of(pack, request.technique);
     if (!asked) {
@@ -249,7 +219,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
-    choose_passes(request, plan);
+    choose_shaders(request, plan);
     choose_faces(plan);
     return plan;
 }

@@ -13,6 +13,7 @@
 
 #include "app/pack/pack_outline.h"
 #include "app/scene/governor.h"
+#include "app/scene/shader_key.h"
 #include "app/scene/visibility.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
@@ -34,42 +35,13 @@ namespace frustumscreen {
 enum Economy : unsigned {
     UnusedLevels = 1,     ///< levels that neither the technique nor the governor can choose, their textures
     UnusedCaptions = 2,   ///< texts, the typeface, the caption's pass
-    UnusedShaders = 4,    ///< variants of the artifact's program
+    UnusedShaders = 4,    ///< shaders that no draw names
     UnseenFaces = 8,      ///< faces of the prop that are never both seen and lit
     UnseenTriangles = 16, ///< triangles, and clusters of them, that always look away
     UnusedDetail = 32,    ///< mip levels finer than any pose takes; samples that no pose takes
     AllEconomies = 63
 };
 [[nodiscard]] std::string_view name_of(Economy economy);
-
-/// The programs that a renderer compiles.
-enum class Program {
-    Outline,
-    Artifact,
-    ArtifactCompensated,
-    ArtifactFading,
-    ArtifactCompensatedFading,
-    CutOut, ///< of an artifact with texels that are cut out
-    CutOutCompensated,
-    CutOutFading,
-    CutOutCompensatedFading,
-    Caption,
-    TileClear,
-    TileAverage
-};
-[[nodiscard]] std::string_view name_of(Program program);
-
-/// What a renderer must be able to do.
-struct PassNeeds {
-    int samples = 1;          ///< a pixel, of the whole picture
-    bool plain = false;       ///< colours as they are
-    bool compensated = false; ///< with the projector's light evened out
-    bool level_fades = false;
-    bool captions = false;
-    bool cut_out = false; ///< textures leave texels out: known when they have been read
-};
-[[nodiscard]] PassNeeds united(const PassNeeds& a, const PassNeeds& b);
-[[nodiscard]] std::vector<Program> programs_of(const PassNeeds& needs);
 
 struct LeftOut {
     Economy economy = UnusedLevels;
@@ -94,7 +66,7 @@ struct ScenePlan {
     std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `rungs` first
     std::vector<std::size_t> captions; ///< of the pack
     std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
-    PassNeeds passes;
+    RenderNeeds needs;                 ///< of opaque textures: which leave texels out, no outline says
     unsigned economies = AllEconomies;
     std::vector<LeftOut> left_out;
     // What the rest of the plan is made with: scene_level.h.

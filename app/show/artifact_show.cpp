@@ -118,7 +118,7 @@ struct ArtifactShow::Loader {
             return at(file.string(), levels.error());
         }
         next_id += (*pack)->levels.size();
-        plan.passes = levels->needs();
+        plan.needs = levels->needs();
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
         for (const PackCaption& caption : (*pack)->captions) {
             add_once(languages, caption.language);
@@ -189,14 +189,14 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
     std::vector<PackLeftOut> left_out;
-    PassNeeds needs;
+    RenderNeeds needs;
     for (const std::filesystem::path& file : options.packs) {
         if (!artifacts.empty() && !devices.other_packs) {
             break; // no button leads there
         }
         Result<Artifact> artifact = loader.load(file);
         if (artifact) {
-            needs = united(needs, artifact->plan.passes);
+            needs = united(needs, artifact->plan.needs);
             artifacts.push_back(std::move(*artifact));
         } else {
             say_line(options.program, fmt::format("left out: {}", artifact.error().message));
@@ -207,7 +207,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         return nothing_to_show(left_out);
     }
     const Pinhole& pinhole = settings.projector.pinhole;
-    Result<Renderer> renderer = Renderer::create(options_of(needs, pinhole.width, pinhole.height));
+    Result<Renderer> renderer = Renderer::create(pinhole.width, pinhole.height, needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -253,7 +253,7 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
     wait_until_drawn();
 }
 
-ArtifactShow::ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
                            std::vector<Artifact> artifacts)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
@@ -287,8 +287,8 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
 
 ShowUse ArtifactShow::use() const {
     ShowUse use;
-    use.planned_programs = programs_of(needs_);
-    use.programs = renderer_.programs();
+    use.planned_shaders = shaders_of(needs_);
+    use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.gpu_bytes = renderer_.bytes();

@@ -9,6 +9,7 @@
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
@@ -16,6 +17,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +34,7 @@ struct ArtifactShowOptions {
 
 /// What a show took, planned and observed.
 struct ShowUse {
-    std::vector<Program> planned_programs, programs;
+    std::set<ShaderKey> planned_shaders, shaders;
     std::uint64_t planned_gpu_bytes = 0;
     std::uint64_t gpu_bytes = 0; ///< as the driver says
     std::uint64_t caption_gpu_bytes = 0;
@@ -80,7 +82,7 @@ private:
     };
     struct Loader;
 
-    ArtifactShow(const Settings& settings, const PassNeeds& needs, Renderer renderer,
+    ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
                  std::vector<Artifact> artifacts);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
@@ -90,7 +92,7 @@ private:
     Pinhole projector_;
     RigidTransform table_from_projector_;
     PropShape prop_;
-    PassNeeds needs_;
+    RenderNeeds needs_;
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
     std::vector<PackLeftOut> left_out_;

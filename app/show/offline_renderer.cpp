@@ -61,16 +61,14 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
         return tl::unexpected<Error>(artifact.error());
     }
     made->artifact_ = std::move(*artifact);
-    PassNeeds needs = needs_of(plan, level);
-    needs.cut_out = made->artifact_->cut_out();
-    Result<Renderer> renderer = Renderer::create(options_of(needs, width, height));
+    const RenderNeeds needs = needs_of(plan, level);
+    Result<Renderer> renderer = Renderer::create(width, height, needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
     made->renderer_ = std::move(*renderer);
     if (options.hit_points) {
-        Result<HitPointRenderer> hit_points =
-            HitPointRenderer::create(width, height, made->artifact_->cut_out());
+        Result<HitPointRenderer> hit_points = HitPointRenderer::create(width, height, needs.draws);
         if (!hit_points) {
             return tl::unexpected<Error>(hit_points.error());
         }

@@ -27,8 +27,7 @@ struct OfflineOptions {
     int height = 0;
     bool light = true;
     bool hit_points = false;
-    int samples =
-        0; ///< a pixel, see RendererOptions; 0 = finest_samples for "finest", else what the pack asks for
+    int samples = 0; ///< a pixel; 0 = finest_samples for "finest", else what the pack asks for
     unsigned economies = AllEconomies;
     /// The poses that will be drawn and no others; empty: any.
     std::vector<KnownView> views;

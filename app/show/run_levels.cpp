@@ -24,8 +24,7 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
     std::vector<LevelUse> uses;
     std::vector<LeftOut> left_out;
     std::size_t indices = 0;
-    PassNeeds needs = plan.passes;
-    needs.samples = 1;
+    RenderNeeds needs;
     for (const std::uint32_t number : plan.levels) {
         const SceneLevel kept = scene_level(pack, number, plan);
         needs = united(needs, needs_of(plan, kept));
@@ -37,7 +36,6 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
         if (!gpu) {
             return tl::unexpected<Error>(gpu.error());
         }
-        needs.cut_out = needs.cut_out || gpu->cut_out();
         uses.push_back({number, kept.mesh.indices.size() / 3, kept.unseen_triangles, kept.unseen_clusters,
                         glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
                         kept.finest_mip, gpu_bytes(kept, texture), gpu->bytes()});

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
     [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
     /// What a renderer for it must be able to do.
-    [[nodiscard]] const PassNeeds& needs() const { return needs_; }
+    [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
     /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
     /// there is nothing to choose. `target` is left with some picture in it, to be presented by nobody.
@@ -104,7 +104,7 @@ private:
     std::string technique_;
     std::vector<LevelUse> uses_;
     std::vector<LeftOut> left_out_;
-    PassNeeds needs_;
+    RenderNeeds needs_;
     std::vector<Level> levels_;
     std::vector<Rung> rungs_;
     double deadline_ms_;

@@ -148,8 +148,8 @@ protected:
     void expect_as_planned(const ArtifactShow& of, std::size_t programs) {
         const ShowUse use = of.use();
         EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
-        EXPECT_EQ(use.planned_programs, use.programs);
-        EXPECT_EQ(use.programs.size(), programs);
+        EXPECT_EQ(use.planned_shaders, use.shaders);
+        EXPECT_EQ(use.shaders.size(), programs);
         EXPECT_EQ(programs_that_exist(), programs);
         for (const LevelUse& level : of.levels(0).uses()) {
             EXPECT_EQ(level.planned_gpu_bytes, level.gpu_bytes);
@@ -188,7 +188,7 @@ TEST_F(PlanAgainstShow, AnOrdinaryScene) {
     EXPECT_LT(plan.levels.size(), 4U);
     EXPECT_EQ(lean->use().captions, 1U); // no button changes the language
     EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 0U);
-    expect_as_planned(*lean, programs_of(plan.passes).size());
+    expect_as_planned(*lean, shaders_of(plan.needs).size());
     const auto everything = show(0);
     EXPECT_EQ(everything->levels(0).uses().size(), 4U);
     EXPECT_EQ(everything->use().planned_gpu_bytes, everything->use().gpu_bytes);
@@ -202,7 +202,7 @@ TEST_F(PlanAgainstShow, EachEconomyByItself) {
     for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
         const auto one = show(economy);
         EXPECT_EQ(one->use().planned_gpu_bytes, one->use().gpu_bytes) << economy;
-        EXPECT_EQ(one->use().planned_programs, one->use().programs) << economy;
+        EXPECT_EQ(one->use().planned_shaders, one->use().shaders) << economy;
         expect_same_pictures(*one, *everything, 4);
     }
 }
@@ -218,7 +218,7 @@ TEST_F(PlanAgainstShow, AFullScene) {
     expect_as_planned(*lean, 6); // all but those without light compensation
     const auto everything = show(0);
     EXPECT_EQ(everything->use().gpu_bytes, lean->use().gpu_bytes);
-    EXPECT_EQ(everything->use().programs.size(), 8U);
+    EXPECT_EQ(everything->use().shaders.size(), 8U);
     EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 20);
 }
 

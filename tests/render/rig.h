@@ -11,6 +11,20 @@
 
 namespace frustumscreen::synthetic {
 
+/// Of opaque artifacts, in plain and in even light, and captions.
+[[nodiscard]] inline RenderNeeds needs(int samples, bool fades = false) {
+    RenderNeeds needs{samples, {{ShaderKey::Pass::TablePicture}}};
+    for (const bool even_light : {false, true}) {
+        for (const bool dithered : {false, fades}) {
+            ShaderKey key;
+            key.even_light = even_light;
+            key.dithered = dithered;
+            needs.draws.insert(key);
+        }
+    }
+    return needs;
+}
+
 struct Rig {
     Pack pack;
     PropShape prop = make_prop({});
@@ -24,8 +38,8 @@ struct Rig {
     Rig(int width, int height, int samples = 1, Pack shown = rings()) : pack(std::move(shown)) {
         display = SurfacelessDisplay::create(width, height).value();
         artifact = ArtifactGpu::upload(pack, 0).value();
-        renderer = Renderer::create({width, height, samples}).value();
-        hit_points = HitPointRenderer::create(width, height).value();
+        renderer = Renderer::create(width, height, needs(samples)).value();
+        hit_points = HitPointRenderer::create(width, height, needs(samples).draws).value();
         level = placed(pack, 0, metres_per_box(pack, prop), 1);
         plan = make_plan(prop, level);
     }

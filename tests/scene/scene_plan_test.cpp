@@ -41,6 +41,15 @@ bool leaves_out(const ScenePlan& plan, Economy economy, const std::string& what)
     });
 }
 
+bool fades(const ScenePlan& plan) {
+    const std::set<ShaderKey>& draws = plan.needs.draws;
+    return std::any_of(draws.begin(), draws.end(), [](const ShaderKey& key) { return key.dithered; });
+}
+
+bool has_captions(const ScenePlan& plan) {
+    return plan.needs.draws.count({ShaderKey::Pass::TablePicture}) > 0;
+}
+
 TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     const Settings settings;
     SceneRequest asked = request(settings);
@@ -49,7 +58,7 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
         asked.technique = technique;
         const ScenePlan plan = plan_scene(settings, outline(), asked).value();
         EXPECT_EQ(plan.levels, std::vector<std::uint32_t>{level});
-        EXPECT_FALSE(plan.passes.level_fades);
+        EXPECT_FALSE(fades(plan));
     }
     EXPECT_TRUE(
         leaves_out(plan_scene(settings, outline(), asked).value(), UnusedLevels, "levels 0, 1 and 2"));
@@ -64,7 +73,7 @@ TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
     const Settings settings; // half a pixel is 0.28 mm: level 1 is within it
     const ScenePlan plan = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
-    EXPECT_TRUE(plan.passes.level_fades);
+    EXPECT_TRUE(fades(plan));
     EXPECT_TRUE(leaves_out(plan, UnusedLevels, "levels 2 and 3"));
     PackOutline garbage = outline();
     for (LevelOutline& level : garbage.levels) {
@@ -85,7 +94,7 @@ TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
         EXPECT_EQ(full.rungs[k].level, lean.rungs[k].level);
         EXPECT_EQ(full.rungs[k].samples, lean.rungs[k].samples);
     }
-    EXPECT_EQ(programs_of(full.passes).size(), 8U);
+    EXPECT_EQ(shaders_of(full.needs).size(), 8U);
     EXPECT_EQ(full.faces, 31U);
     EXPECT_EQ(full.captions.size(), 2U);
 }
@@ -93,40 +102,68 @@ TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
 TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
     Settings settings;
     SceneRequest asked = request(settings);
-    EXPECT_TRUE(plan_scene(settings, outline(), asked).value().passes.captions);
+    EXPECT_TRUE(has_captions(plan_scene(settings, outline(), asked).value()));
     asked.captions = {1};
     const ScenePlan one = plan_scene(settings, outline(), asked).value();
     EXPECT_EQ(one.captions, std::vector<std::size_t>{1U});
     EXPECT_TRUE(leaves_out(one, UnusedCaptions, "another language"));
     settings.exhibit.captions = false;
     const ScenePlan off = plan_scene(settings, outline(), asked).value();
-    EXPECT_FALSE(off.passes.captions);
+    EXPECT_FALSE(has_captions(off));
     EXPECT_TRUE(leaves_out(off, UnusedCaptions, "typeface"));
     settings.exhibit.captions = true;
     PackOutline silent = outline();
     silent.description.captions.clear();
     asked.captions.clear();
-    EXPECT_FALSE(plan_scene(settings, silent, asked).value().passes.captions);
+    EXPECT_FALSE(has_captions(plan_scene(settings, silent, asked).value()));
     asked.captions = {0, 1};
     asked.live = false;
     EXPECT_TRUE(plan_scene(settings, outline(), asked).value().captions.empty());
 }
 
-TEST(ScenePlan, CompilesTheVariantsThatAreDrawn) {
+TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
     const Settings settings;
     SceneRequest asked = request(settings);
     asked.technique = "level0";
     asked.captions.clear();
-    using P = Program;
-    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
-              (std::vector{P::Outline, P::ArtifactCompensated, P::TileClear, P::TileAverage}));
+    using Pass = ShaderKey::Pass;
+    ShaderKey even;
+    even.even_light = true;
+    ShaderKey fading;
+    fading.dithered = true;
+    const auto shaders = [&] { return shaders_of(plan_scene(settings, outline(), asked).value().needs); };
+    EXPECT_EQ(shaders(),
+              (std::set<ShaderKey>{{Pass::Outline}, even, {Pass::TileClear}, {Pass::TileAverage}}));
     asked.light = false;
     asked.samples = 1;
-    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
-              (std::vector{P::Outline, P::Artifact}));
+    EXPECT_EQ(shaders(), (std::set<ShaderKey>{{Pass::Outline}, {Pass::Surface}}));
     asked.technique = "auto";
-    EXPECT_EQ(programs_of(plan_scene(settings, outline(), asked).value().passes),
-              (std::vector{P::Outline, P::Artifact, P::ArtifactFading}));
+    EXPECT_EQ(shaders(), (std::set<ShaderKey>{{Pass::Outline}, {Pass::Surface}, fading}));
+}
+
+TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
+    std::set<ShaderKey> keys;
+    for (unsigned bits = 0; bits < 16; ++bits) {
+        ShaderKey key;
+        key.even_light = (bits & 1U) != 0;
+        key.dithered = (bits & 2U) != 0;
+        key.cut_out = (bits & 4U) != 0;
+        key.places = (bits & 8U) != 0;
+        keys.insert(key.places ? places_of(key) : key);
+    }
+    for (const ShaderKey::Pass pass : {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture,
+                                       ShaderKey::Pass::TileClear, ShaderKey::Pass::TileAverage}) {
+        keys.insert({pass});
+    }
+    EXPECT_EQ(keys.size(), 16U); // places are the same in any light
+    std::set<std::string> names;
+    std::set<std::uint32_t> numbers;
+    for (const ShaderKey& key : keys) {
+        names.insert(name_of(key));
+        numbers.insert(bits_of(key));
+    }
+    EXPECT_EQ(names.size(), keys.size());
+    EXPECT_EQ(numbers.size(), keys.size());
 }
 
 TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {

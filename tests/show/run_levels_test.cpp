@@ -33,11 +33,20 @@ constexpr double deadline_ms = 16.0;
 /// Of a GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
 const std::vector<RungTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
 
+/// Of a level by itself and of a fade, in the light as it is.
+RenderNeeds fading() {
+    RenderNeeds needs{1, {ShaderKey()}};
+    ShaderKey key;
+    key.dithered = true;
+    needs.draws.insert(key);
+    return needs;
+}
+
 struct Show {
     Pack pack = two_levels();
     Stage stage{320, 200};
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    Renderer renderer = Renderer::create({320, 200, 1, true}).value();
+    Renderer renderer = Renderer::create(320, 200, fading()).value();
     int frame = 0;
 
     [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) const {

@@ -59,14 +59,15 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(artifact.error());
     }
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    RendererOptions needed{stage.width(), stage.height(), std::max(samples, default_samples)};
-    needed.cut_out = artifact->cut_out();
-    Result<Renderer> renderer = Renderer::create(needed);
+    ShaderKey shader;
+    shader.cut_out = artifact->cut_out();
+    const RenderNeeds needs{std::max(samples, default_samples), {shader}};
+    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
     Result<HitPointRenderer> hit_points =
-        HitPointRenderer::create(stage.width(), stage.height(), artifact->cut_out());
+        HitPointRenderer::create(stage.width(), stage.height(), needs.draws);
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }

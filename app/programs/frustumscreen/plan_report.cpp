@@ -33,11 +33,11 @@ template <typename List> std::string joined(const List& list) {
     return text.empty() ? "none" : text;
 }
 
-std::vector<std::string> names_of(const std::vector<Program>& programs) {
+std::vector<std::string> names_of(const std::set<ShaderKey>& shaders) {
     std::vector<std::string> names;
-    names.reserve(programs.size());
-    for (const Program program : programs) {
-        names.emplace_back(name_of(program));
+    names.reserve(shaders.size());
+    for (const ShaderKey& key : shaders) {
+        names.push_back(name_of(key));
     }
     return names;
 }
@@ -84,7 +84,7 @@ std::string needs_text(const PlanReport& report) {
                    : use.captions == 1 ? "one text"
                                        : fmt::format("{} texts", use.captions));
     fmt::format_to(out, "  samples a pixel, at most: {}\n", use.samples);
-    fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.programs)));
+    fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.shaders)));
     fmt::format_to(out, "  tracker: {}{}\n", name_of(report.devices.tracker),
                    report.devices.head ? ", the viewer's head is followed" : "");
     fmt::format_to(out, "  button panel: {}\n", report.devices.panel ? "yes" : "none");
@@ -149,8 +149,8 @@ Json needs_json(const PlanReport& report) {
             {"faces", faces_of(plan)},
             {"captions", plan.captions},
             {"samples", use.samples},
-            {"planned_programs", names_of(use.planned_programs)},
-            {"programs", names_of(use.programs)},
+            {"planned_programs", names_of(use.planned_shaders)},
+            {"programs", names_of(use.shaders)},
             {"planned_gpu_bytes", use.planned_gpu_bytes},
             {"gpu_bytes", use.gpu_bytes},
             {"tracker", std::string(name_of(report.devices.tracker))},

@@ -1,0 +1,60 @@
+/// One compiled program for each shader key, all made before the first frame.
+///
+/// Threads  the render thread; `find` allocates and compiles nothing.
+/// Errors   Internal: a shader that the driver refuses.
+#pragma once
+
+#include "app/scene/shader_key.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <set>
+
+namespace frustumscreen {
+
+/// Of all shaders; each has some of them.
+enum class Uniform : std::size_t {
+    Corners,
+    ClipFromUnit,
+    PropFromUnit,
+    MipLevel,
+    Brightness,
+    Dither,
+    PixelFromFragment,
+    Pinhole,
+    InverseDepth,
+    FaceGain,
+    Rectangles,
+    Picture,
+    Raster,
+    Count
+};
+
+class Shader {
+public:
+    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key);
+    void use() const { glUseProgram(program_.get()); }
+    /// -1, which OpenGL ignores, for one that the shader has not.
+    [[nodiscard]] GLint at(Uniform uniform) const { return locations_[static_cast<std::size_t>(uniform)]; }
+
+private:
+    GlProgram program_;
+    std::array<GLint, static_cast<std::size_t>(Uniform::Count)> locations_{};
+};
+
+class ShaderCache {
+public:
+    /// Compiles those that are not there yet.
+    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys);
+    /// Null if it was not prepared.
+    [[nodiscard]] const Shader* find(const ShaderKey& key) const;
+    [[nodiscard]] std::set<ShaderKey> keys() const;
+
+private:
+    std::map<ShaderKey, Shader> shaders_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,192 @@
+#include "app/render/shader_source.h"
+
+#include "app/scene/lit_tiles.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view outline_vertex = R"(
+uniform vec4 corners[4];
+void main() { gl_Position = corners[gl_VertexID]; }
+)";
+constexpr std::string_view outline_fragment = R"(
+void main() {}
+)";
+
+constexpr std::string_view surface_vertex = R"(
+layout(location = 0) in vec3 position; // 0..1 over the artifact's box
+uniform mat4 clip_from_unit;
+#ifdef PLACES
+uniform vec3 prop_from_unit[2]; // scale, offset
+out vec3 point;
+#endif
+#if !defined(PLACES) || defined(CUT_OUT)
+layout(location = 1) in vec2 uv;
+out vec2 texel;
+#endif
+void main() {
+    gl_Position = clip_from_unit * vec4(position, 1.0);
+#ifdef PLACES
+    point = prop_from_unit[0] * position + prop_from_unit[1];
+#endif
+#if !defined(PLACES) || defined(CUT_OUT)
+    texel = uv;
+#endif
+}
+)";
+
+constexpr std::string_view surface_fragment = R"(
+out vec4 result;
+#if !defined(PLACES) || defined(CUT_OUT)
+in vec2 texel;
+uniform sampler2D image;
+uniform float mip_level;
+#endif
+#if defined(EVEN_LIGHT) || defined(DITHERED)
+uniform vec4 pixel_from_fragment; // scale, offset
+#endif
+#ifdef DITHERED
+uniform vec2 dither; // share of the pixels; 1 = those of the share are drawn, 0 = the others
+// Bayer's matrix of 8 x 8: 64 thresholds, each once in every 8 x 8 pixels.
+bool is_other_draws() {
+    ivec2 p = ivec2(gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw);
+    int q = p.x ^ p.y;
+    int rank = (q & 1) << 5 | (p.y & 1) << 4 | (q & 2) << 2 | (p.y & 2) << 1 | (q & 4) >> 1 | (p.y & 4) >> 2;
+    return ((float(rank) + 0.5) / 64.0 < dither.x) != (dither.y > 0.5);
+}
+#endif
+#ifdef PLACES
+in vec3 point;
+#else
+uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
+#ifdef EVEN_LIGHT
+uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
+uniform vec3 inverse_depth; // of the face's plane
+uniform vec2 face_gain;     // constant, times d^3
+float compensation() {
+    vec2 pixel = gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw;
+    vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
+    float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
+    float d2 = depth * depth * (1.0 + dot(ray, ray));
+    return min(1.0, face_gain.x + face_gain.y * d2 * sqrt(d2));
+}
+#endif
+#endif
+void main() {
+#ifdef DITHERED
+    if (is_other_draws()) {
+        discard;
+    }
+#endif
+#if !defined(PLACES) || defined(CUT_OUT)
+    vec4 seen = textureLod(image, texel, mip_level);
+#endif
+#ifdef CUT_OUT
+    if (seen.a < 0.5) {
+        discard;
+    }
+#endif
+#ifdef PLACES
+    result = vec4(point, 1.0);
+#else
+    vec3 code = seen.rgb;
+    vec2 gain = brightness;
+#ifdef EVEN_LIGHT
+    float compensated = compensation();
+    gain *= vec2(compensated, pow(compensated, 1.0 / 2.4));
+#endif
+    // The code of `gain` times the light of a code, by sRGB's own power law; its straight piece near black exactly.
+    result = vec4(max(gain.x * code, (code + 0.055) * gain.y - 0.055), 1.0);
+#endif
+}
+)";
+
+// A picture of coverage: white light.
+constexpr std::string_view picture_vertex = R"(
+uniform vec4 corners[4]; // top left, top right, bottom right, bottom left
+out vec2 at;
+void main() {
+    gl_Position = corners[gl_VertexID];
+    at = vec2(gl_VertexID == 1 || gl_VertexID == 2 ? 1.0 : 0.0, gl_VertexID >= 2 ? 1.0 : 0.0);
+}
+)";
+constexpr std::string_view picture_fragment = R"(
+in vec2 at;
+uniform sampler2D image;
+uniform float brightness;
+out vec4 result;
+void main() { result = vec4(vec3(brightness * texture(image, at).r), 1.0); }
+)";
+
+/// Rectangles of the picture's pixels, six corners each, at the far plane.
+constexpr std::string_view tiles_vertex = R"(
+uniform vec4 rectangles[MOST_RECTANGLES]; // x, y, width, height
+uniform vec2 picture;                     // size in pixels
+void main() {
+    int corner = gl_VertexID % 6;
+    vec4 r = rectangles[gl_VertexID / 6];
+    vec2 pixel = r.xy + r.zw * vec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);
+    gl_Position = vec4(2.0 * pixel / picture - 1.0, 1.0, 1.0);
+}
+)";
+constexpr std::string_view black_fragment = R"(
+out vec4 result;
+void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
+)";
+// A bilinear fetch where four texels meet is their average; the sampler decodes sRGB before it. A pixel of
+// more than 2 x 2 samples takes one fetch for each 2 x 2.
+constexpr std::string_view average_fragment = R"(
+uniform sampler2D image;
+uniform ivec4 raster; // samples along a pixel's sides, the pixel at the larger picture's corner
+out vec4 result;
+void main() {
+    vec2 texel = 1.0 / vec2(textureSize(image, 0));
+    ivec2 fetches = max(raster.xy / 2, ivec2(1));
+    vec2 middle = (gl_FragCoord.xy - vec2(raster.zw)) * vec2(raster.xy) * texel;
+    vec2 first = middle - vec2(fetches - 1) * texel;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < fetches.y; ++y) {
+        for (int x = 0; x < fetches.x; ++x) {
+            sum += textureLod(image, first + 2.0 * vec2(x, y) * texel, 0.0);
+        }
+    }
+    result = sum / float(fetches.x * fetches.y);
+}
+)";
+
+std::string defines_of(const ShaderKey& key) {
+    std::string defines;
+    const auto define = [&defines](bool wanted, std::string_view name) {
+        defines += wanted ? fmt::format("#define {}\n", name) : "";
+    };
+    define(key.places, "PLACES");
+    define(key.cut_out, "CUT_OUT");
+    define(key.dithered, "DITHERED");
+    define(key.even_light, "EVEN_LIGHT");
+    return defines;
+}
+
+} // namespace
+
+ShaderSource source_of(const ShaderKey& key) {
+    const std::string most_rectangles =
+        fmt::format("#define MOST_RECTANGLES {}\n", LitTiles::most_rectangles);
+    switch (key.pass) {
+    case ShaderKey::Pass::Outline:
+        return {"", outline_vertex, outline_fragment};
+    case ShaderKey::Pass::Surface:
+        return {defines_of(key), surface_vertex, surface_fragment};
+    case ShaderKey::Pass::TablePicture:
+        return {"", picture_vertex, picture_fragment};
+    case ShaderKey::Pass::TileClear:
+        return {most_rectangles, tiles_vertex, black_fragment};
+    case ShaderKey::Pass::TileAverage:
+        return {most_rectangles, tiles_vertex, average_fragment};
+    }
+    return {};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,64 @@
+#include "app/scene/shader_key.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+std::string name_of_surface(const ShaderKey& key) {
+    std::string name = key.dithered ? "fading " : "";
+    name += key.cut_out ? "cut-out artifact" : "artifact";
+    if (key.places) {
+        return "places of the " + name;
+    }
+    return name + (key.even_light ? " in even light" : " in plain light");
+}
+
+} // namespace
+
+std::string name_of(const ShaderKey& key) {
+    switch (key.pass) {
+    case ShaderKey::Pass::Outline:
+        return "outline of a face";
+    case ShaderKey::Pass::Surface:
+        return name_of_surface(key);
+    case ShaderKey::Pass::TablePicture:
+        return "caption";
+    case ShaderKey::Pass::TileClear:
+        return "clearing of tiles";
+    case ShaderKey::Pass::TileAverage:
+        return "averaging of samples";
+    }
+    return {};
+}
+
+std::uint32_t bits_of(const ShaderKey& key) {
+    const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
+    return static_cast<std::uint32_t>(key.pass) << 4U | bit(key.places, 3) | bit(key.cut_out, 2) |
+           bit(key.dithered, 1) | bit(key.even_light, 0);
+}
+
+ShaderKey places_of(ShaderKey key) {
+    key.places = true;
+    key.even_light = false;
+    return key;
+}
+
+RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
+    RenderNeeds both{std::max(a.samples, b.samples), a.draws};
+    both.draws.insert(b.draws.begin(), b.draws.end());
+    return both;
+}
+
+std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
+    std::set<ShaderKey> shaders = needs.draws;
+    shaders.insert({ShaderKey::Pass::Outline});
+    if (needs.samples > 1) {
+        shaders.insert({ShaderKey::Pass::TileClear});
+        shaders.insert({ShaderKey::Pass::TileAverage});
+    }
+    return shaders;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,48 @@
+/// Names a shader by what it does and not by how: a plan makes keys, a renderer compiles one program for
+/// each.
+///
+/// Threads  values; any.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <set>
+#include <string>
+
+namespace frustumscreen {
+
+struct ShaderKey {
+    enum class Pass : std::uint8_t {
+        Outline,      ///< marks a face of the prop
+        Surface,      ///< draws a mesh
+        TablePicture, ///< draws a flat picture beside the prop
+        TileClear,    ///< blackens tiles of the larger picture that several samples a pixel need
+        TileAverage,  ///< averages these samples
+    };
+    Pass pass = Pass::Surface;
+    // Of surfaces alone:
+    bool places : 1 = false;     ///< gives each pixel's place in the prop and not its colour
+    bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
+    bool dithered : 1 = false;   ///< draws a share of the pixels
+    bool even_light : 1 = false; ///< evens out the projector's light
+
+    [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
+};
+[[nodiscard]] std::string name_of(const ShaderKey& key);
+/// Equal for equal keys alone.
+[[nodiscard]] std::uint32_t bits_of(const ShaderKey& key);
+
+/// The shader that gives the places of what `key` draws.
+[[nodiscard]] ShaderKey places_of(ShaderKey key);
+
+/// What a renderer must be able to do.
+struct RenderNeeds {
+    int samples = 1;           ///< a pixel, that there is room for in the whole picture
+    std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
+};
+[[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
+/// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings
+/// itself.
+[[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
+
+} // namespace frustumscreen
