@@ -2,7 +2,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace frustumscreen {
 
@@ -12,38 +14,67 @@ GLuint stencil_value(std::size_t face) {
     return static_cast<GLuint>(face) + 1U;
 }
 
-ShaderKey shader_for(const FramePlan& plan, const ArtifactGpu& artifact, FacePass::Output output) {
-    ShaderKey key;
-    key.cut_out = artifact.cut_out();
-    key.dithered = plan.coming_share.has_value();
-    key.even_light = plan.compensate_light;
-    return output == FacePass::Output::Places ? places_of(key) : key;
+void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster) {
+    const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
+    glUniform4f(shader.at(Uniform::PixelFromFragment), scale.x, scale.y, static_cast<float>(raster.corner.x),
+                static_cast<float>(raster.corner.y));
+    glUniform4f(shader.at(Uniform::Pinhole), static_cast<float>(pinhole.cx), static_cast<float>(pinhole.cy),
+                static_cast<float>(1.0 / pinhole.fx), static_cast<float>(1.0 / pinhole.fy));
+}
+
+void set_face(const Shader& shader, const FacePlan& face) {
+    glUniform3fv(shader.at(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
+    glUniform2f(shader.at(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre);
+}
+
+void set_draw(const Shader& shader, const Draw& draw) {
+    constexpr float code_power = 1.0F / 2.4F;
+    glUniform2f(shader.at(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
+    glUniform2f(shader.at(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
+    glUniform3fv(shader.at(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
+    glUniformMatrix4fv(shader.at(Uniform::ClipFromUnit), 1, GL_FALSE, glm::value_ptr(draw.clip_from_unit));
+}
+
+/// The uploaded level that ::mip_level asks for, one for the whole draw: a software or small GPU spends more
+/// on finding and mixing two for each pixel than on the rest of it.
+float mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
+    const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
+    return static_cast<float>(
+        mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box) -
+        texture.finest_mip);
 }
 
 } // namespace
 
-FacePass FacePass::create() {
-    FacePass pass;
-    pass.no_attributes_ = GlVertexArray::generate();
-    pass.indices_ = GlBuffer::generate();
-    return pass;
-}
-
-int FacePass::draw(const FramePlan& plan, const Levels& levels, const ShaderCache& shaders,
+int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
                    const Raster& raster, Output output) const {
     const Shader* const outline = shaders.find({ShaderKey::Pass::Outline});
-    if (plan.faces.empty() || levels.artifact == nullptr || outline == nullptr) {
+    if (plan.faces.empty() || outline == nullptr) {
         return 0;
     }
     glEnable(GL_STENCIL_TEST);
     glEnable(GL_SCISSOR_TEST);
     mark_faces(plan, *outline, raster);
     upload_indices(plan);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CW);
     auto calls = static_cast<int>(plan.faces.size());
-    for (const ArtifactGpu* level : {levels.artifact, plan.coming_share ? levels.coming : nullptr}) {
+    for (const Draw& draw : plan.draws) {
+        if (draw.face == Draw::on_table) {
+            continue;
+        }
         const Shader* const shader =
-            level != nullptr ? shaders.find(shader_for(plan, *level, output)) : nullptr;
-        calls += shader != nullptr ? draw_level(plan, *level, *shader, level == levels.coming, raster) : 0;
+            shaders.find(output == Output::Places ? places_of(draw.shader) : draw.shader);
+        const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
+        const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
+        if (shader != nullptr && mesh != nullptr && texture != nullptr) {
+            draw_surface(plan, draw, *mesh, *texture, *shader, raster);
+            ++calls;
+        }
     }
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_SCISSOR_TEST);
@@ -83,53 +114,25 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-int FacePass::draw_level(const FramePlan& plan, const ArtifactGpu& artifact, const Shader& shader,
-                         bool coming, const Raster& raster) const {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CW);
+void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
+                            const GpuStore::Texture& texture, const Shader& shader,
+                            const Raster& raster) const {
+    const auto face = static_cast<std::size_t>(draw.face);
     shader.use();
+    set_view(shader, plan.projector, raster);
+    set_face(shader, plan.faces[face]);
+    set_draw(shader, draw);
+    glUniform1f(shader.at(Uniform::MipLevel), mip_of(draw, texture, raster));
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, artifact.texture());
-    glBindVertexArray(artifact.vertex_array());
-    constexpr float code_power = 1.0F / 2.4F;
-    glUniform2f(shader.at(Uniform::Brightness), plan.brightness, std::pow(plan.brightness, code_power));
-    glUniform2f(shader.at(Uniform::Dither), plan.coming_share.value_or(0.0F), coming ? 1.0F : 0.0F);
-    const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
-    glUniform4f(shader.at(Uniform::PixelFromFragment), scale.x, scale.y, static_cast<float>(raster.corner.x),
-                static_cast<float>(raster.corner.y));
-    const Pinhole& pinhole = plan.projector;
-    glUniform4f(shader.at(Uniform::Pinhole), static_cast<float>(pinhole.cx), static_cast<float>(pinhole.cy),
-                static_cast<float>(1.0 / pinhole.fx), static_cast<float>(1.0 / pinhole.fy));
-    const std::array<glm::vec3, 2> prop_from_unit{glm::vec3(plan.prop_from_unit_scale),
-                                                  glm::vec3(plan.prop_from_unit_offset)};
-    glUniform3fv(shader.at(Uniform::PropFromUnit), 2, glm::value_ptr(prop_from_unit[0]));
+    glBindTexture(GL_TEXTURE_2D, texture.texels.get());
+    glBindVertexArray(mesh.vertex_array.get());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
-    const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
-    int calls = 0;
-    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
-        const FacePlan& face = plan.faces[k];
-        glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(k)), 0xFF);
-        glUniformMatrix4fv(shader.at(Uniform::ClipFromUnit), 1, GL_FALSE,
-                           glm::value_ptr(face.clip_from_unit));
-        glUniform1f(shader.at(Uniform::MipLevel), artifact.mip_level(samples_along * face.pixels_per_box));
-        glUniform3fv(shader.at(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
-        glUniform2f(shader.at(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre);
-        const IndexRange& range = coming ? face.coming : face.shown;
-        if (range.count == 0) {
-            continue;
-        }
-        set_scissor(face.bounds, raster);
-        const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
-                       // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                       reinterpret_cast<const void*>(offset));
-        ++calls;
-    }
-    return calls;
+    glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
+    set_scissor(draw.bounds, raster);
+    const std::uintptr_t offset = std::uintptr_t{draw.range.first} * sizeof(std::uint32_t);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw.range.count), GL_UNSIGNED_INT,
+                   // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                   reinterpret_cast<const void*>(offset));
 }
 
 } // namespace frustumscreen

@@ -2,14 +2,17 @@
 
 #include <array>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace frustumscreen {
 
-Result<HitPointRenderer> HitPointRenderer::create(int width, int height, const std::set<ShaderKey>& draws) {
+Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
+    const int width = shown.width();
+    const int height = shown.height();
     HitPointRenderer renderer(width, height);
     std::set<ShaderKey> shaders{{ShaderKey::Pass::Outline}};
-    for (ShaderKey key : draws) {
+    for (const ShaderKey& key : shown.shaders()) {
         if (key.pass == ShaderKey::Pass::Surface) {
             shaders.insert(places_of(key));
         }
@@ -36,7 +39,7 @@ Result<HitPointRenderer> HitPointRenderer::create(int width, int height, const s
     return renderer;
 }
 
-ImageFloat HitPointRenderer::draw(const FramePlan& plan, const ArtifactGpu* artifact) {
+ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, width_, height_);
     glDisable(GL_SCISSOR_TEST);
@@ -44,7 +47,7 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const ArtifactGpu* arti
     glStencilMask(0xFF);
     glClearBufferfv(GL_COLOR, 0, nothing.data());
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
-    pass_.draw(plan, {artifact, nullptr}, shaders_, {}, FacePass::Output::Places);
+    pass_.draw(plan, store, shaders_, {}, FacePass::Output::Places);
     ImageFloat image(width_, height_);
     std::vector<glm::vec4> read(image.texels.size());
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, read.data());

@@ -5,20 +5,21 @@
 
 #include "app/image/image.h"
 #include "app/render/face_pass.h"
+#include "app/render/gpu_store.h"
+#include "app/render/renderer.h"
+#include "app/render/shader_cache.h"
+#include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
-
-#include <set>
 
 namespace frustumscreen {
 
 class HitPointRenderer {
 public:
-    /// Errors: the driver cannot draw into float pictures.
-    /// `draws`: of the renderer whose plans these are.
-    [[nodiscard]] static Result<HitPointRenderer> create(int width, int height,
-                                                         const std::set<ShaderKey>& draws);
-    /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top.
-    [[nodiscard]] ImageFloat draw(const FramePlan& plan, const ArtifactGpu* artifact);
+    /// Errors: the driver cannot draw into float pictures. For what the renderer can draw by then.
+    [[nodiscard]] static Result<HitPointRenderer> create(const Renderer& renderer);
+    /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top. `store`: that
+    /// renderer's.
+    [[nodiscard]] ImageFloat draw(const FramePlan& plan, const GpuStore& store);
 
 private:
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
@@ -26,7 +27,7 @@ private:
     int width_;
     int height_;
     ShaderCache shaders_;
-    FacePass pass_ = FacePass::create();
+    FacePass pass_;
     GlFramebuffer framebuffer_;
     GlRenderbuffer points_;
     GlRenderbuffer depth_stencil_;

@@ -44,22 +44,30 @@ Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& need
         }
     }
     Renderer renderer(width, height);
-    renderer.samples_ = needs.samples;
-    if (Result<void> ready = renderer.shaders_.prepare(shaders_of(needs)); !ready) {
+    if (Result<void> ready = renderer.prepare(needs); !ready) {
         return tl::unexpected<Error>(ready.error());
-    }
-    if (needs.samples != 1) {
-        Result<SampleGrid> grid = SampleGrid::create(width, height, needs.samples);
-        if (!grid) {
-            return tl::unexpected<Error>(grid.error());
-        }
-        renderer.sample_grid_ = std::move(*grid);
     }
     return renderer;
 }
 
+Result<void> Renderer::prepare(const RenderNeeds& needs) {
+    const RenderNeeds all = united(needs_, needs);
+    if (Result<void> ready = shaders_.prepare(shaders_of(all)); !ready) {
+        return ready;
+    }
+    if (all.samples > needs_.samples) {
+        Result<SampleGrid> grid = SampleGrid::create(width_, height_, all.samples);
+        if (!grid) {
+            return tl::unexpected<Error>(grid.error());
+        }
+        sample_grid_ = std::move(*grid);
+    }
+    needs_ = all;
+    return {};
+}
+
 std::uint64_t Renderer::bytes() const {
-    return sample_grid_ ? sample_grid_->bytes() : 0;
+    return store_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
 }
 
 PixelRectangle Renderer::to_redraw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) const {
@@ -73,15 +81,14 @@ PixelRectangle Renderer::to_redraw(const FramePlan& plan, const RenderTarget& ta
     return united(history_[age - 1].bounds, lit_bounds(plan));
 }
 
-DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-                          Redraw redraw) {
+DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) {
     if (redraw == Redraw::Changes && target.buffer_age > 0 && pictures_ > 0 &&
         history_[0].hash == plan.hash) {
         return {};
     }
     DrawResult result{true, to_redraw(plan, target, redraw), lit_bounds(plan), 0};
     if (!result.redrawn.empty()) {
-        paint(plan, shows, target, result);
+        paint(plan, target, result);
     }
     std::move_backward(history_.begin(), history_.end() - 1, history_.end());
     history_[0] = {plan.hash, lit_bounds(plan)};
@@ -92,16 +99,16 @@ DrawResult Renderer::draw(const FramePlan& plan, const Shows& shows, const Rende
 /// The larger picture comes first, so that a tiling GPU goes to the display's framebuffer once. Codes are
 /// written as they are throughout; what is computed in linear light (captions, averages) turns the encoding
 /// on for itself.
-void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-                     DrawResult& result) const {
-    const int samples = plan.samples > 0 ? plan.samples : samples_;
+void Renderer::paint(const FramePlan& plan, const RenderTarget& target, DrawResult& result) const {
+    const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
     const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty();
     const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
+    const PixelRectangle whole{0, 0, width_, height_};
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
-        draw_caption(plan, shows, intersected(plan.caption.bounds, plan.lit.bounds()), raster, result);
-        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, shaders_, raster);
+        result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
+        result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, width_, height_);
@@ -109,27 +116,14 @@ void Renderer::paint(const FramePlan& plan, const Shows& shows, const RenderTarg
     set_scissor(result.redrawn);
     clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
     glDisable(GL_SCISSOR_TEST);
-    draw_caption(plan, shows, plan.caption.bounds, {}, result);
+    result.draw_calls += table_.draw(plan, whole, store_, shaders_);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, shaders_);
-    } else if (!plan.faces.empty()) {
-        result.draw_calls += pass_.draw(plan, {shows.artifact, shows.coming}, shaders_);
+    } else {
+        result.draw_calls += faces_.draw(plan, store_, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-}
-
-void Renderer::draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
-                            const Raster& raster, DrawResult& result) const {
-    if (part.empty()) {
-        return;
-    }
-    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-    glEnable(GL_SCISSOR_TEST);
-    set_scissor(part, raster);
-    result.draw_calls += caption_.draw(plan.caption, shows.caption, shaders_);
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
 } // namespace frustumscreen

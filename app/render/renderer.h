@@ -1,15 +1,17 @@
-/// Draws a plan into a display's framebuffer: only what changed, and nothing if nothing changed.
+/// Draws a plan into a display's framebuffer: only what changed, and nothing if nothing changed. Owns the
+/// meshes and textures that plans name, and a program for each of their shaders.
 ///
 /// Colour   the framebuffer is sRGB (display.h); shaders work in linear light.
 /// Threads  the render thread; `draw` allocates nothing and makes no GL object.
-/// Errors   at creation only: shaders or buffers that the driver refuses.
+/// Errors   when something is created, prepared or uploaded: shaders, buffers or textures that the driver
+/// refuses.
 #pragma once
 
-#include "app/render/artifact_gpu.h"
-#include "app/render/caption_pass.h"
 #include "app/render/face_pass.h"
+#include "app/render/gpu_store.h"
 #include "app/render/sample_grid.h"
 #include "app/render/shader_cache.h"
+#include "app/render/table_pass.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/shader_key.h"
 #include "firmware_host/base/result.h"
@@ -50,23 +52,21 @@ enum class Redraw {
 
 class Renderer {
 public:
-    /// Of pictures of that size. Compiles every shader of the needs: no frame compiles one.
-    [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs);
+    /// Of pictures of that size.
+    [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs = {});
+    /// Compiles and allocates what these needs take beyond those before: no frame compiles anything.
+    [[nodiscard]] Result<void> prepare(const RenderNeeds& needs);
 
-    /// What the plan shows. Neither is touched if the plan has no need of it.
-    struct Shows {
-        const ArtifactGpu* artifact = nullptr;
-        const CaptionGpu* caption = nullptr;
-        const ArtifactGpu* coming = nullptr; ///< the level that a fade brings in
-    };
+    /// What plans name. A picture is the same until its plan names something else: what is released is gone
+    /// from the next picture that is drawn.
+    [[nodiscard]] GpuStore& store() { return store_; }
+    [[nodiscard]] const GpuStore& store() const { return store_; }
+
     /// Each drawn picture must be presented before the next call: the target's age counts presents.
-    DrawResult draw(const FramePlan& plan, const ArtifactGpu* artifact, const RenderTarget& target,
-                    Redraw redraw = Redraw::Changes) {
-        return draw(plan, Shows{artifact, nullptr}, target, redraw);
-    }
-    DrawResult draw(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-                    Redraw redraw = Redraw::Changes);
+    DrawResult draw(const FramePlan& plan, const RenderTarget& target, Redraw redraw = Redraw::Changes);
 
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
     /// Those that were compiled.
     [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
     /// Of GPU memory, as the driver says, but for the indices that come with each picture.
@@ -78,19 +78,17 @@ private:
         PixelRectangle bounds;
     };
     Renderer(int width, int height) : width_(width), height_(height) {}
-    void paint(const FramePlan& plan, const Shows& shows, const RenderTarget& target,
-               DrawResult& result) const;
-    void draw_caption(const FramePlan& plan, const Shows& shows, const PixelRectangle& part,
-                      const Raster& raster, DrawResult& result) const;
+    void paint(const FramePlan& plan, const RenderTarget& target, DrawResult& result) const;
     [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
                                            Redraw redraw) const;
 
     int width_, height_;
-    int samples_ =
-        1; ///< a pixel, that there is room for; a plan may ask for fewer, and for more of a smaller part
+    RenderNeeds needs_; ///< there is room for so many samples; a plan may ask for fewer, and for more of a
+                        ///< smaller part
+    GpuStore store_;
     ShaderCache shaders_;
-    FacePass pass_ = FacePass::create();
-    CaptionPass caption_ = CaptionPass::create();
+    FacePass faces_;
+    TablePass table_;
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample
     std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_

@@ -1,11 +1,11 @@
 #include "app/scene/frame_plan.h"
 
 #include "app/geometry/collineation.h"
+#include "app/scene/face_view.h"
+#include "app/scene/plan_hash.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace frustumscreen {
@@ -15,75 +15,15 @@ namespace {
 /// More faces than any prop has; keeps the frame free of allocation.
 constexpr std::size_t most_faces = 16;
 
-/// FNV-1a over 64-bit words.
-class Hash {
-public:
-    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ULL; }
-    void add_float(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
-    [[nodiscard]] std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
-
-void hash_corners(const std::array<glm::vec4, 4>& corners, Hash& hash) {
-    for (const glm::vec4& corner : corners) {
-        for (int k = 0; k < 4; ++k) {
-            hash.add_float(corner[k]);
-        }
-    }
-}
-
-void hash_caption(const CaptionPlan& caption, Hash& hash) {
-    if (caption.bounds.empty()) {
-        return;
-    }
-    hash_corners(caption.corners_clip, hash);
-    hash.add_float(caption.brightness);
-    for (const std::array<glm::vec4, 4>& face : caption.prop_clip) {
-        hash_corners(face, hash);
-    }
-}
-
-std::uint64_t hash_of(const FramePlan& plan, std::uint64_t artifact, std::uint64_t coming,
-                      std::uint64_t caption) {
-    Hash hash;
-    hash.add(artifact);
-    hash.add(coming);
-    hash.add(plan.caption.bounds.empty() ? 0 : caption);
-    hash.add(static_cast<std::uint64_t>(plan.projector.width));
-    hash.add(static_cast<std::uint64_t>(plan.projector.height));
-    hash.add(static_cast<std::uint64_t>(plan.compensate_light));
-    hash.add(static_cast<std::uint64_t>(plan.samples));
-    hash.add_float(plan.brightness);
-    hash.add_float(plan.coming_share.value_or(-1.0F));
-    hash_caption(plan.caption, hash);
-    for (const FacePlan& face : plan.faces) {
-        hash.add(static_cast<std::uint64_t>(face.face));
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                hash.add_float(face.clip_from_unit[column][row]);
-            }
-        }
-        hash_corners(face.corners_clip, hash);
-        hash.add_float(face.light.constant);
-        hash.add_float(face.light.per_cubic_metre);
-        hash.add(face.shown.count);
-        hash.add(face.coming.count);
-    }
-    return hash.value();
-}
-
-/// Everything of one frame that the faces share.
+/// Everything of one frame that faces and parts share.
 struct Shared {
     const PropShape& prop;
-    const PlacedLevel& artifact;
     const PlanView& view;
-    glm::dmat4 projector_from_prop;
-    glm::dmat4 clip_from_prop;
-    glm::dvec3 projector_in_prop;
-    RigidTransform prop_from_table;
-    Box box; ///< the artifact's, prop frame
+    glm::dmat4 projector_from_prop{1.0};
+    glm::dmat4 clip_from_prop{1.0};
+    glm::dvec3 projector_in_prop{0.0};
+    RigidTransform prop_from_table = {};
+    Box box = {}; ///< around all parts, prop frame
 
     [[nodiscard]] glm::dvec3 eye(std::size_t face) const {
         const std::size_t which = view.eyes_m.size() == 1 ? 0 : std::min(face, view.eyes_m.size() - 1);
@@ -91,86 +31,43 @@ struct Shared {
     }
 };
 
-Shared shared_by_faces(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view) {
+/// Prop frame.
+Box box_of(const PlacedLevel& level) {
+    const glm::dvec3 extent = level.box_size * level.metres_per_box;
+    return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
+}
+
+Shared shared_by_all(const PropShape& prop, std::span<const Part> parts, const PlanView& view) {
     const RigidTransform projector_from_prop = view.table_from_projector.inverse() * view.table_from_prop;
-    const glm::dvec3 extent = artifact.box_size * artifact.metres_per_box;
-    Shared shared{prop, artifact, view, projector_from_prop.matrix(), glm::dmat4(1.0), {}, {}, {}};
+    Shared shared{prop, view};
+    shared.projector_from_prop = projector_from_prop.matrix();
     shared.clip_from_prop = view.projector.clip_from_point() * shared.projector_from_prop;
     shared.projector_in_prop = projector_from_prop.inverse().translation;
     shared.prop_from_table = view.table_from_prop.inverse();
-    shared.box = {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Box box = box_of(parts[k].level);
+        shared.box =
+            k == 0 ? box : Box{glm::min(shared.box.low, box.low), glm::max(shared.box.high, box.high)};
+    }
     return shared;
 }
 
-glm::dvec4 row(const glm::dmat4& m, int r) {
-    return {m[0][r], m[1][r], m[2][r], m[3][r]};
-}
-
-/// The pyramid eye -> face and the picture's edges seen through the face's collineation; box frame.
-FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
-                     const glm::dmat4& clip_from_box) {
-    FaceVolume volume;
-    const glm::dvec3 eye = eye_in_prop / metres_per_box;
-    for (std::size_t k = 0; k < face.corners.size(); ++k) {
-        const glm::dvec3 a = face.corners[k] / metres_per_box - eye;
-        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - eye;
-        const glm::dvec3 inward = glm::cross(b, a);
-        volume.add(glm::dvec4(inward, -glm::dot(inward, eye)));
+/// Nothing where no eye looks through the face, or no light meets it.
+std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
+    const PropFace& face = shared.prop.faces[index];
+    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
+    if (!(face.plane.distance(shared.projector_in_prop) >
+          least_sine * glm::distance(shared.projector_in_prop, middle))) {
+        return std::nullopt;
     }
-    const glm::dvec4 w = row(clip_from_box, 3);
-    volume.add(w);
-    for (int axis = 0; axis < 2; ++axis) {
-        volume.add(w + row(clip_from_box, axis));
-        volume.add(w - row(clip_from_box, axis));
+    const glm::dvec3 eye = shared.eye(index);
+    const std::optional<glm::dmat4> clip = collineation(face.plane, eye, shared.clip_from_prop, shared.box);
+    if (!clip) {
+        return std::nullopt;
     }
-    return volume;
-}
-
-/// Pixels around points in clip coordinates; the whole picture if one is not in front. A pixel to spare each
-/// way.
-PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    const glm::dvec2 size(pinhole.width, pinhole.height);
-    for (const glm::dvec4& p : clip) {
-        if (!(p.w > 0.0)) {
-            return {0, 0, pinhole.width, pinhole.height};
-        }
-        const glm::dvec2 pixel = (glm::dvec2(p) / p.w * 0.5 + 0.5) * size;
-        low = glm::min(low, pixel);
-        high = glm::max(high, pixel);
-    }
-    low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
-    high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
-    return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
-            static_cast<int>(high.y - low.y)};
-}
-
-/// Where the artifact can show on the face: its box seen through the face, and the face itself.
-PixelRectangle face_bounds(const PropFace& face, const Shared& shared, const glm::dmat4& clip_from_frame) {
-    std::array<glm::dvec4, 4> outline;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        outline[k] = shared.clip_from_prop * glm::dvec4(face.corners[k], 1.0);
-    }
-    std::array<glm::dvec4, 8> box;
-    for (std::size_t k = 0; k < box.size(); ++k) {
-        const glm::dvec3 corner((k & 1U) != 0 ? shared.box.high.x : shared.box.low.x,
-                                (k & 2U) != 0 ? shared.box.high.y : shared.box.low.y,
-                                (k & 4U) != 0 ? shared.box.high.z : shared.box.low.z);
-        box[k] = clip_from_frame * glm::dvec4(corner, 1.0);
-    }
-    const Pinhole& pinhole = shared.view.projector;
-    return intersected(pixels_around(outline, pinhole), pixels_around(box, pinhole));
-}
-
-/// Depth 0 keeps what is in front of the projector (w > 0) and clips the rest.
-std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners, const glm::dmat4& clip) {
-    std::array<glm::vec4, 4> result{};
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const glm::dvec4 corner = clip * glm::dvec4(corners[k], 1.0);
-        result[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
-    }
-    return result;
+    const PixelRectangle bounds =
+        face_bounds(face, shared.box, shared.clip_from_prop, *clip, shared.view.projector);
+    return bounds.empty() ? std::nullopt : std::optional(FaceView{eye, *clip, bounds});
 }
 
 /// Pixels around points of the box seen through a face.
@@ -219,15 +116,15 @@ PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
     return bounds;
 }
 
-/// Adds what the face shows to the plan; returns the pixels around it.
-PixelRectangle show_triangles(const LevelTriangles& level, const FrontTriangles& front,
-                              const FaceVolume& volume, const glm::mat4& clip_from_box,
-                              const PixelRectangle& face, FramePlan& plan, IndexRange& range) {
+/// Adds what a face shows of a level to the plan's indices; returns the pixels around it.
+PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& volume,
+                              const glm::mat4& clip_from_box, const PixelRectangle& face, FramePlan& plan,
+                              IndexRange& range) {
     range.first = static_cast<std::uint32_t>(plan.indices.size());
     PixelRectangle bounds;
     for (std::size_t k = 0; k < level.clusters.size(); ++k) {
         const std::size_t first = plan.indices.size();
-        if (append_visible(volume, level, front, k, plan.indices) > 0) {
+        if (append_visible(volume, level, plan.front, k, plan.indices) > 0) {
             bounds = united(bounds, light_tiles(level, k, std::span(plan.indices).subspan(first),
                                                 clip_from_box, face, plan.projector, plan.lit));
         }
@@ -236,67 +133,71 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FrontTriangles&
     return bounds;
 }
 
-/// Geometric mean of the two singular values of pixel(point) at a point: how large a picture the face makes
-/// of it.
-double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point, const Pinhole& pinhole) {
-    const glm::dvec4 clip = clip_from_box * glm::dvec4(point, 1.0);
-    if (!(clip.w > 0.0)) {
-        return 0.0;
-    }
-    const glm::dvec3 w(row(clip_from_box, 3));
-    const glm::dvec3 across =
-        0.5 * pinhole.width / clip.w * (glm::dvec3(row(clip_from_box, 0)) - clip.x / clip.w * w);
-    const glm::dvec3 down =
-        0.5 * pinhole.height / clip.w * (glm::dvec3(row(clip_from_box, 1)) - clip.y / clip.w * w);
-    return std::sqrt(glm::length(glm::cross(across, down)));
-}
-
-/// Plans one face; false if nothing shows on it.
-bool plan_face(std::size_t index, const Shared& shared, FramePlan& plan, FacePlan& face_plan) {
-    const PropFace& face = shared.prop.faces[index];
-    const glm::dvec3 eye = shared.eye(index);
-    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
-    if (!(face.plane.distance(shared.projector_in_prop) >
-          least_sine * glm::distance(shared.projector_in_prop, middle))) {
-        return false;
-    }
-    const std::optional<glm::dmat4> clip = collineation(face.plane, eye, shared.clip_from_prop, shared.box);
-    if (!clip) {
-        return false;
-    }
-    const PixelRectangle bounds = face_bounds(face, shared, *clip);
-    if (bounds.empty()) {
-        return false;
-    }
-    const double scale = shared.artifact.metres_per_box;
-    glm::dmat4 clip_from_box = *clip;
-    glm::dmat4 clip_from_unit = *clip;
+/// What a face shows of a part; nothing if that is nothing.
+std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
+                              const Shared& shared, FramePlan& plan) {
+    const PlacedLevel& level = part.level;
+    const Box box = box_of(level);
+    const double scale = level.metres_per_box;
+    glm::dmat4 clip_from_box = through.clip_from_prop;
+    glm::dmat4 clip_from_unit = through.clip_from_prop;
     for (int axis = 0; axis < 3; ++axis) {
         clip_from_box[axis] *= scale;
-        clip_from_unit[axis] *= plan.prop_from_unit_scale[axis];
+        clip_from_unit[axis] *= (box.high - box.low)[axis];
     }
-    clip_from_unit[3] = *clip * glm::dvec4(plan.prop_from_unit_offset, 1.0);
+    clip_from_unit[3] = through.clip_from_prop * glm::dvec4(box.low, 1.0);
 
-    const FaceVolume volume = volume_of(face, eye, scale, clip_from_box);
-    const glm::mat4 clip32(clip_from_box);
-    plan.front.update(*shared.artifact.triangles, eye / scale);
-    face_plan.bounds =
-        show_triangles(*shared.artifact.triangles, plan.front, volume, clip32, bounds, plan, face_plan.shown);
-    if (shared.view.fade) {
-        const LevelTriangles& coming = *shared.view.fade->triangles;
-        plan.coming_front.update(coming, eye / scale);
-        face_plan.bounds = united(face_plan.bounds, show_triangles(coming, plan.coming_front, volume, clip32,
-                                                                   bounds, plan, face_plan.coming));
+    Draw draw;
+    plan.front.update(*level.triangles, through.eye_in_prop / scale);
+    draw.bounds = show_triangles(*level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box),
+                                 glm::mat4(clip_from_box), through.bounds, plan, draw.range);
+    if (draw.range.count == 0) {
+        return std::nullopt;
     }
-    if (face_plan.shown.count + face_plan.coming.count == 0) {
-        return false;
+    draw.shader.cut_out = level.drawable.material.cut_out;
+    draw.shader.dithered = part.dither.has_value();
+    draw.shader.even_light = shared.view.light.has_value();
+    draw.drawable = level.drawable;
+    draw.clip_from_unit = glm::mat4(clip_from_unit);
+    draw.prop_from_unit = {glm::vec3(box.high - box.low), glm::vec3(box.low)};
+    draw.pixels_per_box =
+        pixels_per_unit(clip_from_box, {0.0, 0.0, 0.5 * level.box_size.z}, shared.view.projector);
+    draw.brightness = static_cast<float>(shared.view.brightness);
+    draw.dither = part.dither.value_or(Dither{});
+    return draw;
+}
+
+/// Part by part: what looks towards the eye is found once for all faces that share it.
+void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
+    const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
+    std::array<std::optional<FaceView>, most_faces> through{};
+    std::array<std::optional<std::size_t>, most_faces> planned{}; // index into plan.faces
+    for (std::size_t face = 0; face < faces; ++face) {
+        through[face] = look_through(face, shared);
     }
-    face_plan.face = static_cast<int>(index);
-    face_plan.pixels_per_box =
-        pixels_per_unit(clip_from_box, {0.0, 0.0, 0.5 * shared.artifact.box_size.z}, shared.view.projector);
-    face_plan.clip_from_unit = glm::mat4(clip_from_unit);
-    face_plan.corners_clip = corners_in_clip(face.corners, shared.clip_from_prop);
-    return true;
+    for (const Part& part : parts) {
+        for (std::size_t face = 0; face < faces; ++face) {
+            if (!part.level.triangles || !through[face] || ((part.level.faces >> face) & 1U) == 0) {
+                continue;
+            }
+            std::optional<Draw> draw = draw_part(part, shared.prop.faces[face], *through[face], shared, plan);
+            if (!draw) {
+                continue;
+            }
+            if (!planned[face]) {
+                planned[face] = plan.faces.size();
+                plan.faces.push_back({static_cast<int>(face),
+                                      corners_in_clip(shared.prop.faces[face].corners, shared.clip_from_prop),
+                                      {},
+                                      {},
+                                      draw->pixels_per_box / part.level.metres_per_box});
+            }
+            FacePlan& on = plan.faces[*planned[face]];
+            on.bounds = united(on.bounds, draw->bounds);
+            draw->face = static_cast<int>(*planned[face]);
+            plan.draws.push_back(*draw);
+        }
+    }
 }
 
 /// Pixels along a metre at the artifact's middle, as a share of those that a surface there would have which
@@ -306,7 +207,7 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
     double area = 0.0;
     for (const FacePlan& face : plan.faces) {
         const double share = static_cast<double>(face.bounds.width) * face.bounds.height;
-        pixels += share * face.pixels_per_box / shared.artifact.metres_per_box;
+        pixels += share * face.pixels_per_m;
         area += share;
     }
     const glm::dvec3 middle = 0.5 * (shared.box.low + shared.box.high);
@@ -325,19 +226,33 @@ int samples_at(double density, int samples) {
     return samples;
 }
 
-void plan_caption(const TablePicture& picture, const Shared& shared, CaptionPlan& caption) {
+/// The picture, and then the prop's faces, which it never lights, in black.
+void plan_caption(const TablePicture& picture, const Shared& shared, FramePlan& plan) {
     const glm::dmat4 clip_from_table =
         shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
     std::array<glm::dvec4, 4> corners;
     for (std::size_t k = 0; k < corners.size(); ++k) {
         corners[k] = clip_from_table * glm::dvec4(picture.corners_m[k], 1.0);
     }
-    caption.bounds = pixels_around(corners, shared.view.projector);
-    caption.corners_clip = corners_in_clip(picture.corners_m, clip_from_table);
-    caption.brightness = static_cast<float>(picture.brightness);
+    Draw draw;
+    draw.shader = {ShaderKey::Pass::TablePicture};
+    draw.drawable.material.texture = picture.texture;
+    draw.bounds = pixels_around(corners, shared.view.projector);
+    draw.brightness = static_cast<float>(picture.brightness);
+    const auto add = [&](const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip) {
+        const std::array<glm::vec4, 4> columns = corners_in_clip(outline, clip);
+        draw.clip_from_unit = glm::mat4(columns[0], columns[1], columns[2], columns[3]);
+        plan.draws.push_back(draw);
+    };
+    if (draw.bounds.empty()) {
+        return;
+    }
+    add(picture.corners_m, clip_from_table);
+    draw.drawable = {};
+    draw.brightness = 0.0F;
     for (const PropFace& face : shared.prop.faces) {
         if (face.plane.distance(shared.projector_in_prop) > 0.0) {
-            caption.prop_clip.push_back(corners_in_clip(face.corners, shared.clip_from_prop));
+            add(face.corners, shared.clip_from_prop);
         }
     }
 }
@@ -358,66 +273,64 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 
 } // namespace
 
-PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, std::uint64_t id) {
+PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, const Drawable& drawable) {
     return {std::make_shared<LevelTriangles>(triangles_of(pack.levels[level], pack.box_size)), pack.box_size,
-            metres_per_box, id, pack.samples};
+            metres_per_box, drawable, pack.samples};
+}
+
+std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share) {
+    const auto arrived = static_cast<float>(share);
+    return {Part{from, Dither{arrived, true}}, Part{to, Dither{arrived, false}}};
 }
 
 FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
-    return make_plan(prop, artifact.triangles ? artifact.triangles->indices.size() : 0);
+    return make_plan(prop, artifact.triangles ? artifact.triangles->indices.size() : 0, 1);
 }
 
-FramePlan make_plan(const PropShape& prop, std::size_t indices) {
+FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts) {
     FramePlan plan;
-    plan.faces.reserve(prop.faces.size());
-    plan.caption.prop_clip.reserve(prop.faces.size());
+    const std::size_t faces = prop.faces.size();
+    plan.faces.reserve(faces);
+    plan.draws.reserve(parts * faces + 1 + faces);
     // A triangle may show on every face; memory that is never written is never taken.
-    plan.indices.reserve(prop.faces.size() * indices);
+    plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
-    plan.coming_front.reserve(indices);
     return plan;
 }
 
-void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
-    const Shared shared = shared_by_faces(prop, artifact, view);
+void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan) {
+    const Shared shared = shared_by_all(prop, parts, view);
     plan.projector = view.projector;
-    plan.compensate_light = view.light.has_value();
-    plan.brightness = static_cast<float>(view.brightness);
-    plan.coming_share = std::nullopt;
-    if (view.fade) {
-        plan.coming_share = static_cast<float>(view.fade->share);
-    }
     plan.faces.clear();
+    plan.draws.clear();
     plan.indices.clear();
     plan.front.forget();
-    plan.coming_front.forget();
     plan.lit.begin(view.projector.width, view.projector.height);
-    plan.prop_from_unit_scale = shared.box.high - shared.box.low;
-    plan.prop_from_unit_offset = shared.box.low;
-    plan.caption.bounds = {};
-    plan.caption.prop_clip.clear();
-    if (artifact.triangles && !view.eyes_m.empty() && view.brightness > 0.0) {
-        for (std::size_t face = 0; face < std::min(prop.faces.size(), most_faces); ++face) {
-            FacePlan face_plan;
-            if (((artifact.faces >> face) & 1U) != 0 && plan_face(face, shared, plan, face_plan)) {
-                plan.faces.push_back(face_plan);
-            }
-        }
+    if (view.caption && view.caption->brightness > 0.0) {
+        plan_caption(*view.caption, shared, plan);
+    }
+    if (!view.eyes_m.empty() && view.brightness > 0.0) {
+        plan_parts(parts, shared, plan);
     }
     plan.lit.finish();
-    plan.samples = samples_at(pixel_density(shared, plan), artifact.samples);
+    plan.samples = samples_at(pixel_density(shared, plan), parts.empty() ? 0 : parts.front().level.samples);
     if (view.light) {
         compensate(shared, *view.light, plan);
     }
-    if (view.caption && view.caption->brightness > 0.0) {
-        plan_caption(*view.caption, shared, plan.caption);
-    }
-    plan.hash =
-        hash_of(plan, artifact.id, view.fade ? view.fade->id : 0, view.caption ? view.caption->id : 0);
+    plan.hash = hash_of(plan);
+}
+
+void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
+    const Part whole{artifact, std::nullopt};
+    plan_frame(prop, std::span(&whole, 1), view, plan);
 }
 
 PixelRectangle lit_bounds(const FramePlan& plan) {
-    return united(plan.lit.bounds(), plan.caption.bounds);
+    PixelRectangle bounds = plan.lit.bounds();
+    for (const Draw& draw : plan.draws) {
+        bounds = united(bounds, draw.bounds);
+    }
+    return bounds;
 }
 
 } // namespace frustumscreen

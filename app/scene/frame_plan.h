@@ -1,21 +1,24 @@
-/// One picture as plain data: what to draw on which face of the prop. The renderer decides nothing.
+/// One picture as plain data: a list of draws, on the faces of the prop and on the table. The renderer
+/// decides nothing.
 ///
 /// The pack meets the configuration here. A plan is a pure function of its inputs, in 64-bit until the last
 /// step.
 ///
-/// Frames   as named; clip coordinates as `Pinhole::clip_from_point`: y = -1 is the picture's top.
-/// Units    metres, pixels.
-/// Threads  pure; any. `plan_frame` allocates nothing into a plan that `make_plan` made for the same inputs.
-/// Errors   none: an eye inside the prop, a prop off the picture or a face without light give an emptier
-/// picture.
+/// Frames   as named; clip coordinates as `Pinhole::clip_from_point`: y = -1 is
+/// the picture's top. Units    metres, pixels. Threads  pure; any. `plan_frame` allocates nothing into a plan
+/// that `make_plan` made for the same inputs.
+/// Errors   none: an eye inside the prop, a prop off the picture or a face
+/// without light give an emptier picture.
 #pragma once
 
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
+#include "app/scene/drawable.h"
 #include "app/scene/light.h"
 #include "app/scene/lit_tiles.h"
+#include "app/scene/shader_key.h"
 #include "app/scene/visible_triangles.h"
 
 #include <glm/glm.hpp>
@@ -29,31 +32,39 @@
 
 namespace frustumscreen {
 
-/// The artifact at one level, placed in the configured prop.
+/// An artifact at one level, or a part of one, placed in the configured prop.
 struct PlacedLevel {
     std::shared_ptr<const LevelTriangles> triangles; ///< none: nothing shows
     glm::dvec3 box_size{1.0};                        ///< extents of the pack's box
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
-    std::uint64_t id = 0;                            ///< tells artifacts and levels apart in a plan's hash
+    Drawable drawable;
     int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
-    std::uint32_t faces = ~std::uint32_t{0}; ///< of the prop, bits: those that the artifact may show on
+    std::uint32_t faces = ~std::uint32_t{0}; ///< of the prop, bits: those that it may show on
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
-                                 std::uint64_t id);
+                                 const Drawable& drawable = {});
 
-/// A picture that lies flat on the table: a caption. Table frame, metres.
+/// Which of the picture's pixels a draw takes, with all their samples: an ordered pattern. Two draws of one
+/// share, one of them the complement, take each pixel exactly once between them: no pixel is a mixture and
+/// none is left out.
+struct Dither {
+    float share = 1.0F;      ///< 0..1
+    bool complement = false; ///< the pixels that the share leaves
+};
+
+/// What is drawn into the prop.
+struct Part {
+    PlacedLevel level;
+    std::optional<Dither> dither; ///< nothing: every pixel
+};
+/// A fade from one level to another. `share`: of the pixels that have arrived, 0..1.
+[[nodiscard]] std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share);
+
+/// A picture that lies flat on the table, and never on the prop: a caption. Table frame, metres.
 struct TablePicture {
     std::array<glm::dvec3, 4> corners_m{}; ///< of the picture: top left, top right, bottom right, bottom left
     double brightness = 1.0;               ///< 0..1, linear light
-    std::uint64_t id = 0;                  ///< tells pictures apart in a plan's hash
-};
-
-/// A second level of the artifact that is coming in: it draws a share of the pixels, the first level the
-/// rest.
-struct LevelFade {
-    const LevelTriangles* triangles = nullptr;
-    std::uint64_t id = 0; ///< as PlacedLevel::id
-    double share = 0.0;   ///< 0..1
+    TextureId texture = TextureId::None;
 };
 
 /// Where everything stands.
@@ -67,7 +78,6 @@ struct PlanView {
     std::optional<LightCompensation> light = LightCompensation{};
     double brightness = 1.0; ///< of the artifact, 0..1, linear light: fades; 0 leaves the prop dark
     std::optional<TablePicture> caption = std::nullopt;
-    std::optional<LevelFade> fade = std::nullopt;
 };
 
 /// A run of FramePlan::indices.
@@ -79,49 +89,52 @@ struct IndexRange {
 /// One face of the prop that is turned to its eye and lit by the projector.
 struct FacePlan {
     int face = 0;                            ///< index into PropShape::faces
-    glm::mat4 clip_from_unit{1.0F};          ///< PackVertex::position / 65535 -> clip
     std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
-    IndexRange shown;            ///< of FramePlan::indices
-    IndexRange coming;           ///< of the level that comes in, while one does
-    PixelRectangle bounds;       ///< holds every pixel that the artifact can light on this face
-    double pixels_per_box = 0.0; ///< along one box unit at the artifact's middle, across the eye's ray; the
-                                 ///< mean of two directions, by area
+    PixelRectangle bounds;     ///< around those of its draws
+    double pixels_per_m = 0.0; ///< at the artifact's middle, across the eye's
+                               ///< ray; the mean of two directions, by area
 };
 
-/// A caption, and the outlines of the prop's lit faces, which it never lights.
-struct CaptionPlan {
-    std::array<glm::vec4, 4> corners_clip{};
-    float brightness = 1.0F;
-    PixelRectangle bounds; ///< empty = no caption
-    std::vector<std::array<glm::vec4, 4>> prop_clip;
+/// A mesh seen through one face of the prop, or a quadrilateral beside the prop.
+struct Draw {
+    static constexpr int on_table = -1;
+
+    ShaderKey shader;
+    Drawable drawable;   ///< no mesh: a quadrilateral; no texture: black
+    int face = on_table; ///< index into FramePlan::faces
+    /// PackVertex::position / 65535 -> clip. A quadrilateral's columns are its corners, depth 0: top left,
+    /// top right, bottom right, bottom left of its picture.
+    glm::mat4 clip_from_unit{1.0F};
+    std::array<glm::vec3, 2> prop_from_unit{}; ///< metres: prop point = [0] * (position / 65535) + [1]
+    IndexRange range;
+    PixelRectangle bounds;       ///< holds every pixel that it can light
+    double pixels_per_box = 0.0; ///< FacePlan::pixels_per_m for the mesh's box units, at its own middle
+    float brightness = 1.0F;     ///< 0..1, linear light
+    Dither dither;               ///< if the shader dithers
 };
 
 struct FramePlan {
     Pinhole projector;
-    bool compensate_light = false;
-    /// A pixel, of the artifact; 0 = as many as the renderer takes. Where a face is seen or lit so slantingly
-    /// that few pixels show much of the artifact, each takes more samples than the level asked for: a place
-    /// of the artifact keeps its samples, and the fewer pixels pay for them.
+    /// A pixel, of what the prop shows; 0 = as many as the renderer takes. Where a face is seen or lit so
+    /// slantingly that few pixels show much of the artifact, each takes more samples than the level asked
+    /// for: a place of the artifact keeps its samples, and the fewer pixels pay for them.
     int samples = 0;
-    float brightness = 1.0F;
-    /// Of the pixels, those that the level coming in draws; nothing = one level is drawn.
-    std::optional<float> coming_share;
     std::vector<FacePlan> faces;
-    std::vector<std::uint32_t> indices; ///< of the triangles that each face shows
-    FrontTriangles front, coming_front; ///< of the eye planned for last
-    LitTiles lit;                       ///< hold every pixel that the artifact can light
-    CaptionPlan caption;
-    glm::dvec3 prop_from_unit_scale{1.0}; ///< metres: prop point = scale * (position / 65535) + offset
-    glm::dvec3 prop_from_unit_offset{0.0};
-    std::uint64_t hash = 0; ///< equal for equal pictures (of one pack)
+    std::vector<Draw> draws; ///< in the order of drawing: on the table, then part by part in the prop
+    std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
+    LitTiles lit;                       ///< hold every pixel that the draws in the prop can light
+    std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
+    FrontTriangles front;               ///< of the part and the eye planned for last: nothing to draw
 };
 
-/// A plan with room for every face and `indices`: those of all levels that are drawn at one time.
-[[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices);
+/// A plan with room for every face of so many parts that have so many indices together.
+[[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
-/// `artifact` without triangles: the prop stays dark.
+/// The first part says how many samples a pixel takes.
+void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
+/// Of one part; without triangles the prop stays dark.
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);
 
 /// Every pixel that the plan can light.

@@ -66,7 +66,10 @@ PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
 /// What the views take of a level's detail, planned with the most samples that a rung has.
 void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) {
     PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)),
-                       pack.box_size, plan.metres_per_box, 0, 0};
+                       pack.box_size,
+                       plan.metres_per_box,
+                       {},
+                       0};
     for (const Rung& rung : plan.rungs) {
         placed.samples = std::max(placed.samples, rung.samples);
     }
@@ -80,9 +83,9 @@ void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) 
                    {plan.projector, plan.table_from_projector, view.table_from_prop, {&view.eye_m, 1}},
                    frame);
         level.samples = std::max(level.samples, frame.samples);
-        for (const FacePlan& face : frame.faces) {
+        for (const Draw& draw : frame.draws) {
             const double samples_per_box =
-                std::sqrt(static_cast<double>(frame.samples)) * face.pixels_per_box;
+                std::sqrt(static_cast<double>(frame.samples)) * draw.pixels_per_box;
             level.finest_mip = std::min(level.finest_mip, mip_level(level.texels_per_box, samples_per_box));
         }
     }

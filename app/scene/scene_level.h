@@ -25,7 +25,7 @@ namespace frustumscreen {
                                     const glm::dvec3& box_size);
 
 /// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
-/// `samples_per_box` as FacePlan::pixels_per_box, times the samples along a pixel's side.
+/// `samples_per_box` as Draw::pixels_per_box, times the samples along a pixel's side.
 [[nodiscard]] int mip_level(double texels_per_box, double samples_per_box);
 /// Coarser ones mix charts that lie side by side in the atlas.
 inline constexpr int coarsest_mip_level = 4;

@@ -93,9 +93,9 @@ struct ArtifactShow::Loader {
     const Settings& settings;
     const DevicePlan& devices;
     const ArtifactShowOptions& options;
-    std::optional<Typesetter> typesetter; ///< opened for the first caption
-    std::uint64_t next_id = 1;
-    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
+    GpuStore& store;
+    std::optional<Typesetter> typesetter = {}; ///< opened for the first caption
+    std::vector<std::string> languages = {};   ///< of all captions of the packs loaded, shown or not
     std::vector<std::string> notes = {};
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
@@ -113,11 +113,10 @@ struct ArtifactShow::Loader {
             return tl::unexpected<Error>(pack.error());
         }
         Result<RunLevels> levels =
-            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, next_id);
+            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, store);
         if (!levels) {
             return at(file.string(), levels.error());
         }
-        next_id += (*pack)->levels.size();
         plan.needs = levels->needs();
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
         for (const PackCaption& caption : (*pack)->captions) {
@@ -128,9 +127,19 @@ struct ArtifactShow::Loader {
         }
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
+            release(artifact);
             return at(file.string(), set.error());
         }
         return artifact;
+    }
+
+    void release(Artifact& artifact) {
+        artifact.levels.release(store);
+        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
+            for (const CaptionPicture& shape : shapes) {
+                store.release(shape.texture);
+            }
+        }
     }
 
     [[nodiscard]] SceneRequest request(const PackOutline& outline) const {
@@ -162,20 +171,19 @@ struct ArtifactShow::Loader {
                 typesetter = std::move(*opened);
             }
             const PackCaption& caption = pack.captions[each];
-            std::vector<CaptionPicture> shapes;
+            artifact.languages.push_back(caption.language);
+            std::vector<CaptionPicture>& shapes = artifact.captions.emplace_back();
             for (const double width_m : caption_widths_m) {
                 const CaptionImage image =
                     make_caption(*typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
                                  width_m, texels_per_m);
-                Result<CaptionGpu> gpu = CaptionGpu::upload(image.coverage);
-                if (!gpu) {
-                    return tl::unexpected<Error>(gpu.error());
+                const Result<TextureId> texture = store.upload(image.coverage);
+                if (!texture) {
+                    return tl::unexpected<Error>(texture.error());
                 }
-                shapes.push_back({std::move(*gpu), image.size_m, next_id++,
-                                  caption_gpu_bytes(image.coverage.width, image.coverage.height)});
+                shapes.push_back(
+                    {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
             }
-            artifact.languages.push_back(caption.language);
-            artifact.captions.push_back(std::move(shapes));
         }
         return {};
     }
@@ -185,7 +193,12 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
                                                            const DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
                                                            const RenderTarget& target) {
-    Loader loader{settings, devices, options, std::nullopt};
+    const Pinhole& pinhole = settings.projector.pinhole;
+    Result<Renderer> renderer = Renderer::create(pinhole.width, pinhole.height);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    Loader loader{settings, devices, options, renderer->store()};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
     std::vector<PackLeftOut> left_out;
@@ -206,10 +219,8 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     if (artifacts.empty()) {
         return nothing_to_show(left_out);
     }
-    const Pinhole& pinhole = settings.projector.pinhole;
-    Result<Renderer> renderer = Renderer::create(pinhole.width, pinhole.height, needs);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
+    if (Result<void> ready = renderer->prepare(needs); !ready) {
+        return tl::unexpected<Error>(ready.error());
     }
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts)));
@@ -239,14 +250,14 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
 /// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame
 /// does, and are to be done with it before the first one.
 void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
-    const CaptionPicture* caption = artifact.captions.empty() ? nullptr : &artifact.captions.front().front();
-    if (caption != nullptr) {
-        view.caption = TablePicture{picture_corners({attract_place_m_, caption->size_m}), 1.0, caption->id};
+    if (!artifact.captions.empty()) {
+        const CaptionPicture& caption = artifact.captions.front().front();
+        view.caption =
+            TablePicture{picture_corners({attract_place_m_, caption.size_m}), 1.0, caption.texture};
     }
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
-        static_cast<void>(artifact.levels.draw({}, prop_, view, caption == nullptr ? nullptr : &caption->gpu,
-                                               renderer_, drawn, redraw));
+        static_cast<void>(artifact.levels.draw({}, prop_, view, renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
@@ -260,29 +271,27 @@ ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, R
       artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)),
       attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m) {}
 
-const CaptionGpu* ArtifactShow::place_caption(const Presentation& presentation, PlanView& view) const {
+std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
     if (!presentation.caption) {
-        return nullptr;
+        return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
     const CaptionPicture& picture =
         artifacts_[presentation.artifact].captions[caption.language][caption.shape];
-    view.caption =
-        TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
-                     caption.brightness, picture.id};
-    return &picture.gpu;
+    return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
+                        caption.brightness, picture.texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
     view.brightness = presentation.brightness;
-    const CaptionGpu* caption = place_caption(presentation, view);
+    view.caption = place_caption(presentation);
     if (on_ != presentation.artifact) {
         artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
         on_ = presentation.artifact;
     }
-    return artifacts_[on_].levels.draw(now, prop_, view, caption, renderer_, target, redraw);
+    return artifacts_[on_].levels.draw(now, prop_, view, renderer_, target, redraw);
 }
 
 ShowUse ArtifactShow::use() const {
@@ -295,17 +304,15 @@ ShowUse ArtifactShow::use() const {
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
             use.planned_gpu_bytes += level.planned_gpu_bytes;
-            use.gpu_bytes += level.gpu_bytes;
         }
         use.captions += artifact.captions.size();
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             for (const CaptionPicture& shape : shapes) {
                 use.planned_gpu_bytes += shape.planned_gpu_bytes;
-                use.caption_gpu_bytes += shape.gpu.bytes();
+                use.caption_gpu_bytes += renderer_.store().bytes(shape.texture);
             }
         }
     }
-    use.gpu_bytes += use.caption_gpu_bytes;
     return use;
 }
 

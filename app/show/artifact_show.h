@@ -17,6 +17,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -67,9 +68,8 @@ public:
 private:
     /// One text wrapped to one width.
     struct CaptionPicture {
-        CaptionGpu gpu;
+        TextureId texture = TextureId::None;
         glm::dvec2 size_m{0.0};
-        std::uint64_t id = 0;
         std::uint64_t planned_gpu_bytes = 0;
     };
     struct Artifact {
@@ -86,8 +86,8 @@ private:
                  std::vector<Artifact> artifacts);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
-    /// The picture of a caption that is shown, and where in `view`; null: none is.
-    [[nodiscard]] const CaptionGpu* place_caption(const Presentation& presentation, PlanView& view) const;
+    /// Nothing if none is shown.
+    [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
     Pinhole projector_;
     RigidTransform table_from_projector_;

@@ -56,19 +56,18 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
     made->display_ = std::move(*display);
     const std::uint32_t number = plan.rungs.front().level;
     const SceneLevel level = scene_level(*pack, number, plan);
-    Result<ArtifactGpu> artifact = ArtifactGpu::upload(level, pack->textures[level.mesh.texture]);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
-    made->artifact_ = std::move(*artifact);
-    const RenderNeeds needs = needs_of(plan, level);
-    Result<Renderer> renderer = Renderer::create(width, height, needs);
+    Result<Renderer> renderer = Renderer::create(width, height, needs_of(plan, level));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
     made->renderer_ = std::move(*renderer);
+    const Result<Drawable> drawable =
+        made->renderer_->store().upload(level, pack->textures[level.mesh.texture]);
+    if (!drawable) {
+        return tl::unexpected<Error>(drawable.error());
+    }
     if (options.hit_points) {
-        Result<HitPointRenderer> hit_points = HitPointRenderer::create(width, height, needs.draws);
+        Result<HitPointRenderer> hit_points = HitPointRenderer::create(*made->renderer_);
         if (!hit_points) {
             return tl::unexpected<Error>(hit_points.error());
         }
@@ -79,7 +78,7 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
     made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
                      pack->box_size,
                      plan.metres_per_box,
-                     number,
+                     *drawable,
                      samples_of(options, *pack),
                      plan.faces};
     made->plan_ = make_plan(made->prop_, made->placed_);
@@ -88,8 +87,7 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
 
 void OfflineRenderer::draw_once(const PlanView& view) {
     plan_frame(prop_, placed_, view, plan_);
-    renderer_->draw(plan_, &*artifact_, {display_->framebuffer(), display_->buffer_age()},
-                    Redraw::Everything);
+    renderer_->draw(plan_, {display_->framebuffer(), display_->buffer_age()}, Redraw::Everything);
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
@@ -106,7 +104,7 @@ OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, cons
     picture.ms = taken.count();
     picture.colour = read_colour(display_->framebuffer(), projector_.width, projector_.height);
     if (hit_points_) {
-        picture.hit_points = hit_points_->draw(plan_, &*artifact_);
+        picture.hit_points = hit_points_->draw(plan_, renderer_->store());
     }
     return picture;
 }

@@ -72,7 +72,6 @@ private:
     PlacedLevel placed_;
     FramePlan plan_;
     std::unique_ptr<SurfacelessDisplay> display_; ///< before everything that lives in its context
-    std::optional<ArtifactGpu> artifact_;
     std::optional<Renderer> renderer_;
     std::optional<HitPointRenderer> hit_points_;
     bool warm_ = false;

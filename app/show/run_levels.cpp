@@ -18,7 +18,7 @@ RunLevels::RunLevels(std::string technique, std::vector<Level> levels, std::vect
       plan_(std::move(plan)) {}
 
 Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std::string technique,
-                                    double deadline_ms, std::uint64_t first_id) {
+                                    double deadline_ms, GpuStore& store) {
     const double mm_per_box = 1e3 * plan.metres_per_box;
     std::vector<Level> levels;
     std::vector<LevelUse> uses;
@@ -32,31 +32,39 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
         for (LeftOut& each : left_out_of(plan, kept, texture)) {
             left_out.push_back(std::move(each));
         }
-        Result<ArtifactGpu> gpu = ArtifactGpu::upload(kept, texture);
-        if (!gpu) {
-            return tl::unexpected<Error>(gpu.error());
+        const Result<Drawable> drawable = store.upload(kept, texture);
+        if (!drawable) {
+            for (const Level& each : levels) {
+                store.release(each.placed.drawable);
+            }
+            return tl::unexpected<Error>(drawable.error());
         }
         uses.push_back({number, kept.mesh.indices.size() / 3, kept.unseen_triangles, kept.unseen_clusters,
                         glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
-                        kept.finest_mip, gpu_bytes(kept, texture), gpu->bytes()});
+                        kept.finest_mip, gpu_bytes(kept, texture), store.bytes(*drawable)});
         PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size)),
                            pack.box_size,
                            plan.metres_per_box,
-                           first_id + number,
+                           *drawable,
                            pack.samples,
                            plan.faces};
         levels.push_back({number, fmt::format("level{}", number),
                           mm_per_box * static_cast<double>(kept.mesh.error.mean_box),
-                          mm_per_box * static_cast<double>(kept.mesh.error.p95_box), std::move(placed),
-                          std::move(*gpu)});
+                          mm_per_box * static_cast<double>(kept.mesh.error.p95_box), std::move(placed)});
         indices += kept.mesh.indices.size();
     }
     RunLevels made(std::move(technique), std::move(levels), plan.rungs, deadline_ms,
-                   make_plan(plan.prop, indices));
+                   make_plan(plan.prop, indices, 2));
     made.uses_ = std::move(uses);
     made.left_out_ = std::move(left_out);
     made.needs_ = needs;
     return made;
+}
+
+void RunLevels::release(GpuStore& store) {
+    for (const Level& level : levels_) {
+        store.release(level.placed.drawable);
+    }
 }
 
 bool RunLevels::fades() const {
@@ -84,7 +92,7 @@ double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanV
     for (double& each : ms) {
         const auto start = std::chrono::steady_clock::now();
         plan_frame(prop, placed, view, plan_);
-        renderer.draw(plan_, &level.gpu, target, Redraw::Everything);
+        renderer.draw(plan_, target, Redraw::Everything);
         wait_until_drawn();
         each = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
@@ -106,10 +114,8 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         times.push_back({rung.samples, work(rung.samples), ms});
     }
     if (fades()) { // the driver makes the fade's shaders now and not in the middle of the first one
-        PlanView fading = view;
-        fading.fade = LevelFade{levels_[1].placed.triangles.get(), levels_[1].placed.id, 0.5};
-        plan_frame(prop, levels_[0].placed, fading, plan_);
-        renderer.draw(plan_, {&levels_[0].gpu, nullptr, &levels_[1].gpu}, target, Redraw::Everything);
+        plan_frame(prop, fade(levels_[0].placed, levels_[1].placed, 0.5), view, plan_);
+        renderer.draw(plan_, target, Redraw::Everything);
         wait_until_drawn();
     }
     start(times);
@@ -126,23 +132,25 @@ void RunLevels::enter(MonotonicTime now, double load) {
     coming_.reset();
 }
 
-DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, PlanView view, const CaptionGpu* caption,
-                           Renderer& renderer, const RenderTarget& target, Redraw redraw) {
+PlacedLevel RunLevels::placed(std::size_t slot) const {
+    PlacedLevel placed = levels_[slot].placed;
+    placed.samples = governor_.rung().samples;
+    return placed;
+}
+
+DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanView& view, Renderer& renderer,
+                           const RenderTarget& target, Redraw redraw) {
     const double share = coming_ ? ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
     if (share >= 1.0) {
         shown_ = *coming_;
         coming_.reset();
     }
-    const Level* coming = coming_ ? &levels_[*coming_] : nullptr;
-    if (coming != nullptr) {
-        view.fade = LevelFade{coming->placed.triangles.get(), coming->placed.id, share};
+    if (coming_) {
+        plan_frame(prop, fade(placed(shown_), placed(*coming_), share), view, plan_);
+    } else {
+        plan_frame(prop, placed(shown_), view, plan_);
     }
-    const Level& level = levels_[shown_];
-    PlacedLevel placed = level.placed;
-    placed.samples = governor_.rung().samples;
-    plan_frame(prop, placed, view, plan_);
-    return renderer.draw(plan_, {&level.gpu, caption, coming != nullptr ? &coming->gpu : nullptr}, target,
-                         redraw);
+    return renderer.draw(plan_, target, redraw);
 }
 
 void RunLevels::took(MonotonicTime now, double ms) {

@@ -52,11 +52,11 @@ struct LevelState {
 
 class RunLevels {
 public:
-    /// `technique`: as asked for. Level k of the pack gets the id first_id + k. `pack` need not outlive the
-    /// call.
+    /// `technique`: as asked for. `pack` need not outlive the call. On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
-                                                  std::string technique, double deadline_ms,
-                                                  std::uint64_t first_id);
+                                                  std::string technique, double deadline_ms, GpuStore& store);
+    /// Takes all levels out of the store; nothing can be drawn any more.
+    void release(GpuStore& store);
 
     /// Whether it may change from one level to another.
     [[nodiscard]] bool fades() const;
@@ -76,9 +76,8 @@ public:
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, PlanView view,
-                                  const CaptionGpu* caption, Renderer& renderer, const RenderTarget& target,
-                                  Redraw redraw);
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
+                                  Renderer& renderer, const RenderTarget& target, Redraw redraw);
     /// The latest `draw` took `ms`, until its picture was done.
     void took(MonotonicTime now, double ms);
 
@@ -91,10 +90,11 @@ private:
         double mean_error_mm = 0.0;
         double p95_error_mm = 0.0;
         PlacedLevel placed;
-        ArtifactGpu gpu;
     };
     RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs, double deadline_ms,
               FramePlan plan);
+    /// As the governor has it drawn.
+    [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
     [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
     /// Of the plan, for a rung of so many samples.
     [[nodiscard]] FrameWork work(int samples) const;

@@ -130,6 +130,7 @@ protected:
     /// Number of pictures, of those, that are not all black.
     int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
         int lit = 0;
+        const std::size_t programs = programs_that_exist();
         MonotonicTime now;
         Exhibit exhibit_of_a = make_exhibit(settings, a, now);
         Exhibit exhibit_of_b = make_exhibit(settings, b, now);
@@ -143,6 +144,7 @@ protected:
                        ? 1
                        : 0;
         }
+        EXPECT_EQ(programs_that_exist(), programs); // no frame makes one
         return lit;
     }
     void expect_as_planned(const ArtifactShow& of, std::size_t programs) {

@@ -1,6 +1,5 @@
 // Captions lie on the table, never on the prop.
 
-#include "app/render/caption_pass.h"
 #include "tests/render/rig.h"
 
 namespace frustumscreen::synthetic {
@@ -18,19 +17,18 @@ TEST_P(Captions, LieWhereTheyArePutAndNotOnTheProp) {
             coverage.at(x, y) = 255;
         }
     }
-    const CaptionGpu caption = CaptionGpu::upload(coverage).value();
+    const TextureId caption = rig.renderer->store().upload(coverage).value();
     PlanView view = stage.view();
     view.caption = TablePicture{{glm::dvec3(0.0, 0.03, 0.0), glm::dvec3(0.2, 0.03, 0.0),
                                  glm::dvec3(0.2, -0.03, 0.0), glm::dvec3(0.0, -0.03, 0.0)},
                                 1.0,
-                                1};
+                                caption};
     plan_frame(stage.prop, rig.level, view, rig.plan);
     ASSERT_GE(rig.plan.faces.size(), 2U);
-    rig.renderer->draw(rig.plan, {&*rig.artifact, &caption}, {rig.display->framebuffer(), 0},
-                       Redraw::Everything);
+    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, Redraw::Everything);
     const Image8 both = rig.picture();
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    rig.renderer->draw(rig.plan, &*rig.artifact, {rig.display->framebuffer(), 0}, Redraw::Everything);
+    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, Redraw::Everything);
     const Image8 alone = rig.picture();
 
     const glm::dvec3 projector(0.0, 0.0, 0.9);

@@ -1,9 +1,12 @@
 // A fade from one level to another: every pixel belongs to exactly one of the two pictures.
 
 #include "tests/render/counted_new.h"
+#include "tests/render/reference_cast.h"
 #include "tests/render/rig.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -12,34 +15,26 @@ namespace {
 /// same.
 struct FadeRig : Rig {
     Pack coarse_pack = rings(12, 4);
-    std::optional<ArtifactGpu> coarse;
-    PlacedLevel coarse_level;
+    PlacedLevel coarse;
 
     explicit FadeRig(int samples) : Rig(320, 200, samples) {
         EXPECT_EQ(coarse_pack.box_size, pack.box_size);
-        renderer = Renderer::create(320, 200, needs(samples, true)).value();
-        coarse = ArtifactGpu::upload(coarse_pack, 0).value();
-        coarse_level = placed(coarse_pack, 0, level.metres_per_box, 2);
-        level.samples = coarse_level.samples = 0;
-        plan = make_plan(prop, level.triangles->indices.size() + coarse_level.triangles->indices.size());
+        EXPECT_TRUE(renderer->prepare(needs(samples, true)));
+        hit_points = HitPointRenderer::create(*renderer).value();
+        coarse =
+            placed(coarse_pack, 0, level.metres_per_box, renderer->store().upload(coarse_pack, 0).value());
+        level.samples = coarse.samples = 0;
+        plan = make_plan(prop, level.triangles->indices.size() + coarse.triangles->indices.size(), 2);
     }
-    DrawResult draw_plan(const ArtifactGpu* first, const ArtifactGpu* coming) {
-        const DrawResult result = renderer->draw(
-            plan, {first, nullptr, coming}, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
-        EXPECT_TRUE(display->present(MonotonicTime{}));
-        return result;
-    }
-    Image8 one(const Stage& stage, const PlacedLevel& which, const ArtifactGpu& gpu) {
+    Image8 one(const Stage& stage, const PlacedLevel& which) {
         plan_frame(prop, which, stage.view(LightCompensation{}), plan);
-        draw_plan(&gpu, nullptr);
+        draw();
         return picture();
     }
     /// From the fine level to the coarse one.
-    Image8 fade(const Stage& stage, double share) {
-        PlanView view = stage.view(LightCompensation{});
-        view.fade = LevelFade{coarse_level.triangles.get(), coarse_level.id, share};
-        plan_frame(prop, level, view, plan);
-        EXPECT_TRUE(draw_plan(&*artifact, &*coarse).drawn);
+    Image8 fading(const Stage& stage, double share) {
+        plan_frame(prop, fade(level, coarse, share), stage.view(LightCompensation{}), plan);
+        EXPECT_TRUE(draw().drawn);
         return picture();
     }
 };
@@ -58,10 +53,10 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
     std::mt19937 random(11);
     for (int pose = 0; pose < 4; ++pose) {
         stage.shuffle(random);
-        const Image8 from = rig.one(stage, rig.level, *rig.artifact);
-        const Image8 to = rig.one(stage, rig.coarse_level, *rig.coarse);
-        EXPECT_EQ(rig.fade(stage, 0.0).texels, from.texels);
-        EXPECT_EQ(rig.fade(stage, 1.0).texels, to.texels);
+        const Image8 from = rig.one(stage, rig.level);
+        const Image8 to = rig.one(stage, rig.coarse);
+        EXPECT_EQ(rig.fading(stage, 0.0).texels, from.texels);
+        EXPECT_EQ(rig.fading(stage, 1.0).texels, to.texels);
         std::vector<bool> arrived(from.texels.size(), false);
         std::size_t differing = 0;
         for (std::size_t k = 0; k < from.texels.size(); ++k) {
@@ -69,7 +64,7 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
         }
         ASSERT_GT(differing, 500U);
         for (const double share : {0.1, 0.3, 0.5, 0.8}) {
-            const Image8 middle = rig.fade(stage, share);
+            const Image8 middle = rig.fading(stage, share);
             std::size_t coming = 0;
             std::size_t neither = 0;
             std::size_t gone_back = 0;
@@ -93,13 +88,57 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
 TEST_P(Fading, IsLeftOutByARendererThatWasMadeWithoutItsShader) {
     FadeRig rig(GetParam());
     rig.renderer = Renderer::create(320, 200, needs(GetParam())).value();
+    rig.upload_again();
     const Stage stage(320, 200);
-    EXPECT_GT(lit_pixels(rig.one(stage, rig.level, *rig.artifact)), 1000U);
-    EXPECT_EQ(lit_pixels(rig.fade(stage, 0.5)), 0U);
+    EXPECT_GT(lit_pixels(rig.one(stage, rig.level)), 1000U);
+    EXPECT_EQ(lit_pixels(rig.fading(stage, 0.5)), 0U);
     EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(GetParam()))); // none was made for it
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Fading, ::testing::Values(1, 2, 4, 8));
+
+/// Bayer's matrix by its own definition: four copies of the one of half the size, each of four times the
+/// rank.
+int bayer_rank(int x, int y, int size) {
+    if (size == 1) {
+        return 0;
+    }
+    const int half = size / 2;
+    constexpr std::array<std::array<int, 2>, 2> corner{{{0, 2}, {3, 1}}};
+    const auto row = static_cast<std::size_t>(y / half % 2);
+    const auto column = static_cast<std::size_t>(x / half % 2);
+    return 4 * bayer_rank(x % half, y % half, half) + corner[row][column];
+}
+
+TEST(Fading, PlacesAreThoseOfARayCastOfTheLevelThatHasThePixel) {
+    FadeRig rig(1);
+    Stage stage(320, 200);
+    std::mt19937 random(9);
+    stage.shuffle(random);
+    const ReferenceCast fine(rig.pack, rig.level.metres_per_box);
+    const ReferenceCast coarse(rig.coarse_pack, rig.level.metres_per_box);
+    plan_frame(rig.prop, fade(rig.level, rig.coarse, 0.4), stage.view(LightCompensation{}), rig.plan);
+    const ImageFloat drawn = rig.places();
+    std::array<int, 2> compared{};
+    for (int y = 0; y < drawn.height; ++y) {
+        for (int x = 0; x < drawn.width; ++x) {
+            const bool arrived = bayer_rank(x % 8, y % 8, 8) < 0.4 * 64 - 0.5;
+            const glm::dvec2 centre(x + 0.5, y + 0.5);
+            const ReferenceCast::Hit own = (arrived ? coarse : fine).through_pixel(stage, centre);
+            const ReferenceCast::Hit other = (arrived ? fine : coarse).through_pixel(stage, centre);
+            // Only where the levels lie apart does the place tell which of them was drawn.
+            if (!own.found || !other.found || glm::distance(own.point, other.point) < 1e-3 ||
+                std::isnan(drawn.at(x, y).x)) {
+                continue;
+            }
+            const glm::dvec3 place(drawn.at(x, y));
+            EXPECT_LT(glm::distance(place, own.point), glm::distance(place, other.point)) << x << ' ' << y;
+            ++compared[arrived ? 1 : 0];
+        }
+    }
+    EXPECT_GT(compared[0], 300);
+    EXPECT_GT(compared[1], 200);
+}
 
 TEST(Fading, AllocatesNothing) {
     if (!allocations_are_counted) {
@@ -111,13 +150,12 @@ TEST(Fading, AllocatesNothing) {
     long counted = 0;
     for (int k = 0; k < 60; ++k) {
         stage.shuffle(random);
-        PlanView view = stage.view(LightCompensation{});
-        view.fade = LevelFade{rig.coarse_level.triangles.get(), rig.coarse_level.id, k / 60.0};
         const long before = allocations_so_far();
-        plan_frame(rig.prop, rig.level, view, rig.plan);
+        plan_frame(rig.prop, fade(rig.level, rig.coarse, k / 60.0), stage.view(LightCompensation{}),
+                   rig.plan);
         counted += allocations_so_far() - before;
         const long before_draw = allocations_so_far();
-        rig.draw_plan(&*rig.artifact, &*rig.coarse);
+        rig.draw();
         counted += k < 20 ? 0 : allocations_so_far() - before_draw; // llvmpipe compiles in its first frames
     }
     EXPECT_EQ(counted, 0);

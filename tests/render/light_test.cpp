@@ -50,7 +50,7 @@ class Light : public ::testing::Test {
 protected:
     Light() : rig(320, 200), stage(320, 200) {
         rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
-        rig.artifact = ArtifactGpu::upload(rig.pack, 0).value();
+        rig.upload_again();
     }
     SentBack draw(std::optional<LightCompensation> light) {
         plan_frame(stage.prop, rig.level, stage.view(light), rig.plan);

@@ -1,57 +1,12 @@
 // The renderer's picture against a plain ray cast of the same triangles.
 
-#include "tests/render/reference_cast.h"
+#include "tests/render/comparison.h"
 #include "tests/render/rig.h"
 
 #include <algorithm>
 
 namespace frustumscreen::synthetic {
 namespace {
-
-struct Comparison {
-    std::size_t both = 0;
-    std::size_t mismatched = 0; ///< hit in one alone
-    std::size_t unexcused = 0;  ///< of them, far from any outline
-    double worst_mm = 0.0;      ///< over pixels hit in both whose neighbourhood is smooth
-};
-
-/// A pixel is excused where rays a hair's breadth away disagree too: the rasterizer rounds to 1/256 pixel.
-bool grazes(const ReferenceCast& cast, const Stage& stage, const glm::dvec2& centre,
-            const ReferenceCast::Hit& truth) {
-    constexpr double hair = 1.0 / 64.0;
-    for (int k = 0; k < 8; ++k) {
-        const double angle = k * std::numbers::pi / 4.0;
-        const ReferenceCast::Hit near =
-            cast.through_pixel(stage, centre + hair * glm::dvec2(std::cos(angle), std::sin(angle)));
-        if (near.found != truth.found || (truth.found && glm::distance(near.point, truth.point) > 2e-3)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-Comparison compare(const Stage& stage, const ReferenceCast& cast, const ImageFloat& drawn) {
-    Comparison result;
-    for (int y = 0; y < drawn.height; ++y) {
-        for (int x = 0; x < drawn.width; ++x) {
-            const glm::dvec2 centre(x + 0.5, y + 0.5);
-            const ReferenceCast::Hit truth = cast.through_pixel(stage, centre);
-            const glm::vec3& point = drawn.at(x, y);
-            const bool hit = !std::isnan(point.x);
-            if (hit != truth.found) {
-                ++result.mismatched;
-                result.unexcused += grazes(cast, stage, centre, truth) ? 0U : 1U;
-            } else if (hit) {
-                ++result.both;
-                const double mm = 1e3 * glm::distance(glm::dvec3(point), truth.point);
-                if (mm > result.worst_mm && !grazes(cast, stage, centre, truth)) {
-                    result.worst_mm = mm;
-                }
-            }
-        }
-    }
-    return result;
-}
 
 TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
     Rig rig(256, 160);
@@ -61,7 +16,7 @@ TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
     for (int pose = 0; pose < 8; ++pose) {
         stage.shuffle(random);
         plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const Comparison c = compare(stage, cast, rig.hit_points->draw(rig.plan, &*rig.artifact));
+        const Comparison c = compare(stage, cast, rig.places());
         EXPECT_GT(c.both, 600U) << pose;
         EXPECT_LT(c.worst_mm, 0.02) << pose;
         EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
@@ -88,7 +43,7 @@ TEST(Picture, HoldsForExtremeEyesAndProjectors) {
     oblique.table_from_projector.translation = {0.0, -0.9 * std::sin(lean), 0.05 + 0.9 * std::cos(lean)};
     for (const Stage& stage : {overhead, far, close, shifted, oblique}) {
         plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const Comparison c = compare(stage, cast, rig.hit_points->draw(rig.plan, &*rig.artifact));
+        const Comparison c = compare(stage, cast, rig.places());
         const std::string which = ::testing::PrintToString(&stage - &overhead);
         EXPECT_GT(c.both, 300U) << which;
         EXPECT_LT(c.worst_mm, 0.02) << which;
@@ -104,7 +59,7 @@ TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
         const auto inverse = static_cast<std::uint8_t>(255 - code);
         std::fill(rig.pack.textures[0].texels.begin(), rig.pack.textures[0].texels.end(),
                   glm::u8vec4(c, inverse, 128, 255));
-        rig.artifact = ArtifactGpu::upload(rig.pack, 0).value();
+        rig.upload_again();
         plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         rig.draw(Redraw::Everything);
         std::size_t shown = 0;
@@ -126,8 +81,11 @@ void draw_everything(FramePlan& plan, const std::vector<std::uint32_t>& all) {
     plan.lit.light(picture);
     plan.lit.finish();
     for (FacePlan& face : plan.faces) {
-        face.shown = {0, static_cast<std::uint32_t>(all.size())};
         face.bounds = picture;
+    }
+    for (Draw& draw : plan.draws) {
+        draw.range = {0, static_cast<std::uint32_t>(all.size())};
+        draw.bounds = picture;
     }
 }
 
@@ -156,13 +114,11 @@ TEST(Picture, CullingTakesNothingAway) {
 
 TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     Rig sharp(256, 160, 1);
-    sharp.artifact = ArtifactGpu::upload(sharp.pack, 0).value();
     Stage stage(256, 160);
     plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
     sharp.draw();
     const Image8 one = sharp.picture();
     Rig smooth(256, 160, 4);
-    smooth.artifact = ArtifactGpu::upload(smooth.pack, 0).value();
     plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
     smooth.draw();
     const Image8 four = smooth.picture();

@@ -77,7 +77,7 @@ TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
     Stage stage(320, 200);
     const unsigned framebuffer = rig.display->framebuffer();
     const auto draw = [&](int age, Redraw redraw) {
-        return rig.renderer->draw(rig.plan, &*rig.artifact, {framebuffer, age}, redraw);
+        return rig.renderer->draw(rig.plan, {framebuffer, age}, redraw);
     };
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     draw(0, Redraw::Changes);

@@ -47,7 +47,7 @@ TEST_P(Redrawing, NothingIsDrawnWhenNothingChanged) {
     stage.eye_m.x += 1e-4;
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
-    rig.level.id = 9; // another artifact
+    rig.level.drawable = rig.renderer->store().upload(rig.pack, 0).value(); // another artifact
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
 }
@@ -75,8 +75,7 @@ TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
     for (int k = 0; k < 6; ++k) {
         stage.table_from_prop.translation = {0.03 * k - 0.1, 0.0, 0.0};
         plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const DrawResult result =
-            rig.renderer->draw(rig.plan, &*rig.artifact, {rig.display->framebuffer(), k < 2 ? 0 : 2});
+        const DrawResult result = rig.renderer->draw(rig.plan, {rig.display->framebuffer(), k < 2 ? 0 : 2});
         if (k >= 2) {
             EXPECT_EQ(result.redrawn, united(before_last, rig.plan.lit.bounds()));
         }

@@ -29,7 +29,6 @@ struct Rig {
     Pack pack;
     PropShape prop = make_prop({});
     std::unique_ptr<SurfacelessDisplay> display;
-    std::optional<ArtifactGpu> artifact;
     std::optional<Renderer> renderer;
     std::optional<HitPointRenderer> hit_points;
     PlacedLevel level;
@@ -37,20 +36,25 @@ struct Rig {
 
     Rig(int width, int height, int samples = 1, Pack shown = rings()) : pack(std::move(shown)) {
         display = SurfacelessDisplay::create(width, height).value();
-        artifact = ArtifactGpu::upload(pack, 0).value();
         renderer = Renderer::create(width, height, needs(samples)).value();
-        hit_points = HitPointRenderer::create(width, height, needs(samples).draws).value();
-        level = placed(pack, 0, metres_per_box(pack, prop), 1);
+        hit_points = HitPointRenderer::create(*renderer).value();
+        level = placed(pack, 0, metres_per_box(pack, prop), renderer->store().upload(pack, 0).value());
         plan = make_plan(prop, level);
     }
     DrawResult draw(Redraw redraw = Redraw::Changes) {
         const DrawResult result =
-            renderer->draw(plan, &*artifact, {display->framebuffer(), display->buffer_age()}, redraw);
+            renderer->draw(plan, {display->framebuffer(), display->buffer_age()}, redraw);
         if (result.drawn) {
             EXPECT_TRUE(display->present(MonotonicTime{}));
         }
         return result;
     }
+    /// After a change of `pack`.
+    void upload_again() {
+        renderer->store().release(level.drawable);
+        level.drawable = renderer->store().upload(pack, 0).value();
+    }
+    [[nodiscard]] ImageFloat places() { return hit_points->draw(plan, renderer->store()); }
     [[nodiscard]] Image8 picture() const {
         return read_colour(display->framebuffer(), display->width(), display->height());
     }

@@ -33,8 +33,10 @@ struct Kiosk {
         all.radius = 0.87F;
         ball.clusters = {all};
         // Larger than the prop: seen through every face.
-        artifact = {std::make_shared<LevelTriangles>(triangles_of(ball, glm::dvec3(1.0))), glm::dvec3(1.0),
-                    0.16, 1};
+        artifact = {std::make_shared<LevelTriangles>(triangles_of(ball, glm::dvec3(1.0))),
+                    glm::dvec3(1.0),
+                    0.16,
+                    {MeshId{1}, {TextureId{2}}}};
     }
     FramePlan plan() {
         view.eyes_m = std::span(&eye, 1);
@@ -103,12 +105,15 @@ TEST(FramePlan, EveryNumberIsFiniteForAnyPose) {
                                       0.3 * glm::dvec3(n(random), n(random), n(random))};
         kiosk.view.light = LightCompensation{};
         const FramePlan plan = kiosk.plan();
-        for (const FacePlan& face : plan.faces) {
+        for (const Draw& draw : plan.draws) {
             for (int column = 0; column < 4; ++column) {
                 for (int row = 0; row < 4; ++row) {
-                    ASSERT_TRUE(std::isfinite(face.clip_from_unit[column][row]));
+                    ASSERT_TRUE(std::isfinite(draw.clip_from_unit[column][row]));
                 }
             }
+            ASSERT_TRUE(std::isfinite(draw.pixels_per_box));
+        }
+        for (const FacePlan& face : plan.faces) {
             ASSERT_TRUE(std::isfinite(face.light.per_cubic_metre));
             ASSERT_GE(plan.lit.bounds().x, 0);
             ASSERT_GE(plan.lit.bounds().y, 0);
@@ -118,22 +123,39 @@ TEST(FramePlan, EveryNumberIsFiniteForAnyPose) {
     }
 }
 
-TEST(FramePlan, PutsPointsWhereTheEyesRayMeetsTheFace) {
+/// The ball again, smaller.
+PlacedLevel small_ball(const Kiosk& kiosk) {
+    PlacedLevel small = kiosk.artifact;
+    small.metres_per_box = 0.13;
+    small.drawable = {MeshId{7}, {TextureId{8}}};
+    return small;
+}
+
+TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
     Kiosk kiosk;
-    const FramePlan plan = kiosk.plan();
+    kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
+    const std::array<Part, 2> parts{Part{kiosk.artifact, {}}, Part{small_ball(kiosk), {}}};
+    FramePlan plan = make_plan(kiosk.prop, 2 * kiosk.artifact.triangles->indices.size(), 2);
+    plan_frame(kiosk.prop, parts, kiosk.view, plan);
     ASSERT_EQ(plan.faces.size(), 4U);
+    ASSERT_EQ(plan.draws.size(), 8U);
     std::mt19937 random(6);
     std::uniform_real_distribution<double> u(0.0, 1.0);
-    for (const FacePlan& face : plan.faces) {
-        const Plane& plane = kiosk.prop.faces[static_cast<std::size_t>(face.face)].plane;
+    for (const Draw& draw : plan.draws) {
+        const auto face = static_cast<std::size_t>(plan.faces[static_cast<std::size_t>(draw.face)].face);
+        const Plane& plane = kiosk.prop.faces[face].plane;
+        const double metres = draw.drawable.mesh == MeshId{7} ? 0.13 : 0.16;
         for (int k = 0; k < 500; ++k) {
             const glm::dvec3 unit(u(random), u(random), u(random));
-            const glm::dvec3 x = 0.16 * (unit - glm::dvec3(0.5, 0.5, 0.0)); // table and prop frame coincide
+            const glm::dvec3 x = metres * (unit - glm::dvec3(0.5, 0.5, 0.0)); // table and prop frame coincide
+            const glm::dvec3 told =
+                glm::dvec3(draw.prop_from_unit[0]) * unit + glm::dvec3(draw.prop_from_unit[1]);
+            ASSERT_LT(glm::distance(told, x), 1e-7);
             const glm::dvec3 ray = x - kiosk.eye;
             const double t = -plane.distance(kiosk.eye) / glm::dot(plane.normal, ray);
             const glm::dvec3 s = kiosk.eye + t * ray;
             const glm::dvec2 pixel(640.0 + 1872.0 * s.x / (1.2 - s.z), 400.0 - 1872.0 * s.y / (1.2 - s.z));
-            const glm::vec4 clip = face.clip_from_unit * glm::vec4(glm::vec3(unit), 1.0F);
+            const glm::vec4 clip = draw.clip_from_unit * glm::vec4(glm::vec3(unit), 1.0F);
             if (glm::length(pixel) > 1500.0) {
                 continue; // far off the picture single precision shows
             }
@@ -142,6 +164,86 @@ TEST(FramePlan, PutsPointsWhereTheEyesRayMeetsTheFace) {
             ASSERT_NEAR((clip.y / clip.w + 1.0F) * 400.0F, pixel.y, close);
         }
     }
+}
+
+TEST(FramePlan, AFadeIsTwoPartsThatShareThePixels) {
+    Kiosk kiosk;
+    kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
+    PlacedLevel other = kiosk.artifact;
+    other.drawable = {MeshId{7}, {TextureId{8}, 0.0, true}};
+    FramePlan plan = make_plan(kiosk.prop, 2 * kiosk.artifact.triangles->indices.size(), 2);
+    plan_frame(kiosk.prop, fade(kiosk.artifact, other, 0.25), kiosk.view, plan);
+    const std::size_t faces = plan.faces.size();
+    ASSERT_EQ(faces, 4U);
+    ASSERT_EQ(plan.draws.size(), 2 * faces);
+    std::uint32_t next = 0;
+    for (std::size_t k = 0; k < plan.draws.size(); ++k) {
+        const Draw& draw = plan.draws[k];
+        const bool coming = k >= faces;
+        EXPECT_EQ(draw.drawable.mesh, coming ? MeshId{7} : MeshId{1});
+        EXPECT_TRUE(draw.shader.dithered);
+        EXPECT_EQ(draw.shader.cut_out, coming);
+        EXPECT_EQ(draw.dither.share, 0.25F);
+        EXPECT_EQ(draw.dither.complement, !coming);
+        EXPECT_EQ(draw.face, static_cast<int>(k % faces));
+        EXPECT_EQ(draw.clip_from_unit, plan.draws[k % faces].clip_from_unit);
+        EXPECT_EQ(draw.range.first, next); // each index belongs to one draw
+        next += draw.range.count;
+        EXPECT_EQ(united(plan.faces[k % faces].bounds, draw.bounds), plan.faces[k % faces].bounds);
+    }
+    EXPECT_EQ(next, plan.indices.size());
+    const std::uint64_t hash = plan.hash;
+    plan_frame(kiosk.prop, fade(kiosk.artifact, other, 0.3), kiosk.view, plan);
+    EXPECT_NE(plan.hash, hash);
+    plan_frame(kiosk.prop, kiosk.artifact, kiosk.view, plan);
+    EXPECT_FALSE(plan.draws.front().shader.dithered);
+    EXPECT_EQ(plan.draws.size(), faces);
+}
+
+TEST(FramePlan, APartShowsOnItsOwnFacesAlone) {
+    Kiosk kiosk;
+    kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
+    kiosk.artifact.faces = 0b00001;
+    PlacedLevel other = small_ball(kiosk);
+    other.faces = 0b11000;
+    const std::array<Part, 2> parts{Part{kiosk.artifact, {}}, Part{other, {}}};
+    FramePlan plan = make_plan(kiosk.prop, 2 * kiosk.artifact.triangles->indices.size(), 2);
+    plan_frame(kiosk.prop, parts, kiosk.view, plan);
+    ASSERT_EQ(plan.draws.size(), 3U);
+    const std::array<int, 3> faces{0, 3, 4};
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        EXPECT_EQ(plan.faces[static_cast<std::size_t>(plan.draws[k].face)].face, faces[k]);
+    }
+}
+
+TEST(FramePlan, ACaptionComesFirstAndThePropInBlackOverIt) {
+    Kiosk kiosk;
+    const TablePicture caption{
+        {glm::dvec3(0.1, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.1, -0.1, 0)},
+        0.5,
+        TextureId{7}};
+    const std::size_t without = kiosk.plan().draws.size();
+    kiosk.view.caption = caption;
+    const FramePlan plan = kiosk.plan();
+    ASSERT_EQ(plan.draws.size(), without + 1 + kiosk.prop.faces.size()); // the projector is above all faces
+    for (std::size_t k = 0; k < plan.draws.size(); ++k) {
+        const Draw& draw = plan.draws[k];
+        EXPECT_EQ(draw.face == Draw::on_table, k <= kiosk.prop.faces.size());
+        EXPECT_EQ(draw.drawable.material.texture == TextureId{7}, k == 0);
+        if (draw.face == Draw::on_table) {
+            EXPECT_EQ(draw.shader.pass, ShaderKey::Pass::TablePicture);
+            EXPECT_EQ(draw.brightness, k == 0 ? 0.5F : 0.0F);
+            EXPECT_EQ(draw.bounds, plan.draws[0].bounds);
+        }
+    }
+    // Straight below the lens: u = cx + f x / h, v = cy - f y / h; clip from -1 to 1 over the picture.
+    for (int k = 0; k < 4; ++k) {
+        const glm::vec4 corner = plan.draws[0].clip_from_unit[k];
+        const glm::dvec3& m = caption.corners_m[static_cast<std::size_t>(k)];
+        EXPECT_NEAR(corner.x / corner.w, (640.0 + 1872.0 * m.x / 1.2) / 640.0 - 1.0, 1e-6);
+        EXPECT_NEAR(corner.y / corner.w, (400.0 - 1872.0 * m.y / 1.2) / 400.0 - 1.0, 1e-6);
+    }
+    EXPECT_EQ(lit_bounds(plan), united(plan.lit.bounds(), plan.draws[0].bounds));
 }
 
 TEST(FramePlan, EachFaceHasItsOwnEye) {
@@ -162,7 +264,7 @@ TEST(FramePlan, TheHashTellsPicturesApart) {
     kiosk.eye.x += 1e-5;
     EXPECT_NE(kiosk.plan().hash, hash);
     kiosk = Kiosk();
-    kiosk.artifact.id = 2;
+    kiosk.artifact.drawable.mesh = MeshId{3};
     EXPECT_NE(kiosk.plan().hash, hash);
     kiosk = Kiosk();
     kiosk.view.brightness = 0.5;
@@ -171,10 +273,10 @@ TEST(FramePlan, TheHashTellsPicturesApart) {
     kiosk.view.caption = TablePicture{
         {glm::dvec3(0.1, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.1, -0.1, 0)},
         1.0,
-        7};
+        TextureId{7}};
     const std::uint64_t captioned = kiosk.plan().hash;
     EXPECT_NE(captioned, hash);
-    kiosk.view.caption->id = 8;
+    kiosk.view.caption->texture = TextureId{8};
     EXPECT_NE(kiosk.plan().hash, captioned);
 }
 

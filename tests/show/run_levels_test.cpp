@@ -33,34 +33,30 @@ constexpr double deadline_ms = 16.0;
 /// Of a GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
 const std::vector<RungTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
 
-/// Of a level by itself and of a fade, in the light as it is.
-RenderNeeds fading() {
-    RenderNeeds needs{1, {ShaderKey()}};
-    ShaderKey key;
-    key.dithered = true;
-    needs.draws.insert(key);
-    return needs;
-}
-
 struct Show {
     Pack pack = two_levels();
     Stage stage{320, 200};
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    Renderer renderer = Renderer::create(320, 200, fading()).value();
+    Renderer renderer = Renderer::create(320, 200).value();
     int frame = 0;
 
-    [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) const {
+    [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) {
         Settings settings;
         const double pixel_m = pixel_on_prop_m(stage.prop, settings.projector.pinhole,
                                                settings.projector.table_from_projector.inverse());
         settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;
         SceneRequest request;
         request.technique = technique;
+        request.light = false;
         const Result<ScenePlan> plan = plan_scene(settings, outline_of(pack), request);
         if (!plan) {
             return tl::unexpected<Error>(plan.error());
         }
-        return RunLevels::upload(pack, *plan, technique, deadline_ms, 1);
+        Result<RunLevels> made = RunLevels::upload(pack, *plan, technique, deadline_ms, renderer.store());
+        if (made) {
+            EXPECT_TRUE(renderer.prepare(made->needs()));
+        }
+        return made;
     }
     [[nodiscard]] RunLevels levels(const std::string& technique) {
         RunLevels made = upload(technique).value();
@@ -74,7 +70,7 @@ struct Show {
     DrawResult draw(RunLevels& levels) {
         ++frame;
         const DrawResult drawn =
-            levels.draw(now(), stage.prop, stage.view(), nullptr, renderer,
+            levels.draw(now(), stage.prop, stage.view(), renderer,
                         {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
         EXPECT_TRUE(display->present(now()));
         return drawn;

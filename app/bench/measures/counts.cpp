@@ -72,7 +72,7 @@ Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int pose
     if (!drawn) {
         return at(set_up.name, drawn.error());
     }
-    const PlacedLevel level = placed(pack, pack.default_level, place(pack, prop).metres_per_box, 1);
+    const PlacedLevel level = placed(pack, pack.default_level, place(pack, prop).metres_per_box);
     const ProjectorSettings& projector = set_up.settings.projector;
     FramePlan plan = make_plan(prop, level);
     std::vector<bool> seen(pack.levels[pack.default_level].vertices.size());

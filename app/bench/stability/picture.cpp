@@ -103,18 +103,25 @@ double not_finite(const FramePlan& plan) {
     double count = 0.0;
     const auto add = [&count](double number) { count += std::isfinite(number) ? 0.0 : 1.0; };
     for (const FacePlan& face : plan.faces) {
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                add(static_cast<double>(face.clip_from_unit[column][row]));
-                add(static_cast<double>(face.corners_clip[static_cast<std::size_t>(column)][row]));
-            }
-        }
         for (int k = 0; k < 3; ++k) {
             add(static_cast<double>(face.light.inverse_depth[k]));
         }
+        for (const glm::vec4& corner : face.corners_clip) {
+            for (int k = 0; k < 4; ++k) {
+                add(static_cast<double>(corner[k]));
+            }
+        }
         add(static_cast<double>(face.light.constant));
         add(static_cast<double>(face.light.per_cubic_metre));
-        add(face.pixels_per_box);
+        add(face.pixels_per_m);
+    }
+    for (const Draw& draw : plan.draws) {
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 4; ++row) {
+                add(static_cast<double>(draw.clip_from_unit[column][row]));
+            }
+        }
+        add(draw.pixels_per_box);
     }
     return count;
 }
@@ -125,10 +132,10 @@ public:
     FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
               std::size_t face, PictureFigures& figures)
         : stage_(stage), artifact_(artifact), plan_(plan), face_(stage.prop.faces[face]), figures_(figures) {
-        const auto found = std::find_if(plan.faces.begin(), plan.faces.end(), [face](const FacePlan& f) {
-            return f.face == static_cast<int>(face);
+        const auto found = std::find_if(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
+            return plan.faces[static_cast<std::size_t>(draw.face)].face == static_cast<int>(face);
         });
-        if (found != plan.faces.end()) {
+        if (found != plan.draws.end()) {
             planned_ = &*found;
         }
         const glm::dvec3 extent = artifact.placed.box_size * artifact.placed.metres_per_box;
@@ -173,7 +180,7 @@ private:
         if (planned_ == nullptr) {
             return;
         }
-        const auto range = std::span(plan_.indices).subspan(planned_->shown.first, planned_->shown.count);
+        const auto range = std::span(plan_.indices).subspan(planned_->range.first, planned_->range.count);
         for (std::size_t k = 0; k < range.size(); k += 3) {
             shown_.push_back({range[k], range[k + 1], range[k + 2]});
         }
@@ -223,7 +230,7 @@ private:
     const FramePlan& plan_;
     const PropFace& face_;
     PictureFigures& figures_;
-    const FacePlan* planned_ = nullptr;
+    const Draw* planned_ = nullptr; ///< the one on the face
     std::optional<glm::dmat4> collineation_;
     std::vector<Corners> shown_;
 };
@@ -265,13 +272,15 @@ SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metr
     }
     scatter.finish();
     artifact.placed = {std::make_shared<LevelTriangles>(triangles_of(artifact.level, seen_box_size)),
-                       seen_box_size, metres_per_box, 1, 4};
+                       seen_box_size,
+                       metres_per_box,
+                       {},
+                       4};
     return artifact;
 }
 
 SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level) {
-    return {pack.levels[level],
-            frustumscreen::placed(pack, level, place(pack, stage.prop).metres_per_box, level)};
+    return {pack.levels[level], frustumscreen::placed(pack, level, place(pack, stage.prop).metres_per_box)};
 }
 
 FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {

@@ -139,9 +139,9 @@ StabilityResult into_the_plan(const StabilityOptions&) {
     const SeenArtifact artifact = seen_artifact(usual_stage(), 2000);
     const auto check = [&](const exact::Stage& stage) {
         const FramePlan plan = plan_of(stage, artifact);
-        for (const FacePlan& face : plan.faces) {
+        for (const Draw& draw : plan.draws) {
             for (int column = 0; column < 4; ++column) {
-                const glm::vec4 c = face.clip_from_unit[column];
+                const glm::vec4 c = draw.clip_from_unit[column];
                 wrong += std::isfinite(c.x + c.y + c.z + c.w) ? 0.0 : 1.0;
             }
         }

@@ -10,7 +10,6 @@ namespace frustumscreen {
 namespace {
 
 struct Parts {
-    ArtifactGpu artifact;
     Renderer renderer;
     HitPointRenderer hit_points;
 };
@@ -24,11 +23,11 @@ public:
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
         plan(pose);
-        parts_.renderer.draw(plan_, &parts_.artifact, {stage_.framebuffer, 0}, Redraw::Everything);
+        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, Redraw::Everything);
     }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
         plan(pose);
-        return parts_.hit_points.draw(plan_, &parts_.artifact);
+        return parts_.hit_points.draw(plan_, parts_.renderer.store());
     }
 
 private:
@@ -54,28 +53,27 @@ private:
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
                                                    const PictureOptions& options, std::string name) {
-    Result<ArtifactGpu> artifact = ArtifactGpu::upload(pack, level);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
-    const int samples = options.samples > 0 ? options.samples : pack.samples;
+    const SceneLevel whole = whole_level(pack, level);
     ShaderKey shader;
-    shader.cut_out = artifact->cut_out();
-    const RenderNeeds needs{std::max(samples, default_samples), {shader}};
-    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
+    shader.cut_out = whole.cut_out;
+    const int samples = options.samples > 0 ? options.samples : pack.samples;
+    Result<Renderer> renderer =
+        Renderer::create(stage.width(), stage.height(), {std::max(samples, default_samples), {shader}});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    Result<HitPointRenderer> hit_points =
-        HitPointRenderer::create(stage.width(), stage.height(), needs.draws);
+    const Result<Drawable> drawable = renderer->store().upload(whole, pack.textures[whole.mesh.texture]);
+    if (!drawable) {
+        return tl::unexpected<Error>(drawable.error());
+    }
+    Result<HitPointRenderer> hit_points = HitPointRenderer::create(*renderer);
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, level);
+    PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    return std::make_unique<PackLevelTechnique>(
-        stage, shown, std::move(name),
-        Parts{std::move(*artifact), std::move(*renderer), std::move(*hit_points)});
+    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(name),
+                                                Parts{std::move(*renderer), std::move(*hit_points)});
 }
 
 } // namespace frustumscreen

@@ -1,0 +1,176 @@
+#include "app/render/gpu_store.h"
+
+#include "app/render/gl_memory.h"
+
+#include <GLES2/gl2ext.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Of a texture's side, as the driver allows.
+int most_texels() {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    return limit;
+}
+
+void clamp_to_edge(GLenum minification) {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minification));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+GlTexture upload_colours(const Image8& image, int finest_mip) {
+    const Image8* mip = &image;
+    Image8 made;
+    const auto go_on = [&] {
+        made = half_size(*mip);
+        mip = &made;
+    };
+    for (int k = 0; k < finest_mip; ++k) {
+        go_on();
+    }
+    GlTexture texture = GlTexture::generate();
+    const auto longest = static_cast<unsigned>(std::max(mip->width, mip->height));
+    const int levels =
+        std::min(static_cast<int>(std::bit_width(longest)), coarsest_mip_level + 1 - finest_mip);
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, mip->width, mip->height);
+    for (int k = 0; k < levels; ++k) {
+        if (k > 0) {
+            go_on();
+        }
+        glTexSubImage2D(GL_TEXTURE_2D, k, 0, 0, mip->width, mip->height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mip->texels.data());
+    }
+    clamp_to_edge(GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    return texture;
+}
+
+GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
+    GlTexture texture = GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+    const auto longest = static_cast<unsigned>(std::max(coverage.width, coverage.height));
+    glTexStorage2D(GL_TEXTURE_2D, std::bit_width(longest), GL_R8, coverage.width, coverage.height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, coverage.width, coverage.height, GL_RED, GL_UNSIGNED_BYTE,
+                    coverage.texels.data());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
+    return texture;
+}
+
+GpuStore::Mesh upload_vertices(const std::vector<PackVertex>& vertices) {
+    GpuStore::Mesh mesh{GlVertexArray::generate(), GlBuffer::generate()};
+    glBindVertexArray(mesh.vertex_array.get());
+    glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(PackVertex)),
+                 vertices.data(), GL_STATIC_DRAW);
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex), nullptr);
+    glEnableVertexAttribArray(1);
+    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex),
+                          // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                          reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
+    glBindVertexArray(0);
+    return mesh;
+}
+
+template <typename Map, typename Id> auto found(const Map& map, Id id) -> const typename Map::mapped_type* {
+    const auto place = map.find(id);
+    return place != map.end() ? &place->second : nullptr;
+}
+
+} // namespace
+
+Result<Drawable> GpuStore::upload(const Pack& pack, std::uint32_t level) {
+    return upload(whole_level(pack, level), pack.textures[pack.levels[level].texture]);
+}
+
+Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture) {
+    const int limit = most_texels();
+    if (std::max(texture.width, texture.height) > limit) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
+                texture.width, texture.height, limit));
+    }
+    Mesh mesh = upload_vertices(level.mesh.vertices);
+    GlTexture colours = upload_colours(texture, level.finest_mip);
+    if (glGetError() != GL_NO_ERROR) {
+        return fail(ErrorKind::BadConfiguration,
+                    "render: the driver has no memory for the artifact; bake a smaller one");
+    }
+    const MeshId id{++last_};
+    meshes_.emplace(id, std::move(mesh));
+    return Drawable{id, {keep(std::move(colours), level.finest_mip), level.texels_per_box, level.cut_out}};
+}
+
+Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
+    const int limit = most_texels();
+    if (coverage.width < 1 || coverage.height < 1 || std::max(coverage.width, coverage.height) > limit) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "render: a caption of {} x {} pixels; this driver allows 1 to {}: use smaller letters",
+                coverage.width, coverage.height, limit));
+    }
+    return keep(upload_coverage(coverage), 0);
+}
+
+TextureId GpuStore::keep(GlTexture texels, int finest_mip) {
+    const TextureId id{++last_};
+    textures_.emplace(id, Texture{std::move(texels), finest_mip});
+    return id;
+}
+
+void GpuStore::release(const Drawable& drawable) {
+    meshes_.erase(drawable.mesh);
+    release(drawable.material.texture);
+}
+
+void GpuStore::release(TextureId texture) {
+    textures_.erase(texture);
+}
+
+const GpuStore::Mesh* GpuStore::find(MeshId mesh) const {
+    return found(meshes_, mesh);
+}
+
+const GpuStore::Texture* GpuStore::find(TextureId texture) const {
+    return found(textures_, texture);
+}
+
+std::uint64_t GpuStore::bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [id, mesh] : meshes_) {
+        bytes += bytes_of_buffer(mesh.vertices);
+    }
+    for (const auto& [id, texture] : textures_) {
+        bytes += bytes_of_texture(texture.texels);
+    }
+    return bytes;
+}
+
+std::uint64_t GpuStore::bytes(const Drawable& drawable) const {
+    const Mesh* const mesh = find(drawable.mesh);
+    return (mesh != nullptr ? bytes_of_buffer(mesh->vertices) : 0) + bytes(drawable.material.texture);
+}
+
+std::uint64_t GpuStore::bytes(TextureId texture) const {
+    const Texture* const held = find(texture);
+    return held != nullptr ? bytes_of_texture(held->texels) : 0;
+}
+
+} // namespace frustumscreen

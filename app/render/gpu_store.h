@@ -1,0 +1,59 @@
+/// Meshes and pictures in the GPU's memory, by the numbers that plans name them with.
+///
+/// Colour   an artifact's texture gives sRGB codes as they are stored; its mip levels are averaged in linear
+///          light, here and not by the driver: the same everywhere, and the finest need not go to the GPU to
+///          make the rest. A caption is coverage 0..255, white light.
+/// Threads  the render thread; `find` allocates nothing.
+/// Errors   the driver has no memory, or a texture is larger than it allows.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/pack/pack.h"
+#include "app/scene/drawable.h"
+#include "app/scene/scene_level.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
+
+#include <cstdint>
+#include <map>
+
+namespace frustumscreen {
+
+class GpuStore {
+public:
+    /// What a scene needs of a level; `texture` is the level's, whole.
+    [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
+    /// All of a level.
+    [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
+    /// A caption's coverage, row 0 at the text's top.
+    [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
+    /// Draws of it show nothing from now on.
+    void release(const Drawable& drawable);
+    void release(TextureId texture);
+
+    struct Mesh {
+        GlVertexArray vertex_array;
+        GlBuffer vertices;
+    };
+    struct Texture {
+        GlTexture texels;
+        int finest_mip = 0; ///< of the whole texture: what the uploaded level 0 is
+    };
+    /// Null if it was not uploaded, or released.
+    [[nodiscard]] const Mesh* find(MeshId mesh) const;
+    [[nodiscard]] const Texture* find(TextureId texture) const;
+
+    /// Of GPU memory, as the driver says.
+    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] std::uint64_t bytes(const Drawable& drawable) const;
+    [[nodiscard]] std::uint64_t bytes(TextureId texture) const;
+
+private:
+    [[nodiscard]] TextureId keep(GlTexture texels, int finest_mip);
+
+    std::map<MeshId, Mesh> meshes_;
+    std::map<TextureId, Texture> textures_;
+    std::uint32_t last_ = 0; ///< number given out
+};
+
+} // namespace frustumscreen

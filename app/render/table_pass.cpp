@@ -1,0 +1,44 @@
+#include "app/render/table_pass.h"
+
+#include <GLES2/gl2ext.h>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace frustumscreen {
+
+int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
+                    const ShaderCache& shaders, const Raster& raster) const {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
+    glEnable(GL_SCISSOR_TEST);
+    glActiveTexture(GL_TEXTURE0);
+    glBindVertexArray(no_attributes_.get());
+    int calls = 0;
+    for (const Draw& draw : plan.draws) {
+        const PixelRectangle part = intersected(draw.bounds, within);
+        const TextureId picture = draw.drawable.material.texture;
+        const GpuStore::Texture* const texture = store.find(picture);
+        const Shader* const shader = shaders.find(draw.shader);
+        if (draw.face != Draw::on_table || part.empty() || shader == nullptr ||
+            (texture == nullptr && picture != TextureId::None)) {
+            continue;
+        }
+        shader->use();
+        if (texture != nullptr) {
+            glBindTexture(GL_TEXTURE_2D, texture->texels.get());
+        }
+        set_scissor(part, raster);
+        glUniform1f(shader->at(Uniform::Brightness), draw.brightness);
+        glUniform4fv(shader->at(Uniform::Corners), 4, glm::value_ptr(draw.clip_from_unit));
+        glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+        ++calls;
+    }
+    glBindVertexArray(0);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    return calls;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,29 @@
+/// What lies flat on the table: the plan's quadrilaterals, in order. A caption is a picture, and the prop's
+/// faces in black, on which it never lies.
+///
+/// Draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
+///
+/// Colour   coverage in linear light, which the framebuffer encodes.
+/// Threads  the render thread; allocates nothing in `draw`.
+#pragma once
+
+#include "app/render/gpu_store.h"
+#include "app/render/raster.h"
+#include "app/render/shader_cache.h"
+#include "app/scene/frame_plan.h"
+#include "firmware_host/gl/gl_handle.h"
+
+namespace frustumscreen {
+
+class TablePass {
+public:
+    /// `within`: nothing outside it is drawn. Number of draw calls made. Left out is what needs a shader that
+    /// was not prepared, or a texture that is not in the store.
+    int draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
+             const ShaderCache& shaders, const Raster& raster = {}) const;
+
+private:
+    GlVertexArray no_attributes_ = GlVertexArray::generate();
+};
+
+} // namespace frustumscreen

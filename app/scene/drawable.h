@@ -1,0 +1,25 @@
+/// What a renderer holds, by the numbers that it gave out at upload, and how a mesh looks. A plan names both.
+///
+/// Threads  values; any.
+#pragma once
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// Of one renderer, which never gives a number out twice.
+enum class MeshId : std::uint32_t { None };
+enum class TextureId : std::uint32_t { None };
+
+struct Material {
+    TextureId texture = TextureId::None;
+    double texels_per_box = 0.0; ///< along one box unit of the mesh (pack.h)
+    bool cut_out = false;        ///< texels whose alpha is below one half are left out
+};
+
+struct Drawable {
+    MeshId mesh = MeshId::None;
+    Material material;
+};
+
+} // namespace frustumscreen

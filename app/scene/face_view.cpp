@@ -1,0 +1,91 @@
+#include "app/scene/face_view.h"
+
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+glm::dvec4 row(const glm::dmat4& m, int r) {
+    return {m[0][r], m[1][r], m[2][r], m[3][r]};
+}
+
+} // namespace
+
+PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    const glm::dvec2 size(pinhole.width, pinhole.height);
+    for (const glm::dvec4& p : clip) {
+        if (!(p.w > 0.0)) {
+            return {0, 0, pinhole.width, pinhole.height};
+        }
+        const glm::dvec2 pixel = (glm::dvec2(p) / p.w * 0.5 + 0.5) * size;
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
+    high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
+    return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
+            static_cast<int>(high.y - low.y)};
+}
+
+PixelRectangle face_bounds(const PropFace& face, const Box& box, const glm::dmat4& clip_from_prop,
+                           const glm::dmat4& clip_through_face, const Pinhole& pinhole) {
+    std::array<glm::dvec4, 4> outline;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        outline[k] = clip_from_prop * glm::dvec4(face.corners[k], 1.0);
+    }
+    std::array<glm::dvec4, 8> corners;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const glm::dvec3 corner((k & 1U) != 0 ? box.high.x : box.low.x,
+                                (k & 2U) != 0 ? box.high.y : box.low.y,
+                                (k & 4U) != 0 ? box.high.z : box.low.z);
+        corners[k] = clip_through_face * glm::dvec4(corner, 1.0);
+    }
+    return intersected(pixels_around(outline, pinhole), pixels_around(corners, pinhole));
+}
+
+std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners, const glm::dmat4& clip) {
+    std::array<glm::vec4, 4> result{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const glm::dvec4 corner = clip * glm::dvec4(corners[k], 1.0);
+        result[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
+    }
+    return result;
+}
+
+FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
+                     const glm::dmat4& clip_from_box) {
+    FaceVolume volume;
+    const glm::dvec3 eye = eye_in_prop / metres_per_box;
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+        const glm::dvec3 a = face.corners[k] / metres_per_box - eye;
+        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - eye;
+        const glm::dvec3 inward = glm::cross(b, a);
+        volume.add(glm::dvec4(inward, -glm::dot(inward, eye)));
+    }
+    const glm::dvec4 w = row(clip_from_box, 3);
+    volume.add(w);
+    for (int axis = 0; axis < 2; ++axis) {
+        volume.add(w + row(clip_from_box, axis));
+        volume.add(w - row(clip_from_box, axis));
+    }
+    return volume;
+}
+
+double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point, const Pinhole& pinhole) {
+    const glm::dvec4 clip = clip_from_box * glm::dvec4(point, 1.0);
+    if (!(clip.w > 0.0)) {
+        return 0.0;
+    }
+    const glm::dvec3 w(row(clip_from_box, 3));
+    const glm::dvec3 across =
+        0.5 * pinhole.width / clip.w * (glm::dvec3(row(clip_from_box, 0)) - clip.x / clip.w * w);
+    const glm::dvec3 down =
+        0.5 * pinhole.height / clip.w * (glm::dvec3(row(clip_from_box, 1)) - clip.y / clip.w * w);
+    return std::sqrt(glm::length(glm::cross(across, down)));
+}
+
+} // namespace frustumscreen

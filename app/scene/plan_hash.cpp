@@ -1,0 +1,63 @@
+#include "app/scene/plan_hash.h"
+
+#include <bit>
+
+namespace frustumscreen {
+
+namespace {
+
+/// FNV-1a over 64-bit words.
+class Hash {
+public:
+    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ULL; }
+    void add_float(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+void hash_corners(const std::array<glm::vec4, 4>& corners, Hash& hash) {
+    for (const glm::vec4& corner : corners) {
+        for (int k = 0; k < 4; ++k) {
+            hash.add_float(corner[k]);
+        }
+    }
+}
+
+void hash_draw(const Draw& draw, Hash& hash) {
+    hash.add(bits_of(draw.shader));
+    hash.add(static_cast<std::uint64_t>(draw.drawable.mesh));
+    hash.add(static_cast<std::uint64_t>(draw.drawable.material.texture));
+    hash.add(static_cast<std::uint64_t>(draw.face));
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            hash.add_float(draw.clip_from_unit[column][row]);
+        }
+    }
+    hash.add(draw.range.count);
+    hash.add_float(draw.brightness);
+    hash.add_float(draw.dither.share);
+    hash.add(static_cast<std::uint64_t>(draw.dither.complement));
+}
+
+} // namespace
+
+std::uint64_t hash_of(const FramePlan& plan) {
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(plan.projector.width));
+    hash.add(static_cast<std::uint64_t>(plan.projector.height));
+    hash.add(static_cast<std::uint64_t>(plan.samples));
+    for (const Draw& draw : plan.draws) {
+        hash_draw(draw, hash);
+    }
+    for (const FacePlan& face : plan.faces) {
+        hash.add(static_cast<std::uint64_t>(face.face));
+        hash_corners(face.corners_clip, hash);
+        hash.add_float(face.light.constant);
+        hash.add_float(face.light.per_cubic_metre);
+    }
+    return hash.value();
+}
+
+} // namespace frustumscreen

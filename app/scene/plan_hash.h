@@ -1,0 +1,16 @@
+/// A number for a plan's picture.
+///
+/// Threads  pure; any. Allocates nothing.
+/// Method   FNV-1a over 64-bit words.
+#pragma once
+
+#include "app/scene/frame_plan.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// Equal for equal pictures of one renderer; FramePlan::hash.
+[[nodiscard]] std::uint64_t hash_of(const FramePlan& plan);
+
+} // namespace frustumscreen

@@ -1,0 +1,58 @@
+/// Places that the renderer drew against those of a ray cast.
+#pragma once
+
+#include "app/image/image.h"
+#include "tests/render/reference_cast.h"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace frustumscreen::synthetic {
+
+struct Comparison {
+    std::size_t both = 0;
+    std::size_t mismatched = 0; ///< hit in one alone
+    std::size_t unexcused = 0;  ///< of them, far from any outline
+    double worst_mm = 0.0;      ///< over pixels hit in both whose neighbourhood is smooth
+};
+
+/// A pixel is excused where rays a hair's breadth away disagree too: the rasterizer rounds to 1/256 pixel.
+template <typename Cast>
+bool grazes(const Cast& cast, const Stage& stage, const glm::dvec2& centre, const ReferenceCast::Hit& truth) {
+    constexpr double hair = 1.0 / 64.0;
+    for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4.0;
+        const ReferenceCast::Hit near =
+            cast.through_pixel(stage, centre + hair * glm::dvec2(std::cos(angle), std::sin(angle)));
+        if (near.found != truth.found || (truth.found && glm::distance(near.point, truth.point) > 2e-3)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <typename Cast> Comparison compare(const Stage& stage, const Cast& cast, const ImageFloat& drawn) {
+    Comparison result;
+    for (int y = 0; y < drawn.height; ++y) {
+        for (int x = 0; x < drawn.width; ++x) {
+            const glm::dvec2 centre(x + 0.5, y + 0.5);
+            const ReferenceCast::Hit truth = cast.through_pixel(stage, centre);
+            const glm::vec3& point = drawn.at(x, y);
+            const bool hit = !std::isnan(point.x);
+            if (hit != truth.found) {
+                ++result.mismatched;
+                result.unexcused += grazes(cast, stage, centre, truth) ? 0U : 1U;
+            } else if (hit) {
+                ++result.both;
+                const double mm = 1e3 * glm::distance(glm::dvec3(point), truth.point);
+                if (mm > result.worst_mm && !grazes(cast, stage, centre, truth)) {
+                    result.worst_mm = mm;
+                }
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace frustumscreen::synthetic

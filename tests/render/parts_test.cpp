@@ -1,0 +1,117 @@
+// Several parts in one prop: the nearest shows.
+
+#include "tests/render/comparison.h"
+#include "tests/render/counted_new.h"
+#include "tests/render/rig.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+/// Two artifacts of different sizes, one in the other.
+struct NestedRig : Rig {
+    Pack inner_pack = rings(16, 8);
+    PlacedLevel inner;
+
+    NestedRig() : Rig(256, 160) {
+        inner = placed(inner_pack, 0, 0.7 * level.metres_per_box,
+                       renderer->store().upload(inner_pack, 0).value());
+        plan = make_plan(prop, level.triangles->indices.size() + inner.triangles->indices.size(), 2);
+    }
+    [[nodiscard]] std::array<Part, 2> parts() const { return {Part{level, {}}, Part{inner, {}}}; }
+};
+
+/// The first hit of either.
+struct NestedCast {
+    ReferenceCast outer, inner;
+
+    [[nodiscard]] ReferenceCast::Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
+        const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
+        const ReferenceCast::Hit a = outer.through_pixel(stage, pixel);
+        const ReferenceCast::Hit b = inner.through_pixel(stage, pixel);
+        const bool first = a.found && (!b.found || glm::distance(a.point, eye) < glm::distance(b.point, eye));
+        return first ? a : b;
+    }
+};
+
+TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
+    NestedRig rig;
+    const NestedCast cast{{rig.pack, rig.level.metres_per_box}, {rig.inner_pack, rig.inner.metres_per_box}};
+    Stage stage(256, 160);
+    std::mt19937 random(7);
+    for (int pose = 0; pose < 5; ++pose) {
+        stage.shuffle(random);
+        plan_frame(stage.prop, rig.parts(), stage.view(), rig.plan);
+        const Comparison c = compare(stage, cast, rig.places());
+        EXPECT_GT(c.both, 600U) << pose;
+        EXPECT_LT(c.worst_mm, 0.02) << pose;
+        EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
+    }
+}
+
+TEST(Parts, TheirOrderDoesNotShow) {
+    NestedRig rig;
+    Stage stage(256, 160);
+    std::mt19937 random(22);
+    for (int pose = 0; pose < 5; ++pose) {
+        stage.shuffle(random);
+        plan_frame(stage.prop, rig.parts(), stage.view(LightCompensation{}), rig.plan);
+        rig.draw(Redraw::Everything);
+        const Image8 picture = rig.picture();
+        const std::array<Part, 2> turned{rig.parts()[1], rig.parts()[0]};
+        plan_frame(stage.prop, turned, stage.view(LightCompensation{}), rig.plan);
+        rig.draw(Redraw::Everything);
+        EXPECT_EQ(rig.picture().texels, picture.texels) << pose;
+    }
+}
+
+TEST(Parts, OfOneArtifactShowItWhole) {
+    Rig rig(320, 200, 4);
+    Stage stage(320, 200);
+    plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
+    rig.draw();
+    const Image8 whole = rig.picture();
+    std::array<Part, 2> halves{Part{rig.level, {}}, Part{rig.level, {}}};
+    for (std::size_t half = 0; half < halves.size(); ++half) {
+        PackLevel level = rig.pack.levels[0];
+        const auto middle = level.clusters.begin() + static_cast<std::ptrdiff_t>(level.clusters.size() / 2);
+        level.clusters = half == 0 ? std::vector(level.clusters.begin(), middle)
+                                   : std::vector(middle, level.clusters.end());
+        halves[half].level.triangles =
+            std::make_shared<LevelTriangles>(triangles_of(level, rig.pack.box_size));
+    }
+    rig.plan = make_plan(rig.prop, 2 * rig.pack.levels[0].indices.size(), 2);
+    plan_frame(stage.prop, halves, stage.view(LightCompensation{}), rig.plan);
+    EXPECT_GT(rig.plan.draws.size(), rig.plan.faces.size());
+    EXPECT_TRUE(rig.draw(Redraw::Everything).drawn);
+    EXPECT_EQ(rig.picture().texels, whole.texels);
+}
+
+TEST(Parts, AndACaptionAllocateNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    NestedRig rig;
+    const TextureId caption = rig.renderer->store().upload(Image<std::uint8_t>(64, 32, 255)).value();
+    Stage stage(256, 160);
+    std::mt19937 random(5);
+    long counted = 0;
+    for (int k = 0; k < 60; ++k) {
+        stage.shuffle(random);
+        PlanView view = stage.view(LightCompensation{});
+        view.caption = TablePicture{{glm::dvec3(-0.2, 0.13, 0.0), glm::dvec3(-0.1, 0.13, 0.0),
+                                     glm::dvec3(-0.1, 0.09, 0.0), glm::dvec3(-0.2, 0.09, 0.0)},
+                                    1.0,
+                                    caption};
+        const std::array<Part, 2> parts = rig.parts();
+        const long before = allocations_so_far();
+        plan_frame(rig.prop, parts, view, rig.plan);
+        counted += allocations_so_far() - before;
+        const long before_draw = allocations_so_far();
+        rig.draw();
+        counted += k < 20 ? 0 : allocations_so_far() - before_draw; // llvmpipe compiles in its first frames
+    }
+    EXPECT_EQ(counted, 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
