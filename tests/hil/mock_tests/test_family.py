@@ -29,9 +29,11 @@ IN_A_THREAD = STARTED + """
 from concurrent.futures import ThreadPoolExecutor
 def work():
     start()
-    waiting = ThreadPoolExecutor().submit(subprocess.run, ["sleep", "1003"], check=True)
-    print("ready", flush=True)
-    waiting.result()
+    def wait_for_it():
+        program = subprocess.Popen(["sleep", "1003"])
+        print("ready", flush=True)  # not before: what starts while all is ended would be waited for
+        program.wait()
+    ThreadPoolExecutor().submit(wait_for_it).result()
 """
 AT_ITS_END = STARTED + """
 def work():
