@@ -157,6 +157,19 @@ TEST(RunLevels, OfAFixedTechniqueStay) {
     EXPECT_FALSE(show.upload("level2"));
 }
 
+TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
+    Show show;
+    RunLevels levels = show.upload("auto").value();
+    EXPECT_EQ(levels.uses().size(), 2U);
+    EXPECT_GT(show.renderer.store().bytes(), 0U);
+    levels.release(show.renderer.store());
+    EXPECT_EQ(show.renderer.store().bytes(), 0U);
+    show.pack.levels[0].texture = 1; // uploaded after level 1: wider than any driver takes
+    show.pack.textures.emplace_back(100'000, 1);
+    EXPECT_FALSE(show.upload("auto"));
+    EXPECT_EQ(show.renderer.store().bytes(), 0U);
+}
+
 TEST(RunLevels, CountGarbageTimes) {
     Show show;
     RunLevels levels = show.levels("auto");
