@@ -8,12 +8,11 @@ target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
 target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_definitions(frustumscreen_options INTERFACE
     GLM_FORCE_RADIANS GLM_ENABLE_EXPERIMENTAL FRUSTUMSCREEN_VERSION="${PROJECT_VERSION}")
-target_compile_options(frustumscreen_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off)
-# The sanitizers' own code makes GCC warn of what is not there; the other presets hold every warning.
-if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN)
-    target_compile_options(frustumscreen_options INTERFACE -Werror)
+set(warnings -Wall -Wextra -Wpedantic -Wconversion)
+if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC warn of what is not there
+    list(APPEND warnings -Werror)
 endif()
+target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off)
 if(FRUSTUMSCREEN_ASAN)
     target_compile_options(frustumscreen_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
