@@ -100,7 +100,7 @@ double texels_per_box(const PackLevel& level, const Image8& texture, const glm::
     };
     const auto texel = [&](std::uint32_t vertex) {
         const auto& q = level.vertices[vertex].uv;
-        return glm::dvec3(q[0] * texture.width, q[1] * texture.height, 0);
+        return glm::dvec3(q[0], q[1], 0) * glm::dvec3(texture.width, texture.height, 0);
     };
     const auto doubled_area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
         return glm::length(glm::cross(b - a, c - a));
