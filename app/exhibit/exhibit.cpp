@@ -2,7 +2,6 @@
 
 #include "app/exhibit/languages.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
@@ -14,9 +13,7 @@ std::vector<std::string> languages_of(const Catalogue& catalogue) {
     std::vector<std::string> languages;
     for (const CatalogueEntry& entry : catalogue) {
         for (const std::string& language : entry.languages) {
-            if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
-                languages.push_back(language);
-            }
+            add_language(languages, language);
         }
     }
     return languages;

@@ -11,9 +11,12 @@
 ///          turn out to have begun the staff's chord are undone, so that after the pattern all is as it was
 ///          before.
 /// Frames   table T, metres.
-/// Time     `now` never goes back. Fades are closed forms of it; a caption appears from the step on that
-/// places it. Threads  values; one caller. `step` allocates nothing. Errors   none. A catalogue without
-/// artifacts shows nothing.
+///
+/// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
+///
+/// Threads  values; one caller. `step` allocates nothing.
+///
+/// Errors   none. A catalogue without artifacts shows nothing.
 #pragma once
 
 #include "app/exhibit/attract.h"

@@ -27,6 +27,12 @@ std::size_t caption_for(std::string_view language, std::span<const std::string> 
     return best == languages.size() ? 0 : best;
 }
 
+void add_language(std::vector<std::string>& languages, const std::string& language) {
+    if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+        languages.push_back(language);
+    }
+}
+
 bool has_language(std::span<const std::string> languages, std::string_view language) {
     return std::any_of(languages.begin(), languages.end(),
                        [&](const std::string& tag) { return primary(tag) == primary(language); });

@@ -20,12 +20,6 @@ namespace {
 constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 constexpr double warm_up_step_m = 0.01;
 
-void add_once(std::vector<std::string>& languages, const std::string& language) {
-    if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
-        languages.push_back(language);
-    }
-}
-
 template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
     Catalogue catalogue;
     for (const auto& artifact : artifacts) {
@@ -120,7 +114,7 @@ struct ArtifactShow::Loader {
         plan.needs = levels->needs();
         plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
         for (const PackCaption& caption : (*pack)->captions) {
-            add_once(languages, caption.language);
+            add_language(languages, caption.language);
         }
         if (const auto note = note_other_prop(file.string(), **pack, settings.prop.kind)) {
             notes.push_back(*note);
@@ -342,7 +336,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
     const RigidTransform& table_from_projector = settings.projector.table_from_projector;
     return {artifacts.catalogue(),
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
-             lit_zone(settings).any_eye_rectangle.centre_m, settings.panel.buttons()},
+             artifacts.attract_place_m(), settings.panel.buttons()},
             settings.exhibit.language,
             now};
 }

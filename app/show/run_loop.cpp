@@ -127,6 +127,9 @@ private:
         result_.status.prop_known = situation.prop_known;
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
+        if (inputs_.panel) {
+            inputs_.panel->light(state.lamps);
+        }
         if (result_.rows.size() < rows_expected_) {
             result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
                                     static_cast<float>(state.levels.estimated_error_mm), changed,
@@ -161,7 +164,6 @@ private:
         }
         if (inputs_.panel) {
             result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
-            inputs_.panel->light(show_.state().lamps);
         }
         for (const PoseSample& sample : samples_) {
             if (head_is_followed_ || sample.station != head_station) {
