@@ -58,8 +58,8 @@ class HilTest(unittest.TestCase):
         seen = watch.watch(self.bench, seconds)
         if not rests:
             HilTest.longest_s = max(HilTest.longest_s, seen.stood().granted_s)
-        froze = watch.froze(seen, rests)
-        self.assertFalse(froze, "the picture froze")
+        why = watch.froze(seen, rests)
+        self.assertFalse(why, why)
         return seen
 
     def assert_at(self, place_m, rotation=UPRIGHT, artifact=None):

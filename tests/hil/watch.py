@@ -7,6 +7,9 @@ Freeze   a picture that stands while the guest rests, or while the guest is give
          (Machine.given) that stand while a busy host lets the guest wait, so that its load is not the exhibit's freeze.
          The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
          that saw it to the beginning of the last one, however slow the looks themselves are.
+Pause    a host that stands still as a whole (a virtual machine that its own host takes off the processor) stops none of
+         these clocks. It shows as one long step between two looks: no step counts for more than SURE_S, so that a freeze
+         is one that several looks saw.
 """
 
 import statistics
@@ -19,6 +22,7 @@ from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
+SURE_S = 0.1  # from one look to the next: longer, and nobody knows what happened meanwhile
 RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
 FROZEN_S = 0.25
 FROZEN_PACES = 4.0
@@ -32,6 +36,12 @@ class Look:
     code: int  # None: none can be read
 
 
+def plus(stood, before, now):
+    """`stood`, and what was given from one look to the next."""
+    return Given(stood.granted_s + min(SURE_S, now.granted_s - before.granted_s),
+                 stood.rested_s + min(SURE_S, now.rested_s - before.rested_s))
+
+
 @dataclass
 class Watch:
     looks: list
@@ -39,16 +49,23 @@ class Watch:
 
     def stood(self, rests=False):
         """How long one picture stood; `rests`: how much longer than a picture may while nothing moves."""
-        longest, first, since = Given(0.0, 0.0), None, None
+        longest, first, stands, seen = Given(0.0, 0.0), None, None, None
         for look in self.looks:
             if first is None or look.code not in (first.code, None):
-                first, since = look, None
-            if since is None and look.time_s >= first.time_s + (RESTING_S if rests else 0.0):
-                since = look  # the next picture is due
-            if since is not None:
-                longest = Given(max(longest.granted_s, look.begin.granted_s - since.end.granted_s),
-                                max(longest.rested_s, look.begin.rested_s - since.end.rested_s))
+                first, stands = look, None
+            if stands is not None:
+                stands = plus(stands, seen, look.begin)
+                longest = Given(max(longest.granted_s, stands.granted_s), max(longest.rested_s, stands.rested_s))
+                seen = look.begin
+            elif look.time_s >= first.time_s + (RESTING_S if rests else 0.0):
+                stands, seen = Given(0.0, 0.0), look.end  # the next picture is due
         return longest
+
+    def as_text(self):
+        """A line for each look."""
+        begun = self.looks[0].time_s
+        return "\n".join(f"{look.time_s - begun:.3f} {look.code} {look.end.granted_s:.3f} {look.end.rested_s:.3f}"
+                         for look in self.looks)
 
     def pace_s(self):
         """How long the guest took for a picture: the median; 0: hardly any was seen."""
@@ -75,10 +92,13 @@ def watch(bench, seconds):
 
 
 def froze(seen, rests=False):
-    """Whether a picture froze; says the figures."""
+    """Why a picture is said to have frozen; empty: none did. Says the figures."""
     stood, pace_s = seen.stood(rests), seen.pace_s()
-    print(f"  {'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
-          f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; {len(seen.looks)} looks",
-          flush=True)
+    figures = (f"{'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
+               f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; "
+               f"{len(seen.looks)} looks")
+    print(f"  {figures}", flush=True)
     in_a_circle = not rests and pace_s > 0.0 and stood.granted_s > max(FROZEN_S, FROZEN_PACES * pace_s)
-    return stood.rested_s > FROZEN_S or in_a_circle
+    if stood.rested_s <= FROZEN_S and not in_a_circle:
+        return ""
+    return f"the picture froze; {figures}; time, code, granted, rested of each:\n{seen.as_text()}"
