@@ -38,7 +38,7 @@ Result<std::vector<Situation>> situations(const Settings& settings, const Device
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
-    SituationTracker tracker({}, settings.eye.default_m);
+    SituationTracker tracker(settings.eye.default_m);
     if (!inputs->tracker) {
         Situation standing = tracker.at(start);
         standing.prop_known = true;
