@@ -102,7 +102,7 @@ private:
         if (drawn.drawn) {
             coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
             for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
-                display_.changed({part.x, part.y, part.width, part.height});
+                display_.changed(part);
             }
             watch_.enters("waits for the display");
             const Result<MonotonicTime> shown = display_.present(now);
