@@ -1,6 +1,6 @@
 #include "app/pack/json_fields.h"
 
-#include "app/pack/printable.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 

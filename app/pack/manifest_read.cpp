@@ -2,7 +2,7 @@
 #include "app/pack/limits.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
-#include "app/pack/printable.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 
 #include "app/settings/lit_zone.h"
 #include "app/settings/table_reader.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 

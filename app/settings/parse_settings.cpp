@@ -3,6 +3,7 @@
 #include "app/settings/settings.h"
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 

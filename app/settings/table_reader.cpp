@@ -1,5 +1,7 @@
 #include "app/settings/table_reader.h"
 
+#include "firmware_host/base/printable.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -69,25 +71,6 @@ void ReadState::refuse(std::uint32_t line, std::string_view what) {
 
 std::string located(std::string_view file, std::uint32_t line, std::string_view what) {
     return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : fmt::format("{}: {}", file, what);
-}
-
-std::string printable(std::string_view text, std::size_t limit) {
-    std::string result;
-    for (const char c : text.substr(0, limit)) {
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        result += control ? '?' : c;
-    }
-    if (text.size() > limit) {
-        // Not in the middle of a UTF-8 character.
-        while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xC0) == 0x80) {
-            result.pop_back();
-        }
-        if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0x80) {
-            result.pop_back();
-        }
-        result += "...";
-    }
-    return result;
 }
 
 std::string allowed(const Range& range) {
@@ -319,7 +302,7 @@ void TableReader::finish() {
     if (left_over == nullptr) {
         return;
     }
-    const std::string key = printable(left_over->str());
+    const std::string key = printable(left_over->str(), 60);
     const auto nearest =
         std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
             return distance(key, a) < distance(key, b);

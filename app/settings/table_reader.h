@@ -40,8 +40,6 @@ struct ReadState {
 
 /// `file:line: what`, without a line where there is none.
 [[nodiscard]] std::string located(std::string_view file, std::uint32_t line, std::string_view what);
-/// One printable line of at most `limit` bytes.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 60);
 [[nodiscard]] std::string allowed(const Range& range);
 
 class TableReader {
