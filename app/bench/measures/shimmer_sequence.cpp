@@ -1,6 +1,7 @@
 #include "app/bench/measures/shimmer_sequence.h"
 
 #include "app/bench/measures/measure.h"
+#include "firmware_host/base/quantile.h"
 
 #include <algorithm>
 #include <cmath>
