@@ -55,6 +55,25 @@ Json display_json(const DisplaySettings& display) {
             {"force", display.force}};
 }
 
+Json prop_json(const PropSettings& prop) {
+    Json faces = Json::array();
+    for (const PropFace& face : make_prop(prop).faces) {
+        Json corners = Json::array();
+        for (const glm::dvec3& corner : face.corners) {
+            corners.push_back(list_of(corner));
+        }
+        faces.push_back({{"name", std::string(face.name)},
+                         {"normal", list_of(face.plane.normal)},
+                         {"corners", std::move(corners)}});
+    }
+    return {{"kind", std::string(name_of(prop.kind))},
+            {"base_m", prop.base_m},
+            {"top_m", prop.top_m},
+            {"height_m", prop.height_m},
+            {"zone", std::string(name_of(prop.zone))},
+            {"faces", std::move(faces)}};
+}
+
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
@@ -115,10 +134,7 @@ std::string config_json(const CheckedSettings& checked) {
     json["projector"] = projector_json(settings.projector);
     json["display"] = display_json(settings.display);
     json["render"] = {{"error_tolerance_px", settings.render.error_tolerance_px}};
-    json["prop"] = {{"kind", std::string(name_of(settings.prop.kind))},
-                    {"base_m", settings.prop.base_m},
-                    {"top_m", settings.prop.top_m},
-                    {"height_m", settings.prop.height_m}};
+    json["prop"] = prop_json(settings.prop);
     json["table"] = {{"width_m", settings.table.width_m}, {"depth_m", settings.table.depth_m}};
     json["eye_default_m"] = list_of(settings.eye.default_m);
     json["eye_tracked"] = settings.eye.tracked;

@@ -29,6 +29,9 @@ constexpr double shortest_direction = 1e-3;
 /// By DisplayKind.
 constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
 
+/// By PropKind and PropZone.
+constexpr std::array<std::string_view, 2> prop_names{"frustum", "cube"};
+constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
 /// By TrackerKind.
 constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse", "none"};
 
@@ -141,11 +144,10 @@ void read_render(TableReader table, RenderSettings& render) {
     table.finish();
 }
 
-void read_prop(TableReader table, PropSize& prop) {
-    constexpr std::array<std::string_view, 2> kinds{"frustum", "cube"};
-    int kind = 0;
-    table.choice("kind", kind, kinds);
-    prop.kind = kind == 0 ? PropKind::Frustum : PropKind::Cube;
+void read_prop(TableReader table, PropSettings& prop) {
+    int kind = static_cast<int>(prop.kind);
+    table.choice("kind", kind, prop_names);
+    prop.kind = static_cast<PropKind>(kind);
     table.number("base_m", prop.base_m, {0.02, 2.0, "metres"});
     const bool cube = prop.kind == PropKind::Cube;
     for (const std::string_view key : {"top_m", "height_m"}) {
@@ -160,6 +162,9 @@ void read_prop(TableReader table, PropSize& prop) {
         prop.top_m = prop.base_m;
         prop.height_m = prop.base_m;
     }
+    int zone = static_cast<int>(cube ? PropZone::Hand : PropZone::Table);
+    table.choice("zone", zone, prop_zone_names);
+    prop.zone = static_cast<PropZone>(zone);
     table.finish();
 }
 
@@ -283,6 +288,23 @@ Settings read_settings(const toml::table& root, const std::filesystem::path& fol
 
 std::string_view name_of(DisplayKind kind) {
     return display_names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view name_of(PropKind kind) {
+    return prop_names.at(static_cast<std::size_t>(kind));
+}
+
+std::string_view name_of(PropZone zone) {
+    return prop_zone_names.at(static_cast<std::size_t>(zone));
+}
+
+PropSettings cube_settings(double edge_m) {
+    return {PropKind::Cube, edge_m, edge_m, edge_m, PropZone::Hand};
+}
+
+PropShape make_prop(const PropSettings& prop) {
+    return prop.kind == PropKind::Cube ? make_cube(prop.base_m)
+                                       : make_frustum({prop.base_m, prop.top_m, prop.height_m});
 }
 
 std::string_view name_of(PanelKind kind) {
