@@ -94,6 +94,20 @@ private:
     Json json_ = Json::object();
 };
 
+Json faces_json(const PropShape& prop) {
+    Json faces = Json::array();
+    for (const PropFace& face : prop.faces) {
+        Json corners = Json::array();
+        for (const glm::dvec3& corner : face.corners) {
+            corners.push_back(list_of(corner));
+        }
+        faces.push_back({{"name", std::string(face.name)},
+                         {"normal", list_of(face.plane.normal)},
+                         {"corners", std::move(corners)}});
+    }
+    return faces;
+}
+
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
@@ -125,6 +139,9 @@ std::string config_json(const CheckedSettings& checked) {
         if (name == "eye") {
             add_eye(table, json);
             json["lit_zone"] = lit_zone_json(*checked);
+        } else if (name == "prop") {
+            json[name] = table;
+            json[name]["faces"] = faces_json(make_prop(checked->prop));
         } else {
             json[name] = table;
         }

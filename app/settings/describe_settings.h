@@ -28,6 +28,7 @@ inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 /// Each by its enumeration.
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
 inline constexpr std::array<std::string_view, 2> prop_names{"frustum", "cube"};
+inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
 inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse",
                                                                "none"};
 inline constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
@@ -127,7 +128,11 @@ template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
     if constexpr (Fields::reads) {
         prop.top_m = cube ? prop.base_m : prop.top_m;
         prop.height_m = cube ? prop.base_m : prop.height_m;
+        prop.zone = cube ? PropZone::Hand : PropZone::Table;
     }
+    fields.choice("zone", prop.zone, prop_zone_names,
+                  "table: upright on the table, slid and turned; hand: lifted and turned anyhow; left out: "
+                  "\"hand\" for a cube");
 }
 
 void table_settings(auto& fields, auto& table) {
@@ -214,7 +219,7 @@ void all_settings(auto& file, auto& settings) {
           [&](auto& fields) { display_settings(fields, settings.display); });
     table("render", "How well an artifact is drawn.",
           [&](auto& fields) { render_settings(fields, settings.render); });
-    table("prop", "The white solid on the table.",
+    table("prop", "The white solid on the table or in the hand.",
           [&](auto& fields) { prop_settings(fields, settings.prop); });
     table("table", "The table's top.", [&](auto& fields) { table_settings(fields, settings.table); });
     table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });

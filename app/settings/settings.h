@@ -43,6 +43,23 @@ struct DisplaySettings {
     bool force = false;
 };
 
+/// Frustum: it stands on the table. Cube: all its edges are `base_m`.
+enum class PropKind { Frustum, Cube };
+[[nodiscard]] std::string_view name_of(PropKind kind);
+/// Table: upright, slid and turned about its axis. Hand: lifted, turned anyhow.
+enum class PropZone { Table, Hand };
+[[nodiscard]] std::string_view name_of(PropZone zone);
+struct PropSettings {
+    PropKind kind = PropKind::Frustum;
+    double base_m = 0.16; ///< side of the bottom square
+    double top_m = 0.09;  ///< side of the top square
+    double height_m = 0.12;
+    PropZone zone = PropZone::Table; ///< where it moves
+};
+/// A cube of the usual size, in the hand.
+[[nodiscard]] PropSettings cube_settings(double edge_m = PropSettings{}.base_m);
+[[nodiscard]] PropShape make_prop(const PropSettings& prop);
+
 struct TableSettings {
     double width_m = 0.8;
     double depth_m = 0.5;
@@ -115,7 +132,7 @@ struct Settings {
     ProjectorSettings projector;
     DisplaySettings display;
     RenderSettings render;
-    PropSize prop;
+    PropSettings prop;
     TableSettings table;
     EyeSettings eye;
     TrackerSettings tracker;
