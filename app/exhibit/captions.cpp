@@ -3,6 +3,7 @@
 #include "app/geometry/time_curves.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -94,14 +95,10 @@ std::array<glm::dvec2, 4> TableRectangle::corners() const {
 std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop,
                                            const glm::dvec3& from_m) {
     std::array<glm::dvec2, 8> points{};
+    assert(prop.corners.size() <= points.size());
     std::size_t count = 0;
-    const double bottom = prop.size.base_m / 2.0;
-    const double top = (prop.size.kind == PropKind::Cube ? prop.size.base_m : prop.size.top_m) / 2.0;
-    for (int k = 0; k < 8; ++k) {
-        const double half = (k & 4) == 0 ? bottom : top;
-        const glm::dvec3 corner =
-            table_from_prop.point({(k & 1) == 0 ? -half : half, (k & 2) == 0 ? -half : half,
-                                   (k & 4) == 0 ? 0.0 : prop.size.height_m});
+    for (const glm::dvec3& corner_in_prop : prop.corners) {
+        const glm::dvec3 corner = table_from_prop.point(corner_in_prop);
         if (!(corner.z < 0.99 * from_m.z)) {
             return std::nullopt;
         }
@@ -110,7 +107,7 @@ std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTra
         const double t = corner.z > 0.0 ? from_m.z / (from_m.z - corner.z) : 1.0;
         points[count++] = glm::dvec2(from_m) + t * glm::dvec2(corner - from_m);
     }
-    return hull_of(points);
+    return hull_of(std::span(points).first(count));
 }
 
 double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {

@@ -7,40 +7,57 @@ namespace frustumscreen {
 
 namespace {
 
-PropFace face_of(const std::array<glm::dvec3, 4>& corners) {
+PropFace face_of(std::string_view name, const std::array<glm::dvec3, 4>& corners) {
     const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    return {{normal, glm::dot(normal, corners[0])}, corners};
+    return {name, {normal, glm::dot(normal, corners[0])}, corners};
+}
+
+/// Everything but the bottom.
+PropShape make_faces(const FrustumSize& size) {
+    const double b = size.base_m / 2.0;
+    const double t = size.top_m / 2.0;
+    const double h = size.height_m;
+    const auto bottom = [b](double x, double y) { return glm::dvec3(x * b, y * b, 0.0); };
+    const auto top = [t, h](double x, double y) { return glm::dvec3(x * t, y * t, h); };
+    PropShape prop;
+    prop.faces = {face_of("+X", {bottom(1, -1), bottom(1, 1), top(1, 1), top(1, -1)}),
+                  face_of("-X", {bottom(-1, 1), bottom(-1, -1), top(-1, -1), top(-1, 1)}),
+                  face_of("+Y", {bottom(1, 1), bottom(-1, 1), top(-1, 1), top(1, 1)}),
+                  face_of("-Y", {bottom(-1, -1), bottom(1, -1), top(1, -1), top(-1, -1)}),
+                  face_of("+Z", {top(-1, -1), top(1, -1), top(1, 1), top(-1, 1)})};
+    prop.corners = {bottom(-1, -1), bottom(1, -1), bottom(1, 1), bottom(-1, 1),
+                    top(-1, -1),    top(1, -1),    top(1, 1),    top(-1, 1)};
+    prop.middle = {0.0, 0.0, h / 2.0};
+    return prop;
+}
+
+void bound_by_faces(PropShape& prop) {
+    for (const PropFace& face : prop.faces) {
+        prop.bounds.push_back(face.plane);
+    }
 }
 
 } // namespace
 
-PropShape make_prop(const PropSize& size) {
-    const double b = size.base_m / 2.0;
-    const double t = (size.kind == PropKind::Cube ? size.base_m : size.top_m) / 2.0;
-    const double h = size.height_m;
-    PropShape prop{size, {}, {}};
-    const auto bottom = [b](double x, double y) { return glm::dvec3(x * b, y * b, 0.0); };
-    const auto top = [t, h](double x, double y) { return glm::dvec3(x * t, y * t, h); };
-    prop.faces.push_back(face_of({bottom(1, -1), bottom(1, 1), top(1, 1), top(1, -1)}));
-    prop.faces.push_back(face_of({bottom(-1, 1), bottom(-1, -1), top(-1, -1), top(-1, 1)}));
-    prop.faces.push_back(face_of({bottom(1, 1), bottom(-1, 1), top(-1, 1), top(1, 1)}));
-    prop.faces.push_back(face_of({bottom(-1, -1), bottom(1, -1), top(1, -1), top(-1, -1)}));
-    prop.faces.push_back(face_of({top(-1, -1), top(1, -1), top(1, 1), top(-1, 1)}));
-    for (const PropFace& face : prop.faces) {
-        prop.bounds.push_back(face.plane);
-    }
+PropShape make_frustum(FrustumSize size) {
+    PropShape prop = make_faces(size);
+    bound_by_faces(prop);
     prop.bounds.push_back({glm::dvec3(0, 0, -1), 0.0});
     return prop;
 }
 
-std::string_view name_of(PropKind kind) {
-    return kind == PropKind::Cube ? "cube" : "frustum";
+PropShape make_cube(double edge_m) {
+    PropShape prop = make_faces({edge_m, edge_m, edge_m});
+    const std::vector<glm::dvec3>& c = prop.corners;
+    prop.faces.push_back(face_of("-Z", {c[3], c[2], c[1], c[0]}));
+    bound_by_faces(prop);
+    return prop;
 }
 
-bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction, PropHit& hit) {
-    double enter = -std::numeric_limits<double>::infinity();
-    double leave = std::numeric_limits<double>::infinity();
-    int face = -1;
+bool enter(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction, PropHit& hit) {
+    double first = -std::numeric_limits<double>::infinity();
+    double last = std::numeric_limits<double>::infinity();
+    int bound = -1;
     for (std::size_t k = 0; k < prop.bounds.size(); ++k) {
         const double away = prop.bounds[k].distance(origin);
         const double rate = glm::dot(prop.bounds[k].normal, direction);
@@ -51,18 +68,22 @@ bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3
             continue;
         }
         const double t = -away / rate;
-        if (rate < 0.0 && t > enter) {
-            enter = t;
-            face = static_cast<int>(k);
+        if (rate < 0.0 && t > first) {
+            first = t;
+            bound = static_cast<int>(k);
         } else if (rate > 0.0) {
-            leave = std::fmin(leave, t);
+            last = std::fmin(last, t);
         }
     }
-    if (!(enter > 0.0) || !(enter < leave) || face < 0 || face >= static_cast<int>(prop.faces.size())) {
+    if (!(first > 0.0) || !(first < last) || bound < 0) {
         return false;
     }
-    hit = {enter, face};
+    hit = {first, bound};
     return true;
+}
+
+bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction, PropHit& hit) {
+    return enter(prop, origin, direction, hit) && static_cast<std::size_t>(hit.face) < prop.faces.size();
 }
 
 double largest_scale_inside(const PropShape& prop, std::span<const glm::dvec3> points) {

@@ -22,36 +22,40 @@ struct Plane {
 
 /// One face that can be lit; corners counter-clockwise seen from outside.
 struct PropFace {
-    Plane plane; ///< outward
+    std::string_view name; ///< a literal: the axis that it looks along most, "+X"
+    Plane plane;           ///< outward
     std::array<glm::dvec3, 4> corners{};
 };
 
-enum class PropKind { Frustum, Cube };
+struct PropShape {
+    std::vector<PropFace> faces; ///< those of +X, -X, +Y, -Y, +Z, -Z that it has
+    /// Bounding planes of the solid, outward: those of the faces first, then what is never lit.
+    std::vector<Plane> bounds;
+    std::vector<glm::dvec3> corners; ///< of the solid; those of the bottom first
+    glm::dvec3 middle{0.0};
+};
 
-struct PropSize {
-    PropKind kind = PropKind::Frustum;
+/// Of squares that look along +-X and +-Y.
+struct FrustumSize {
     double base_m = 0.16; ///< side of the bottom square
     double top_m = 0.09;  ///< side of the top square
     double height_m = 0.12;
 };
 
-struct PropShape {
-    PropSize size;
-    std::vector<PropFace> faces; ///< +X, -X, +Y, -Y, top; the bottom stands on the table and is not lit
-    /// Bounding planes of the solid, outward: the faces and the bottom.
-    std::vector<Plane> bounds;
-};
-
-[[nodiscard]] PropShape make_prop(const PropSize& size);
-[[nodiscard]] std::string_view name_of(PropKind kind);
+/// Five faces; the bottom stands on the table and is never lit.
+[[nodiscard]] PropShape make_frustum(FrustumSize size);
+/// Six faces: it is held in the hand, turned anyhow.
+[[nodiscard]] PropShape make_cube(double edge_m);
 
 /// Where a ray enters the prop.
 struct PropHit {
     double t = 0.0; ///< point = origin + t * direction
-    int face = 0;   ///< index into `faces`
+    int face = 0;   ///< index into `bounds`; those that can be lit are first: into `faces`
 };
-/// First face that the ray enters through, for an origin outside; nothing if it misses or enters by the
-/// bottom.
+/// Where a ray whose origin is outside enters the solid; false if it misses.
+[[nodiscard]] bool enter(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
+                         PropHit& hit);
+/// The same through one of `faces`; false also if it enters by what is never lit.
 [[nodiscard]] bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
                              PropHit& hit);
 

@@ -1,5 +1,5 @@
 #include "app/pack/binary_parts.h"
-#include "app/pack/byte_order.h"
+#include "firmware_host/base/byte_reader.h"
 
 #include <fmt/format.h>
 
@@ -43,26 +43,26 @@ Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes)
         std::memcmp(bytes.data(), charts_magic.data(), charts_magic.size()) != 0) {
         return bad_input("it does not begin as charts do (FSRC)");
     }
-    ByteCursor cursor(bytes.subspan(charts_magic.size()));
-    const auto version = cursor.take<std::uint32_t>();
-    const auto count = cursor.take<std::uint32_t>();
+    ByteReader reader(bytes.subspan(charts_magic.size()));
+    const auto version = reader.read<std::uint32_t>();
+    const auto count = reader.read<std::uint32_t>();
     if (version != charts_version) {
         return bad_input(fmt::format("its charts have version {}, allowed is {}", version, charts_version));
     }
-    if (cursor.left() != std::uint64_t{count} * chart_bytes) {
+    if (reader.left() != std::uint64_t{count} * chart_bytes) {
         return bad_input(fmt::format("{} charts need {} bytes, it has {}", count,
-                                     std::uint64_t{count} * chart_bytes, cursor.left()));
+                                     std::uint64_t{count} * chart_bytes, reader.left()));
     }
     std::vector<ReliefChart> charts(count);
     for (ReliefChart& chart : charts) {
-        const auto direction = cursor.take<std::uint16_t>();
-        chart.x = cursor.take<std::uint16_t>();
-        chart.y = cursor.take<std::uint16_t>();
-        chart.width = cursor.take<std::uint16_t>();
-        chart.height = cursor.take<std::uint16_t>();
-        const auto reserved = cursor.take<std::uint16_t>();
-        chart.u0_box = cursor.take<float>();
-        chart.v0_box = cursor.take<float>();
+        const auto direction = reader.read<std::uint16_t>();
+        chart.x = reader.read<std::uint16_t>();
+        chart.y = reader.read<std::uint16_t>();
+        chart.width = reader.read<std::uint16_t>();
+        chart.height = reader.read<std::uint16_t>();
+        const auto reserved = reader.read<std::uint16_t>();
+        chart.u0_box = reader.read<float>();
+        chart.v0_box = reader.read<float>();
         if (direction > static_cast<std::uint16_t>(ReliefDirection::MinusZ) || reserved != 0) {
             return bad_input(fmt::format("a chart has direction {} and reserved {}; allowed are 0 to 5 and 0",
                                          direction, reserved));

@@ -1,6 +1,6 @@
 #include "app/pack/check_pack.h"
 #include "app/pack/limits.h"
-#include "app/pack/printable.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -11,40 +11,12 @@ namespace frustumscreen::pack_format {
 
 namespace {
 
-/// Bytes of the UTF-8 character at `text`'s beginning (Unicode 15, table 3-7); 0 if it is none.
-std::size_t character_bytes(std::string_view text) {
-    const auto byte = [&](std::size_t k) {
-        return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
-    };
-    const auto follows = [&](std::size_t k) { return (byte(k) & 0xC0U) == 0x80U; };
-    const unsigned lead = byte(0);
-    if (lead < 0x80) {
-        return 1;
-    }
-    if (lead >= 0xC2 && lead <= 0xDF) {
-        return follows(1) ? 2 : 0;
-    }
-    if (lead >= 0xE0 && lead <= 0xEF) {
-        const bool shortest = lead != 0xE0 || byte(1) >= 0xA0;
-        const bool surrogate = lead == 0xED && byte(1) >= 0xA0;
-        return follows(1) && follows(2) && shortest && !surrogate ? 3 : 0;
-    }
-    if (lead >= 0xF0 && lead <= 0xF4) {
-        const bool shortest = lead != 0xF0 || byte(1) >= 0x90;
-        const bool in_range = lead != 0xF4 || byte(1) < 0x90;
-        return follows(1) && follows(2) && follows(3) && shortest && in_range ? 4 : 0;
-    }
-    return 0;
-}
-
 /// UTF-8 without control characters; line feeds only where a text has lines.
 bool is_clean(std::string_view text, bool with_lines) {
     while (!text.empty()) {
         const std::size_t bytes = character_bytes(text);
-        const auto lead = static_cast<unsigned char>(text[0]);
-        const bool control = lead < 0x20 || lead == 0x7F ||
-                             (bytes == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0);
-        if (bytes == 0 || (control && !(with_lines && lead == '\n'))) {
+        const std::string_view character = text.substr(0, bytes);
+        if (bytes == 0 || (is_control(character) && !(with_lines && character == "\n"))) {
             return false;
         }
         text.remove_prefix(bytes);

@@ -1,7 +1,7 @@
 #include "app/pack/binary_parts.h"
-#include "app/pack/byte_order.h"
 #include "app/pack/limits.h"
 #include "app/pack/relief_texel.h"
+#include "firmware_host/base/byte_reader.h"
 
 #include <fmt/format.h>
 
@@ -123,23 +123,23 @@ void append_cluster(Bytes& bytes, const PackCluster& cluster) {
     append(bytes, cluster.cone_cutoff);
 }
 
-glm::vec3 take_vector(ByteCursor& cursor) {
+glm::vec3 read_vector(ByteReader& reader) {
     glm::vec3 v(0.0F);
     for (int axis = 0; axis < 3; ++axis) {
-        v[axis] = cursor.take<float>();
+        v[axis] = reader.read<float>();
     }
     return v;
 }
 
-PackCluster take_cluster(ByteCursor& cursor) {
+PackCluster read_cluster(ByteReader& reader) {
     PackCluster cluster;
-    cluster.first_index = cursor.take<std::uint32_t>();
-    cluster.index_count = cursor.take<std::uint32_t>();
-    cluster.centre = take_vector(cursor);
-    cluster.radius = cursor.take<float>();
-    cluster.cone_apex = take_vector(cursor);
-    cluster.cone_axis = take_vector(cursor);
-    cluster.cone_cutoff = cursor.take<float>();
+    cluster.first_index = reader.read<std::uint32_t>();
+    cluster.index_count = reader.read<std::uint32_t>();
+    cluster.centre = read_vector(reader);
+    cluster.radius = reader.read<float>();
+    cluster.cone_apex = read_vector(reader);
+    cluster.cone_axis = read_vector(reader);
+    cluster.cone_cutoff = reader.read<float>();
     return cluster;
 }
 
@@ -154,26 +154,26 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
         std::memcmp(bytes.data(), level_magic.data(), level_magic.size()) != 0) {
         return bad_input("it does not begin as a level does (FSLV)");
     }
-    ByteCursor cursor(bytes.subspan(level_magic.size()));
-    const auto version = cursor.take<std::uint32_t>();
-    const auto kind = cursor.take<std::uint32_t>();
+    ByteReader reader(bytes.subspan(level_magic.size()));
+    const auto version = reader.read<std::uint32_t>();
+    const auto kind = reader.read<std::uint32_t>();
     if (version != level_version || kind > 1) {
         return bad_input(fmt::format("its triangles have version {} and kind {}, allowed are {} and 0 or 1",
                                      version, kind, level_version));
     }
     Header header{kind == 1, 0, 0, 0};
-    header.vertices = cursor.take<std::uint32_t>();
-    header.indices = cursor.take<std::uint32_t>();
-    header.clusters = cursor.take<std::uint32_t>();
+    header.vertices = reader.read<std::uint32_t>();
+    header.indices = reader.read<std::uint32_t>();
+    header.clusters = reader.read<std::uint32_t>();
     const std::uint64_t needed =
         std::uint64_t{header.clusters} * cluster_bytes +
         std::uint64_t{header.indices} * sizeof(std::uint32_t) +
         std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
     if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
-        needed != cursor.left()) {
+        needed != reader.left()) {
         return bad_input(fmt::format("{} vertices, {} indices, {} clusters need {} bytes, it has {}",
                                      header.vertices, header.indices, header.clusters, needed,
-                                     cursor.left()));
+                                     reader.left()));
     }
     return header;
 }
@@ -215,18 +215,18 @@ Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtl
     }
     PackLevel level;
     level.technique = header->relief ? LevelTechnique::Relief : LevelTechnique::Mesh;
-    ByteCursor cursor(bytes.subspan(header_bytes));
+    ByteReader reader(bytes.subspan(header_bytes));
     level.clusters.reserve(header->clusters);
     for (std::uint32_t k = 0; k < header->clusters; ++k) {
-        level.clusters.push_back(take_cluster(cursor));
+        level.clusters.push_back(read_cluster(reader));
     }
-    level.indices = cursor.take_all<std::uint32_t>(header->indices);
+    level.indices = reader.read_all<std::uint32_t>(header->indices);
     if (!header->relief) {
-        level.vertices = cursor.take_all<PackVertex>(header->vertices);
+        level.vertices = reader.read_all<PackVertex>(header->vertices);
         return level;
     }
     Result<std::vector<PackVertex>> vertices =
-        vertices_of(cursor.take_all<StoredTexel>(header->vertices), relief, box_size);
+        vertices_of(reader.read_all<StoredTexel>(header->vertices), relief, box_size);
     if (!vertices) {
         return tl::unexpected(vertices.error());
     }

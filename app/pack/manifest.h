@@ -4,7 +4,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/pack/pack.h"
+#include "app/pack/pack_outline.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
@@ -30,17 +30,13 @@ struct ReliefRecord {
     std::string charts; ///< part
 };
 
-struct LevelRecord {
-    LevelTechnique technique = LevelTechnique::Mesh;
-    LevelError error;
-    std::uint64_t triangles = 0;
-    std::uint64_t vertices = 0;
-    std::uint32_t texture = 0; ///< index into Manifest::textures; by its part's name in the file
-    std::string mesh;          ///< part
+/// Its texture stands in the file by its part's name.
+struct LevelRecord : LevelOutline {
+    std::string mesh; ///< part
 };
 
 struct Manifest {
-    Pack description; ///< everything but pictures and levels
+    PackDescription description;
     std::vector<std::string> textures;
     std::optional<ReliefRecord> relief;
     std::vector<LevelRecord> levels;

@@ -22,6 +22,8 @@ struct PackCaption {
     std::string language; ///< BCP 47
     std::string title;
     std::string text; ///< may be empty
+
+    [[nodiscard]] bool operator==(const PackCaption&) const = default;
 };
 
 struct PackProvenance {
@@ -29,6 +31,8 @@ struct PackProvenance {
     std::string source_sha256; ///< hexadecimal, over the file named
     std::string licence;       ///< SPDX expression or free text; empty = not stated
     std::uint64_t source_triangles = 0;
+
+    [[nodiscard]] bool operator==(const PackProvenance&) const = default;
 };
 
 /// The direction that a chart of the relief is seen from: the normals of a prop's box.
@@ -93,7 +97,8 @@ struct PackLevel {
     std::vector<PackCluster> clusters; ///< cover `indices` in order, without gaps
 };
 
-struct Pack {
+/// All of a pack but its pictures and triangles.
+struct PackDescription {
     std::string title;
     std::vector<std::string> languages;
     std::vector<PackCaption> captions;
@@ -107,10 +112,15 @@ struct Pack {
     glm::dvec3 box_size{1.0};         ///< extents; the longest is 1
     glm::dmat4 box_from_file{1.0};    ///< the file's own coordinates (glTF: scene) to the box
     std::vector<glm::dvec3> extremes; ///< box frame: outermost vertices, for the largest scale inside a prop
-    std::vector<Image8> textures;     ///< sRGB colour
-    ReliefAtlas relief;               ///< empty if no level is a relief
-    std::vector<PackLevel> levels;    ///< coarse to fine
     std::uint32_t default_level = 0;
+
+    [[nodiscard]] bool operator==(const PackDescription&) const = default;
+};
+
+struct Pack : PackDescription {
+    std::vector<Image8> textures;  ///< sRGB colour
+    ReliefAtlas relief;            ///< empty if no level is a relief
+    std::vector<PackLevel> levels; ///< coarse to fine
 };
 
 } // namespace frustumscreen

@@ -45,6 +45,6 @@ struct Placement {
     double metres_per_box = 0.0; ///< uniform scale from box units to metres in the prop's frame
     glm::dmat4 prop_from_artifact{1.0};
 };
-[[nodiscard]] Placement place(const Pack& pack, const PropShape& prop);
+[[nodiscard]] Placement place(const PackDescription& pack, const PropShape& prop);
 
 } // namespace frustumscreen

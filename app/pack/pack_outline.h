@@ -23,7 +23,7 @@ struct LevelOutline {
 };
 
 struct PackOutline {
-    Pack description; ///< texts, placement, default level; no picture, no triangle
+    PackDescription description;
     std::vector<LevelOutline> levels;
 };
 [[nodiscard]] PackOutline outline_of(const Pack& pack);

@@ -25,11 +25,7 @@ Chosen everything(const Manifest& manifest) {
 }
 
 Result<Chosen> chosen_by(const ChooseLevels& choose, const Manifest& manifest) {
-    PackOutline outline{manifest.description, {}};
-    for (const LevelRecord& record : manifest.levels) {
-        outline.levels.push_back(
-            {record.technique, record.error, record.triangles, record.vertices, record.texture});
-    }
+    const PackOutline outline{manifest.description, {manifest.levels.begin(), manifest.levels.end()}};
     Chosen chosen{std::vector<bool>(manifest.levels.size()), std::vector<bool>(manifest.textures.size())};
     const Result<std::vector<std::uint32_t>> levels = choose(outline);
     if (!levels) {
@@ -161,19 +157,7 @@ Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack
 } // namespace
 
 PackOutline outline_of(const Pack& pack) {
-    PackOutline outline;
-    Pack& description = outline.description;
-    description.title = pack.title;
-    description.languages = pack.languages;
-    description.captions = pack.captions;
-    description.prop_kind = pack.prop_kind;
-    description.unlit = pack.unlit;
-    description.samples = pack.samples;
-    description.relief_size = pack.relief_size;
-    description.box_size = pack.box_size;
-    description.box_from_file = pack.box_from_file;
-    description.extremes = pack.extremes;
-    description.default_level = pack.default_level;
+    PackOutline outline{pack, {}};
     for (const PackLevel& level : pack.levels) {
         outline.levels.push_back(
             {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), level.texture});
@@ -186,7 +170,7 @@ Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseL
     if (!reader) {
         return tl::unexpected(reader.error());
     }
-    Pack pack = reader->manifest().description;
+    Pack pack{reader->manifest().description, {}, {}, {}};
     if (auto good = read_all(*reader, choose, pack); !good) {
         return tl::unexpected(good.error());
     }

@@ -2,8 +2,8 @@
 
 #include "app/pack/limits.h"
 #include "app/pack/pack_contents.h"
-#include "app/pack/printable.h"
 #include "app/pack/sha256.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 

@@ -52,29 +52,12 @@ Result<void> add_levels(const Pack& pack, Manifest& manifest, std::vector<Part>&
             return at(fmt::format("level {}", k), bytes.error());
         }
         const std::string name = fmt::format("levels/{}.bin", k);
-        manifest.levels.push_back({level.technique, level.error, level.indices.size() / 3,
-                                   level.vertices.size(), level.texture, name});
+        manifest.levels.push_back(
+            {{level.technique, level.error, level.indices.size() / 3, level.vertices.size(), level.texture},
+             name});
         parts.push_back({name, std::move(*bytes), Packing::Deflated});
     }
     return {};
-}
-
-/// The description without the pictures and levels, which the parts hold.
-Pack description_of(const Pack& pack) {
-    Pack description;
-    description.title = pack.title;
-    description.languages = pack.languages;
-    description.captions = pack.captions;
-    description.provenance = pack.provenance;
-    description.prop_kind = pack.prop_kind;
-    description.unlit = pack.unlit;
-    description.samples = pack.samples;
-    description.relief_size = pack.relief_size;
-    description.box_size = pack.box_size;
-    description.box_from_file = pack.box_from_file;
-    description.extremes = pack.extremes;
-    description.default_level = pack.default_level;
-    return description;
 }
 
 Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
@@ -98,7 +81,7 @@ Result<Bytes> write_pack(const Pack& pack) {
         return tl::unexpected(good.error());
     }
     Manifest manifest;
-    manifest.description = description_of(pack);
+    manifest.description = pack;
     std::vector<Part> parts;
     add_textures(pack, manifest, parts);
     add_relief(pack, manifest, parts);

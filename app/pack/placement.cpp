@@ -6,7 +6,7 @@
 
 namespace frustumscreen {
 
-Placement place(const Pack& pack, const PropShape& prop) {
+Placement place(const PackDescription& pack, const PropShape& prop) {
     // The box stands on z = 0 by definition; an extreme that rounding put below must not scale it to nothing.
     std::vector<glm::dvec3> extremes = pack.extremes;
     for (glm::dvec3& extreme : extremes) {

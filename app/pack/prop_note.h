@@ -4,7 +4,6 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 
 #include <fmt/format.h>
@@ -14,10 +13,9 @@
 
 namespace frustumscreen {
 
-/// Nothing if they agree.
+/// `wanted`: the kind that the settings name. Nothing if they agree.
 [[nodiscard]] inline std::optional<std::string> note_other_prop(const std::string& file, const Pack& pack,
-                                                                PropKind prop) {
-    const std::string_view wanted = name_of(prop);
+                                                                std::string_view wanted) {
     if (pack.prop_kind == wanted) {
         return std::nullopt;
     }

@@ -1,7 +1,8 @@
 #include "app/pack/zip_archive.h"
 
 #include "app/pack/limits.h"
-#include "app/pack/printable.h"
+#include "firmware_host/base/byte_reader.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 #include <unzip.h>
@@ -103,14 +104,6 @@ zlib_filefunc64_def functions_over(MemoryFile& file) {
     return functions;
 }
 
-std::uint32_t little_endian(std::span<const std::byte> bytes, std::size_t offset, std::size_t count) {
-    std::uint32_t value = 0;
-    for (std::size_t k = count; k > 0; --k) {
-        value = (value << 8) | std::to_integer<std::uint32_t>(bytes[offset + k - 1]);
-    }
-    return value;
-}
-
 /// The end record is the last thing in the file and its directory ends where it begins (APPNOTE.TXT 4.3.16):
 /// nothing was cut off, put in front or added behind.
 bool is_whole(std::span<const std::byte> bytes) {
@@ -118,9 +111,12 @@ bool is_whole(std::span<const std::byte> bytes) {
         return false;
     }
     const std::span<const std::byte> end = bytes.last(end_record_bytes);
-    const std::uint64_t directory_bytes = little_endian(end, 12, 4);
-    const std::uint64_t directory_offset = little_endian(end, 16, 4);
-    return little_endian(end, 0, 4) == 0x06054b50 && little_endian(end, 20, 2) == 0 &&
+    const auto signature = ByteReader(end).read<std::uint32_t>();
+    ByteReader rest(end.subspan(12));
+    const std::uint64_t directory_bytes = rest.read<std::uint32_t>();
+    const std::uint64_t directory_offset = rest.read<std::uint32_t>();
+    const auto comment_bytes = rest.read<std::uint16_t>();
+    return signature == 0x06054b50 && comment_bytes == 0 &&
            directory_offset + directory_bytes == bytes.size() - end_record_bytes;
 }
 
@@ -191,7 +187,7 @@ ZipReader::~ZipReader() {
 
 Result<ZipReader> ZipReader::open(std::span<const std::byte> bytes) {
     if (!is_whole(bytes)) {
-        const bool began_as_zip = bytes.size() >= 4 && little_endian(bytes, 0, 4) == 0x04034b50;
+        const bool began_as_zip = ByteReader(bytes).read<std::uint32_t>() == 0x04034b50;
         return bad_input(began_as_zip ? "the pack is truncated or altered; copy it again"
                                       : "this is not a pack (not a ZIP container)");
     }

@@ -4,21 +4,6 @@
 
 namespace frustumscreen {
 
-PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b) {
-    if (a.empty() || b.empty()) {
-        return a.empty() ? b : a;
-    }
-    const int x = std::min(a.x, b.x);
-    const int y = std::min(a.y, b.y);
-    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
-PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b) {
-    const int x = std::max(a.x, b.x);
-    const int y = std::max(a.y, b.y);
-    return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
-}
-
 void LitTiles::begin(int picture_width, int picture_height) {
     width_ = picture_width;
     height_ = picture_height;

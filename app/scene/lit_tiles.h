@@ -7,6 +7,8 @@
 /// Threads  values; any. Allocates nothing.
 #pragma once
 
+#include "firmware_host/base/pixel_rectangle.h"
+
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -14,16 +16,6 @@
 #include <span>
 
 namespace frustumscreen {
-
-/// A rectangle of pixels, row 0 at the top.
-struct PixelRectangle {
-    int x = 0, y = 0, width = 0, height = 0;
-    [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
-    [[nodiscard]] bool operator==(const PixelRectangle&) const = default;
-};
-/// The smallest rectangle around both; an empty one adds nothing.
-[[nodiscard]] PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b);
-[[nodiscard]] PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b);
 
 class LitTiles {
 public:

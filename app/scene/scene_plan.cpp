@@ -138,7 +138,6 @@ void choose_shaders(const SceneRequest& request, ScenePlan& plan) {
 }
 
 void choose_faces(ScenePlan& plan) {
-    constexpr std::array<std::string_view, 5> names{"+X", "-X", "+Y", "-Y", "top"}; // prop_shape.h
     const auto above = [](const PointZone& zone, const Plane& plane) {
         return zone.reach(plane.normal) > plane.offset;
     };
@@ -151,7 +150,7 @@ void choose_faces(ScenePlan& plan) {
         if ((seen && lit) || (plan.economies & UnseenFaces) == 0) {
             plan.faces |= 1U << face;
         } else {
-            (seen ? unlit : unseen).emplace_back(names.at(face));
+            (seen ? unlit : unseen).emplace_back(plan.prop.faces[face].name);
         }
     }
     if (!unseen.empty()) {

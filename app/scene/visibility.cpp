@@ -78,7 +78,9 @@ Visibility visibility_of(const Settings& settings) {
     const bool fixed_prop = settings.tracker.kind == TrackerKind::None;
     const EyeSettings& eye = settings.eye;
     const glm::dvec3& lens = settings.projector.table_from_projector.translation;
-    if (!fixed_prop && settings.tracker.kind != TrackerKind::Simulated) { // it may be lifted and tilted
+    const bool upright =
+        settings.tracker.kind == TrackerKind::Simulated && settings.prop.zone == PropZone::Table;
+    if (!fixed_prop && !upright) { // it may be lifted and tilted
         return {};
     }
     if (fixed_prop && !eye.tracked) {

@@ -9,8 +9,8 @@
 ///
 /// Frames   prop P, metres.
 /// Threads  pure; any.
-/// Errors   none. What cannot be bounded (a recording, in which the prop may be lifted and tilted) may be
-///          anywhere, and then nothing is proved.
+/// Errors   none. What cannot be bounded (a prop in the hand, a recording in which the prop may be lifted and
+///          tilted) may be anywhere, and then nothing is proved.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -46,7 +46,7 @@ struct Visibility {
 };
 
 /// Of the live exhibit: the eye's zone (EyeSettings, seen from the prop's foot) or the fixed eye, the prop
-/// anywhere on the table at every yaw or fixed in its middle.
+/// anywhere in its zone or fixed in the table's middle.
 [[nodiscard]] Visibility visibility_of(const Settings& settings);
 /// Of a list of poses and no others.
 [[nodiscard]] Visibility visibility_of(const Settings& settings, std::vector<KnownView> views);

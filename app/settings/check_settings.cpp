@@ -2,6 +2,7 @@
 
 #include "app/settings/lit_zone.h"
 #include "app/settings/table_reader.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +48,7 @@ private:
 };
 
 void check_prop(const Settings& settings, Fitness& fitness) {
-    const PropSize& prop = settings.prop;
+    const PropSettings& prop = settings.prop;
     fitness.require(prop.kind != PropKind::Frustum || prop.top_m < prop.base_m, "prop.top_m",
                     fmt::format("is {}; a frustum's top must be smaller than prop.base_m, {} metres",
                                 prop.top_m, prop.base_m));

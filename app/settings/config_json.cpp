@@ -1,10 +1,9 @@
 #include "app/settings/config_json.h"
 
+#include "app/settings/describe_settings.h"
 #include "app/settings/lit_zone.h"
 
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace frustumscreen {
 
@@ -35,24 +34,78 @@ Json list_of(const std::vector<glm::dvec2>& polygon) {
     return list;
 }
 
-Json projector_json(const ProjectorSettings& projector) {
-    const Pinhole& p = projector.pinhole;
-    return {{"width", p.width},
-            {"height", p.height},
-            {"fx", p.fx},
-            {"fy", p.fy},
-            {"cx", p.cx},
-            {"cy", p.cy},
-            {"table_from_projector", list_of(projector.table_from_projector.matrix())},
-            {"refresh_hz", projector.refresh_hz}};
-}
+/// Walks the description of the settings and keeps each under its name.
+class Report {
+public:
+    static constexpr bool reads = false;
 
-Json display_json(const DisplaySettings& display) {
-    return {{"kind", std::string(name_of(display.kind))},
-            {"card", display.card},
-            {"connector", display.connector},
-            {"mode", text_of(display.mode)},
-            {"force", display.force}};
+    void number(const char* key, double value, const Range&, std::string_view) { json_[key] = value; }
+    void vector(const char* key, const glm::dvec3& value, const Range&, std::string_view) {
+        json_[key] = list_of(value);
+    }
+    /// What it was worked out into is reported.
+    void input(const char*, const auto&, const Range&, std::string_view) {}
+    void rigid(const char* key, const RigidTransform& value, const Range&, std::string_view) {
+        json_[key] = list_of(value.matrix());
+    }
+    void integer(const char* key, int value, int, int, std::string_view) { json_[key] = value; }
+    void integer(const char* key, std::uint64_t value, std::string_view) { json_[key] = value; }
+    void flag(const char* key, bool value, std::string_view) { json_[key] = value; }
+    void text(const char* key, const std::string& value, std::string_view) { json_[key] = value; }
+    void texts(const char* key, const std::vector<std::string>& values, std::size_t, std::string_view) {
+        json_[key] = values;
+    }
+    void path(const char* key, const std::filesystem::path& value, std::string_view) {
+        json_[key] = value.string();
+    }
+    void paths(const char* key, const std::vector<std::filesystem::path>& values, std::size_t,
+               std::string_view) {
+        json_[key] = Json::array();
+        for (const std::filesystem::path& value : values) {
+            json_[key].push_back(value.string());
+        }
+    }
+    template <typename Choice>
+    void choice(const char* key, Choice value, std::span<const std::string_view> words, std::string_view) {
+        json_[key] = words[static_cast<std::size_t>(value)];
+    }
+    void parsed(const char* key, const auto& value, const auto& to_text, const auto&, std::string_view,
+                std::string_view) {
+        json_[key] = to_text(value);
+    }
+    void table(const char* name, std::string_view, const auto& describe) {
+        Report inner;
+        describe(inner);
+        json_[name] = std::move(inner.json_);
+    }
+    void tables(const char* key, const auto& values, std::size_t, const auto& describe, std::string_view) {
+        json_[key] = Json::array();
+        for (const auto& value : values) {
+            Report item;
+            describe(item, value);
+            json_[key].push_back(std::move(item.json_));
+        }
+    }
+    void require(bool, const char*, std::string_view) {}
+
+    [[nodiscard]] const Json& json() const { return json_; }
+
+private:
+    Json json_ = Json::object();
+};
+
+Json faces_json(const PropShape& prop) {
+    Json faces = Json::array();
+    for (const PropFace& face : prop.faces) {
+        Json corners = Json::array();
+        for (const glm::dvec3& corner : face.corners) {
+            corners.push_back(list_of(corner));
+        }
+        faces.push_back({{"name", std::string(face.name)},
+                         {"normal", list_of(face.plane.normal)},
+                         {"corners", std::move(corners)}});
+    }
+    return faces;
 }
 
 Json lit_zone_json(const Settings& settings) {
@@ -67,68 +120,32 @@ Json lit_zone_json(const Settings& settings) {
         {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}}};
 }
 
-Json tracker_json(const TrackerSettings& tracker) {
-    return {{"kind", std::string(name_of(tracker.kind))},
-            {"seed", tracker.seed},
-            {"poses", tracker.poses.string()},
-            {"replay_speed", tracker.replay_speed},
-            {"hemisphere", list_of(tracker.hemisphere)},
-            {"table_from_tracker", list_of(tracker.table_from_tracker.matrix())},
-            {"display_latency_ms", tracker.display_latency_ms}};
-}
-
-Json panel_json(const PanelSettings& panel) {
-    Json script = Json::array();
-    for (const ScriptedPress& press : panel.script) {
-        script.push_back({{"at_s", press.at_s}, {"button", press.button}});
+/// The eye's settings under the names that outside checks know them by.
+void add_eye(const Json& eye, Json& json) {
+    json["eye_default_m"] = eye.at("default_m");
+    json["eye_tracked"] = eye.at("tracked");
+    for (const char* key : {"lowest_elevation_deg", "nearest_m", "farthest_m"}) {
+        json["eye_zone"][key] = eye.at(key);
     }
-    return {{"kind", std::string(name_of(panel.kind))},
-            {"script", script},
-            {"repeat_s", panel.repeat_s},
-            {"chip", panel.chip},
-            {"lines", panel.lines},
-            {"bias", std::string(name_of(panel.bias))},
-            {"active_low", panel.active_low},
-            {"lamps", panel.lamps},
-            {"device", panel.device},
-            {"keys", panel.keys},
-            {"debounce_ms", panel.debounce_ms},
-            {"stuck_s", panel.stuck_s}};
-}
-
-Json exhibit_json(const ExhibitSettings& exhibit) {
-    Json packs = Json::array();
-    for (const auto& pack : exhibit.packs) {
-        packs.push_back(pack.string());
-    }
-    return {{"packs", packs},
-            {"language", exhibit.language},
-            {"captions", exhibit.captions},
-            {"caption_height_m", exhibit.caption_height_m}};
 }
 
 } // namespace
 
 std::string config_json(const CheckedSettings& checked) {
-    const Settings& settings = *checked;
+    Report report;
+    all_settings(report, *checked);
     Json json;
-    json["projector"] = projector_json(settings.projector);
-    json["display"] = display_json(settings.display);
-    json["render"] = {{"error_tolerance_px", settings.render.error_tolerance_px}};
-    json["prop"] = {{"kind", std::string(name_of(settings.prop.kind))},
-                    {"base_m", settings.prop.base_m},
-                    {"top_m", settings.prop.top_m},
-                    {"height_m", settings.prop.height_m}};
-    json["table"] = {{"width_m", settings.table.width_m}, {"depth_m", settings.table.depth_m}};
-    json["eye_default_m"] = list_of(settings.eye.default_m);
-    json["eye_tracked"] = settings.eye.tracked;
-    json["eye_zone"] = {{"lowest_elevation_deg", settings.eye.lowest_elevation_deg},
-                        {"nearest_m", settings.eye.nearest_m},
-                        {"farthest_m", settings.eye.farthest_m}};
-    json["lit_zone"] = lit_zone_json(settings);
-    json["tracker"] = tracker_json(settings.tracker);
-    json["panel"] = panel_json(settings.panel);
-    json["exhibit"] = exhibit_json(settings.exhibit);
+    for (const auto& [name, table] : report.json().items()) {
+        if (name == "eye") {
+            add_eye(table, json);
+            json["lit_zone"] = lit_zone_json(*checked);
+        } else if (name == "prop") {
+            json[name] = table;
+            json[name]["faces"] = faces_json(make_prop(checked->prop));
+        } else {
+            json[name] = table;
+        }
+    }
     // `replace`: a path's bytes need not be UTF-8, and a report must not fail over that.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -22,7 +23,7 @@ struct Arc {
         const double apart = std::abs(std::remainder(azimuth - middle, 2.0 * pi));
         return std::cos(std::fmin(apart + half, pi));
     }
-    [[nodiscard]] Arc widened(double by) const { return {middle, std::fmin(half + by, pi)}; }
+    [[nodiscard]] Arc turned(double by) const { return {middle + by, half}; }
 };
 constexpr Arc full_circle{};
 
@@ -72,71 +73,112 @@ Polygon table_within(const TableSettings& table, double rim) {
     return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// The prop and the light, reduced to what the conditions need.
+/// A place of the prop that goes round its axis as the prop is turned.
+struct Round {
+    double radius = 0.0;
+    double z = 0.0;
+    double off = 0.0; ///< azimuth, from that of the face whose corner it is
+    [[nodiscard]] bool operator==(const Round&) const = default;
+};
+
+/// A face, at any yaw: its plane is run cos(azimuth) x + ... + rise z = offset.
+struct TurnedFace {
+    double run = 0.0; ///< length of the normal's horizontal part; 0: it looks straight up or down
+    double rise = 0.0;
+    double offset = 0.0;
+    std::array<Round, 4> corners{};
+};
+
+TurnedFace turned(const PropFace& face) {
+    const glm::dvec3& n = face.plane.normal;
+    TurnedFace result{glm::length(glm::dvec2(n)), n.z, face.plane.offset, {}};
+    const double azimuth = result.run > 0.0 ? std::atan2(n.y, n.x) : 0.0;
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+        const glm::dvec3& corner = face.corners[k];
+        result.corners[k] = {glm::length(glm::dvec2(corner)), corner.z,
+                             std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2.0 * pi)};
+    }
+    return result;
+}
+
+/// The upright prop and the light, reduced to what the conditions need.
 struct Scene {
     explicit Scene(const Settings& settings)
-        : edges(picture_edges(settings.projector)), lens(settings.projector.table_from_projector.translation),
-          bottom_half(settings.prop.base_m / 2.0), height(settings.prop.height_m),
-          top_half((settings.prop.kind == PropKind::Cube ? settings.prop.base_m : settings.prop.top_m) / 2.0),
-          slope((bottom_half - top_half) / height) {}
+        : edges(picture_edges(settings.projector)),
+          lens(settings.projector.table_from_projector.translation) {
+        const PropShape prop = make_prop(settings.prop);
+        for (const PropFace& face : prop.faces) {
+            const bool on_table = std::all_of(face.corners.begin(), face.corners.end(),
+                                              [](const glm::dvec3& corner) { return corner.z == 0.0; });
+            if (!on_table) {
+                faces.push_back(turned(face));
+            }
+        }
+        for (const glm::dvec3& corner : prop.corners) {
+            const Round round{glm::length(glm::dvec2(corner)), corner.z, 0.0};
+            if (std::find(corners.begin(), corners.end(), round) == corners.end()) {
+                corners.push_back(round);
+            }
+            reach = std::fmax(reach, round.radius);
+            middle_reach = std::fmax(middle_reach, glm::distance(corner, prop.middle));
+        }
+    }
 
-    [[nodiscard]] double bottom_radius() const { return bottom_half * std::numbers::sqrt2; }
-    [[nodiscard]] double top_radius() const { return top_half * std::numbers::sqrt2; }
-
-    /// Least sine, over faces looking into `arc`, of the light onto a side face: (cos - (b - slope z)) of the
-    /// lens's azimuth, per length of the face's normal, per distance.
-    [[nodiscard]] double least_sine_on_sides(const glm::dvec2& place, const Arc& arc) const {
+    /// Sine of the light onto a face that looks into `arc`, the least of it.
+    [[nodiscard]] double least_sine_on(const TurnedFace& face, const glm::dvec2& place,
+                                       const Arc& arc) const {
         const glm::dvec2 to_lens = glm::dvec2(lens) - place;
-        const double toward = glm::length(to_lens) * arc.least_cosine_to(std::atan2(to_lens.y, to_lens.x));
-        const double above = (toward + slope * lens.z - bottom_half) / std::hypot(1.0, slope);
-        return above / std::hypot(glm::length(to_lens), lens.z);
+        const double distance = glm::length(to_lens);
+        const double toward = distance * arc.least_cosine_to(std::atan2(to_lens.y, to_lens.x));
+        return (face.run * toward + face.rise * lens.z - face.offset) / std::hypot(distance, lens.z);
     }
-    [[nodiscard]] double sine_on_top(const glm::dvec2& place) const {
-        return (lens.z - height) / std::hypot(glm::distance(glm::dvec2(lens), place), lens.z);
-    }
-    /// Is an arc of the circle about the prop's axis at height z inside the picture?
-    [[nodiscard]] bool in_picture(const glm::dvec2& place, double radius, double z, const Arc& arc) const {
+    /// Is an arc of the circle about the prop's axis inside the picture?
+    [[nodiscard]] bool in_picture(const glm::dvec2& place, const Round& round, const Arc& arc) const {
         return std::all_of(edges.begin(), edges.end(), [&](const glm::dvec3& edge) {
-            const double least =
-                glm::length(glm::dvec2(edge)) * radius * arc.least_cosine_to(std::atan2(edge.y, edge.x));
-            return glm::dot(edge, glm::dvec3(place, z) - lens) + least >= 0.0;
+            const double least = glm::length(glm::dvec2(edge)) * round.radius *
+                                 arc.least_cosine_to(std::atan2(edge.y, edge.x));
+            return glm::dot(edge, glm::dvec3(place, round.z) - lens) + least >= 0.0;
         });
     }
 
     std::array<glm::dvec3, 4> edges;
     glm::dvec3 lens;
-    double bottom_half;
-    double height;
-    double top_half;
-    double slope; ///< horizontal run of a side face for each metre up
+    std::vector<TurnedFace> faces; ///< but for one that lies on the table
+    std::vector<Round> corners;    ///< of the solid
+    double reach = 0.0;            ///< from the axis
+    double middle_reach = 0.0;     ///< from the prop's middle
 };
 
-bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec3& eye) {
-    if (eye.z > scene.height) {
-        if (scene.sine_on_top(place) < least_sine_of_light ||
-            !scene.in_picture(place, scene.top_radius(), scene.height, full_circle)) {
-            return false;
-        }
+/// The azimuths into which a face looks at some yaw that shows it to the eye; nothing if there are none.
+std::optional<Arc> seen_azimuths(const TurnedFace& face, const glm::dvec2& place, const glm::dvec3& eye) {
+    if (face.run == 0.0) {
+        return face.rise * eye.z > face.offset ? std::optional(full_circle) : std::nullopt;
     }
-    // The eye sees the side faces whose azimuth's cosine towards it exceeds this.
     const glm::dvec2 to_eye = glm::dvec2(eye) - place;
-    const double least_cosine = (scene.bottom_half - scene.slope * eye.z) / glm::length(to_eye);
-    if (least_cosine >= 1.0) {
-        return true;
+    const double least_cosine = (face.offset - face.rise * eye.z) / (face.run * glm::length(to_eye));
+    if (!(least_cosine < 1.0)) {
+        return std::nullopt;
     }
-    const Arc seen{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(least_cosine, -1.0))};
-    const Arc corners = seen.widened(pi / 4.0);
-    return scene.least_sine_on_sides(place, seen) >= least_sine_of_light &&
-           scene.in_picture(place, scene.bottom_radius(), 0.0, corners) &&
-           scene.in_picture(place, scene.top_radius(), scene.height, corners);
+    return Arc{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(least_cosine, -1.0))};
+}
+
+bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec3& eye) {
+    return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
+        const std::optional<Arc> seen = seen_azimuths(face, place, eye);
+        return !seen || (scene.least_sine_on(face, place, *seen) >= least_sine_of_light &&
+                         std::all_of(face.corners.begin(), face.corners.end(), [&](const Round& corner) {
+                             return scene.in_picture(place, corner, seen->turned(corner.off));
+                         }));
+    });
 }
 
 /// How far from the lens's foot every face is turned to the light at every yaw; negative if nowhere.
 double lit_radius(const Scene& scene) {
     const auto lit = [&](double radius) {
         const glm::dvec2 place = glm::dvec2(scene.lens) + glm::dvec2(radius, 0.0);
-        return scene.least_sine_on_sides(place, full_circle) >= least_sine_of_light &&
-               scene.sine_on_top(place) >= least_sine_of_light;
+        return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
+            return scene.least_sine_on(face, place, full_circle) >= least_sine_of_light;
+        });
     };
     if (!lit(0.0)) {
         return -1.0;
@@ -150,13 +192,20 @@ double lit_radius(const Scene& scene) {
     return near;
 }
 
-Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double rim) {
+/// What lies in the picture at height z of places with a circle, and of places with a ball, about them.
+Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double circle, double ball = 0.0) {
     for (const glm::dvec3& edge : scene.edges) {
         const glm::dvec2 inward(edge);
-        polygon =
-            clipped(polygon, {inward, glm::dot(edge, scene.lens) - edge.z * z + rim * glm::length(inward)});
+        polygon = clipped(
+            polygon, {inward, glm::dot(edge, scene.lens) - edge.z * z + circle * glm::length(inward) + ball});
     }
     return polygon;
+}
+
+/// Where the prop in the hand, its middle just high enough to turn it anyhow, lies in the picture.
+Polygon hand_zone(const Settings& settings, const Scene& scene) {
+    const double ball = scene.middle_reach;
+    return clipped_to_picture(table_within(settings.table, ball), scene, ball, 0.0, ball);
 }
 
 Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
@@ -164,9 +213,10 @@ Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
     if (radius < 0.0) {
         return {};
     }
-    Polygon zone = table_within(settings.table, scene.bottom_radius());
-    zone = clipped_to_picture(std::move(zone), scene, 0.0, scene.bottom_radius());
-    zone = clipped_to_picture(std::move(zone), scene, scene.height, scene.top_radius());
+    Polygon zone = table_within(settings.table, scene.reach);
+    for (const Round& corner : scene.corners) {
+        zone = clipped_to_picture(std::move(zone), scene, corner.z, corner.radius);
+    }
     // The disc as an inscribed polygon: never too large, too small by 0.02 % at most.
     constexpr int sides = 180;
     const double apothem = radius * std::cos(pi / sides);
@@ -191,7 +241,7 @@ glm::dvec2 centroid(const Polygon& polygon) {
     return sum / area;
 }
 
-/// The largest upright rectangle about the centroid of a convex polygon.
+/// The largest rectangle along the axes about the centroid of a convex polygon.
 Rectangle rectangle_inside(const Polygon& polygon) {
     if (polygon.empty()) {
         return {};
@@ -229,8 +279,8 @@ std::vector<double> azimuths_from(const glm::dvec2& middle, const Polygon& any_e
 }
 
 Polygon default_eye_zone(const Settings& settings, const Scene& scene, const Polygon& any_eye) {
-    const double x = settings.table.width_m / 2.0 - scene.bottom_radius();
-    const double y = settings.table.depth_m / 2.0 - scene.bottom_radius();
+    const double x = settings.table.width_m / 2.0 - scene.reach;
+    const double y = settings.table.depth_m / 2.0 - scene.reach;
     const auto lit = [&](const glm::dvec2& p) {
         return std::abs(p.x) <= x && std::abs(p.y) <= y && lit_at_any_yaw(scene, p, settings.eye.default_m);
     };
@@ -290,9 +340,10 @@ std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z) {
 LitZone lit_zone(const Settings& settings) {
     const Scene scene(settings);
     LitZone zone;
-    zone.any_eye = any_eye_zone(settings, scene);
+    const bool in_hand = settings.prop.zone == PropZone::Hand;
+    zone.any_eye = in_hand ? hand_zone(settings, scene) : any_eye_zone(settings, scene);
     zone.any_eye_rectangle = rectangle_inside(zone.any_eye);
-    zone.default_eye = default_eye_zone(settings, scene, zone.any_eye);
+    zone.default_eye = in_hand ? zone.any_eye : default_eye_zone(settings, scene, zone.any_eye);
     return zone;
 }
 

@@ -1,8 +1,12 @@
-/// The zone of the table where the prop can stand so that every face the visitor sees is lit.
+/// The zone of the table where the prop can be so that every face the visitor sees is lit.
 ///
 /// A face is lit where the projector's lens lies above the face's plane, by at least `least_sine` times its
 /// distance from the prop (below that the light only grazes it), and all four corners lie in the picture. The
-/// prop is convex, so no face shades another. The prop stands upright with its whole bottom on the table top.
+/// prop is convex, so no face shades another.
+///
+/// On the table (PropZone) the prop stands upright with its whole bottom on the table top. In the hand it may
+/// be turned so that a face the visitor sees looks away from the lens, wherever it is: there the zone is
+/// where the whole prop lies in the picture, however it is turned.
 ///
 /// Frames   table T, metres; polygons are counter-clockwise, empty if there is no such place.
 /// Threads  pure; any.
@@ -28,12 +32,14 @@ struct Rectangle {
 };
 
 struct LitZone {
-    /// Places of the prop's centre at which every face is lit at every yaw, for eyes anywhere. Convex.
+    /// Places of the prop's axis at which every face is lit at every yaw, for eyes anywhere above the table;
+    /// in the hand: places of its middle over the table, as high as its own reach. Convex.
     std::vector<glm::dvec2> any_eye;
-    /// The largest upright rectangle in it about its centroid: where a simulated visitor may slide the prop.
+    /// The largest rectangle along the axes in it about its centroid: where a simulated visitor may slide the
+    /// prop.
     Rectangle any_eye_rectangle;
     /// Places at which every face that the default eye sees is lit at every yaw: the outline as seen from its
-    /// middle, at every degree at least.
+    /// middle, at every degree at least. In the hand: the same as for any eye.
     std::vector<glm::dvec2> default_eye;
 };
 
@@ -42,7 +48,7 @@ struct LitZone {
 /// For one pose, upright or not.
 [[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
                                           const glm::dvec3& eye);
-/// For the prop upright at `place`, at every yaw.
+/// For the prop standing upright at `place`, at every yaw.
 [[nodiscard]] bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
                                                      const glm::dvec3& eye);
 

@@ -1,4 +1,5 @@
-/// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units.
+/// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units. What
+/// each is for, and its range, stands in describe_settings.h.
 ///
 /// Defaults config/kiosk.toml, the set-up as shipped, but for the panel's script and the list of packs.
 ///
@@ -36,26 +37,41 @@ enum class DisplayKind { Kms, Surfaceless };
 [[nodiscard]] std::string_view name_of(DisplayKind kind);
 struct DisplaySettings {
     DisplayKind kind = DisplayKind::Kms;
-    /// Kms: a path or "card0"; "any" = the first with a projector, also one that comes later.
     std::string card = "any";
-    /// Kms: as the kernel names it, "HDMI-A-1"; "any" = whichever has a projector.
     std::string connector = "any";
-    DisplayMode mode;   ///< kms
-    bool force = false; ///< kms: even where the projector does not name the mode; see config/kiosk.toml
+    DisplayMode mode;
+    bool force = false;
 };
 
+/// Frustum: it stands on the table. Cube: all its edges are `base_m`.
+enum class PropKind { Frustum, Cube };
+[[nodiscard]] std::string_view name_of(PropKind kind);
+/// Table: upright, slid and turned about its axis. Hand: lifted, turned anyhow.
+enum class PropZone { Table, Hand };
+[[nodiscard]] std::string_view name_of(PropZone zone);
+struct PropSettings {
+    PropKind kind = PropKind::Frustum;
+    double base_m = 0.16; ///< side of the bottom square
+    double top_m = 0.09;  ///< side of the top square
+    double height_m = 0.12;
+    PropZone zone = PropZone::Table; ///< where it moves
+};
+/// A cube of the usual size, in the hand.
+[[nodiscard]] PropSettings cube_settings(double edge_m = PropSettings{}.base_m);
+[[nodiscard]] PropShape make_prop(const PropSettings& prop);
+
 struct TableSettings {
-    double width_m = 0.8; ///< along X
-    double depth_m = 0.5; ///< along Y
+    double width_m = 0.8;
+    double depth_m = 0.5;
 };
 
 /// Where visitors' eyes are, for the plan and for what is baked away.
 struct EyeSettings {
     glm::dvec3 default_m{0.0, -0.55, 0.50};
-    double lowest_elevation_deg = 15.0; ///< above the table, seen from the prop
+    double lowest_elevation_deg = 15.0;
     double nearest_m = 0.35;
     double farthest_m = 2.0;
-    bool tracked = true; ///< false: a fixed viewer; the eye is at default_m whatever a tracker says
+    bool tracked = true;
 };
 
 /// Usb: a VIPER, PATRIOT, LIBERTY or HID tracker, whichever is connected. SpaceMouse: a stand-in for one.
@@ -64,15 +80,12 @@ enum class TrackerKind { Simulated, Replay, Usb, SpaceMouse, None };
 [[nodiscard]] std::string_view name_of(TrackerKind kind);
 struct TrackerSettings {
     TrackerKind kind = TrackerKind::Simulated;
-    std::uint64_t seed = 1; ///< simulated
-    /// Replay: a pose file or a recording of packets; resolved against the settings file's folder.
-    std::filesystem::path poses;
-    std::string poses_key; ///< where the settings name it, for messages
+    std::uint64_t seed = 1;
+    std::filesystem::path poses; ///< resolved against the settings file's folder
+    std::string poses_key;       ///< where the settings name it, for messages
     double replay_speed = 1.0;
-    /// Usb: towards the half space of the tracker's source in which the prop moves, in the tracker's axes.
-    glm::dvec3 hemisphere{1.0, 0.0, 0.0};
-    RigidTransform table_from_tracker; ///< registration, for devices that report in their own frame
-    /// From the flip of a picture until it is lit: the projector's own. Poses are predicted to then.
+    glm::dvec3 hemisphere{1.0, 0.0, 0.0}; ///< in the tracker's axes
+    RigidTransform table_from_tracker;
     double display_latency_ms = 17.0;
 };
 
@@ -88,15 +101,15 @@ enum class PanelKind { Scripted, Gpio, Keys };
 struct PanelSettings {
     PanelKind kind = PanelKind::Scripted;
     std::vector<ScriptedPress> script;
-    double repeat_s = 0.0;                     ///< the script starts again after this long; 0 = once
-    std::string chip = "gpiochip0";            ///< gpio: path, name, label or number
-    std::vector<std::string> lines;            ///< gpio: names or offsets of buttons 0, 1, 2
-    LineBias bias = LineBias::PullUp;          ///< gpio
-    bool active_low = true;                    ///< gpio: a pressed button pulls its line to ground
-    std::vector<std::string> lamps;            ///< gpio: as `lines`, in the buttons' order; may be fewer
-    std::string device;                        ///< keys: path or name of the keyboard's event device
-    std::vector<std::string> keys;             ///< keys: KEY_... of buttons 0, 1, 2
-    double debounce_ms = 30.0, stuck_s = 30.0; ///< gpio, keys
+    double repeat_s = 0.0; ///< 0 = once
+    std::string chip = "gpiochip0";
+    std::vector<std::string> lines;
+    LineBias bias = LineBias::PullUp;
+    bool active_low = true;
+    std::vector<std::string> lamps;
+    std::string device;
+    std::vector<std::string> keys;
+    double debounce_ms = 30.0, stuck_s = 30.0;
 
     /// How many real buttons there are.
     [[nodiscard]] std::size_t buttons() const {
@@ -108,11 +121,10 @@ struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
     std::string language = "en";
     bool captions = true;
-    double caption_height_m = 0.010; ///< height of a capital letter's em on the table; 24 pt = 0.0085 m
+    double caption_height_m = 0.010;
 };
 
 struct RenderSettings {
-    /// Of a projector pixel, where one is smallest on the prop: the error that a level may have.
     double error_tolerance_px = 0.5;
 };
 
@@ -120,7 +132,7 @@ struct Settings {
     ProjectorSettings projector;
     DisplaySettings display;
     RenderSettings render;
-    PropSize prop;
+    PropSettings prop;
     TableSettings table;
     EyeSettings eye;
     TrackerSettings tracker;

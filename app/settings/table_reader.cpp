@@ -1,5 +1,7 @@
 #include "app/settings/table_reader.h"
 
+#include "firmware_host/base/printable.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -71,30 +73,6 @@ std::string located(std::string_view file, std::uint32_t line, std::string_view 
     return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : fmt::format("{}: {}", file, what);
 }
 
-std::string printable(std::string_view text, std::size_t limit) {
-    std::string result;
-    for (const char c : text.substr(0, limit)) {
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        result += control ? '?' : c;
-    }
-    if (text.size() > limit) {
-        // Not in the middle of a UTF-8 character.
-        while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xC0) == 0x80) {
-            result.pop_back();
-        }
-        if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0x80) {
-            result.pop_back();
-        }
-        result += "...";
-    }
-    return result;
-}
-
-std::string allowed(const Range& range) {
-    return fmt::format("allowed are {} to {}{}{}", range.low, range.high, range.unit.empty() ? "" : " ",
-                       range.unit);
-}
-
 TableReader::TableReader(ReadState& state, const toml::table* table, std::string name, std::uint32_t line)
     : state_(&state), table_(table), name_(std::move(name)), line_(line) {}
 
@@ -139,7 +117,8 @@ bool TableReader::number_of(const toml::node& node, const std::string& name, dou
         read = number->get();
     }
     if (!(read >= range.low && read <= range.high)) {
-        state_->refuse(line_of(node), fmt::format("{} is {}; {}", name, found(node), allowed(range)));
+        state_->refuse(line_of(node),
+                       fmt::format("{} is {}; allowed are {}", name, found(node), words_of(range)));
         return false;
     }
     value = read;
@@ -172,13 +151,14 @@ const toml::array* TableReader::list_of(std::string_view key, std::size_t least,
     return array;
 }
 
-void TableReader::number(std::string_view key, double& value, const Range& range) {
+void TableReader::number(std::string_view key, double& value, const Range& range,
+                         std::string_view /*sentence*/) {
     if (const toml::node* node = take(key)) {
         number_of(*node, full_name(key), value, range);
     }
 }
 
-void TableReader::flag(std::string_view key, bool& value) {
+void TableReader::flag(std::string_view key, bool& value, std::string_view /*sentence*/) {
     const toml::node* node = take(key);
     if (node == nullptr) {
         return;
@@ -190,7 +170,8 @@ void TableReader::flag(std::string_view key, bool& value) {
     }
 }
 
-void TableReader::integer(std::string_view key, int& value, int low, int high) {
+void TableReader::integer(std::string_view key, int& value, int low, int high,
+                          std::string_view /*sentence*/) {
     const toml::node* node = take(key);
     if (node == nullptr) {
         return;
@@ -203,7 +184,7 @@ void TableReader::integer(std::string_view key, int& value, int low, int high) {
     value = static_cast<int>(integer->get());
 }
 
-void TableReader::integer(std::string_view key, std::uint64_t& value) {
+void TableReader::integer(std::string_view key, std::uint64_t& value, std::string_view /*sentence*/) {
     const toml::node* node = take(key);
     if (node == nullptr) {
         return;
@@ -217,13 +198,14 @@ void TableReader::integer(std::string_view key, std::uint64_t& value) {
     value = static_cast<std::uint64_t>(integer->get());
 }
 
-void TableReader::text(std::string_view key, std::string& value) {
+void TableReader::text(std::string_view key, std::string& value, std::string_view /*sentence*/) {
     if (const toml::node* node = take(key)) {
         text_of(*node, full_name(key), value);
     }
 }
 
-void TableReader::texts(std::string_view key, std::vector<std::string>& values, std::size_t most) {
+void TableReader::texts(std::string_view key, std::vector<std::string>& values, std::size_t most,
+                        std::string_view /*sentence*/) {
     const toml::array* array = list_of(key, 0, most, fmt::format("at most {} texts", most));
     if (array == nullptr) {
         return;
@@ -237,7 +219,8 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& values, 
     values = std::move(read);
 }
 
-void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& range) {
+void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& range,
+                         std::string_view /*sentence*/) {
     const toml::array* array = list_of(key, 3, 3, "3 numbers, [x, y, z]");
     if (array == nullptr) {
         return;
@@ -252,7 +235,49 @@ void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& r
     value = read;
 }
 
-void TableReader::matrix(std::string_view key, glm::dmat4& value, const Range& range) {
+void TableReader::rigid(std::string_view key, RigidTransform& value, const Range& range,
+                        std::string_view /*sentence*/) {
+    glm::dmat4 matrix = value.matrix();
+    read_matrix(key, matrix, range);
+    if (const auto rigid = rigid_from_matrix(matrix)) {
+        value = *rigid;
+    } else {
+        refuse(key,
+               "scales, shears, mirrors or has a last row other than 0 0 0 1; allowed is a rotation and a "
+               "translation in metres, column by column");
+    }
+}
+
+void TableReader::path(std::string_view key, std::filesystem::path& value, std::string_view /*sentence*/) {
+    std::string written;
+    text(key, written);
+    if (!written.empty()) {
+        value = (state_->folder / written).lexically_normal();
+    }
+}
+
+void TableReader::paths(std::string_view key, std::vector<std::filesystem::path>& values, std::size_t most,
+                        std::string_view /*sentence*/) {
+    std::vector<std::string> written;
+    texts(key, written, most);
+    for (const std::string& each : written) {
+        values.push_back((state_->folder / each).lexically_normal());
+    }
+}
+
+void TableReader::one_way(std::string_view key, std::initializer_list<std::string_view> others,
+                          std::string_view words) {
+    const bool beside =
+        std::any_of(others.begin(), others.end(), [&](std::string_view other) { return has(other); });
+    require(!(has(key) && beside), key,
+            fmt::format("stands beside {}; allowed is one of the two ways", words));
+}
+
+void TableReader::refuse_text(std::string_view key, std::string_view found, std::string_view allowed) {
+    refuse(key, fmt::format("is the text \"{}\"; allowed are {}", printable(found, 40), allowed));
+}
+
+void TableReader::read_matrix(std::string_view key, glm::dmat4& value, const Range& range) {
     const toml::array* array = list_of(key, 16, 16, "16 numbers, column by column");
     if (array == nullptr) {
         return;
@@ -267,21 +292,22 @@ void TableReader::matrix(std::string_view key, glm::dmat4& value, const Range& r
     value = read;
 }
 
-void TableReader::choice(std::string_view key, int& index, std::span<const std::string_view> words) {
+std::size_t TableReader::word_of(std::string_view key, std::size_t usual,
+                                 std::span<const std::string_view> words) {
     const toml::node* node = take(key);
     if (node == nullptr) {
-        return;
+        return usual;
     }
     const auto* text = node->as_string();
     const auto word = text != nullptr ? std::find(words.begin(), words.end(), text->get()) : words.end();
     if (word == words.end()) {
         refuse(key, fmt::format("is {}; allowed are \"{}\"", found(*node), fmt::join(words, "\", \"")));
-        return;
+        return usual;
     }
-    index = static_cast<int>(word - words.begin());
+    return static_cast<std::size_t>(word - words.begin());
 }
 
-TableReader TableReader::table(std::string_view key) {
+TableReader TableReader::table_of(std::string_view key) {
     const toml::node* node = take(key);
     const toml::table* table = node != nullptr ? node->as_table() : nullptr;
     if (node != nullptr && table == nullptr) {
@@ -290,7 +316,7 @@ TableReader TableReader::table(std::string_view key) {
     return {*state_, table, full_name(key), node != nullptr ? line_of(*node) : 0};
 }
 
-std::vector<TableReader> TableReader::tables(std::string_view key, std::size_t most) {
+std::vector<TableReader> TableReader::tables_of(std::string_view key, std::size_t most) {
     std::vector<TableReader> readers;
     const toml::array* array = list_of(key, 0, most, fmt::format("at most {} tables {{ ... }}", most));
     for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
@@ -319,7 +345,7 @@ void TableReader::finish() {
     if (left_over == nullptr) {
         return;
     }
-    const std::string key = printable(left_over->str());
+    const std::string key = printable(left_over->str(), 60);
     const auto nearest =
         std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
             return distance(key, a) < distance(key, b);

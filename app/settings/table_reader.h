@@ -1,15 +1,20 @@
 /// Reads one TOML table key by key: every key that is asked for is consumed, what is left over is refused.
+/// Walks describe_settings.h, whose sentences it passes over.
 ///
 /// Errors   the first one of a file is kept in `ReadState`, as one line: file, line, key, what was found,
 ///          what is allowed. After it every call leaves its value alone, so callers read on without asking.
 /// Threads  one caller.
 #pragma once
 
+#include "app/geometry/transform.h"
+#include "app/settings/range.h"
+
 #include <glm/glm.hpp>
 #include <toml++/toml.h>
 
 #include <cstdint>
-#include <limits>
+#include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <span>
@@ -20,18 +25,12 @@
 
 namespace frustumscreen {
 
-/// Allowed values of a number, both ends included; `unit` is a plural word or empty.
-struct Range {
-    double low = 0.0;
-    double high = 0.0;
-    std::string_view unit;
-};
-
 /// Line of every key that was read, by its dotted name; a key that the file leaves out has none.
 using KeyLines = std::map<std::string, std::uint32_t, std::less<>>;
 
 struct ReadState {
     std::string file;
+    std::filesystem::path folder; ///< that paths are relative to
     KeyLines lines;
     std::optional<std::string> error;
 
@@ -40,44 +39,96 @@ struct ReadState {
 
 /// `file:line: what`, without a line where there is none.
 [[nodiscard]] std::string located(std::string_view file, std::uint32_t line, std::string_view what);
-/// One printable line of at most `limit` bytes.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 60);
-[[nodiscard]] std::string allowed(const Range& range);
 
 class TableReader {
 public:
     /// `table` may be null: every key is then left out. `name` is empty for the whole file.
     TableReader(ReadState& state, const toml::table* table, std::string name, std::uint32_t line = 0);
 
+    static constexpr bool reads = true;
+
     [[nodiscard]] bool has(std::string_view key) const;
-    void number(std::string_view key, double& value, const Range& range);
-    void flag(std::string_view key, bool& value);
-    void integer(std::string_view key, int& value, int low, int high);
-    void integer(std::string_view key, std::uint64_t& value);
-    void text(std::string_view key, std::string& value);
-    void texts(std::string_view key, std::vector<std::string>& values, std::size_t most);
-    void vector(std::string_view key, glm::dvec3& value, const Range& range);
+    void number(std::string_view key, double& value, const Range& range, std::string_view sentence = {});
+    void vector(std::string_view key, glm::dvec3& value, const Range& range, std::string_view sentence = {});
+    void input(std::string_view key, double& value, const Range& range, std::string_view /*sentence*/) {
+        number(key, value, range);
+    }
+    void input(std::string_view key, glm::dvec3& value, const Range& range, std::string_view /*sentence*/) {
+        vector(key, value, range);
+    }
     /// 16 numbers, column-major.
-    void matrix(std::string_view key, glm::dmat4& value, const Range& range);
-    /// Index of the word found in `words`.
-    void choice(std::string_view key, int& index, std::span<const std::string_view> words);
-    [[nodiscard]] TableReader table(std::string_view key);
-    /// One reader for each table of the list `key`.
-    [[nodiscard]] std::vector<TableReader> tables(std::string_view key, std::size_t most);
+    void rigid(std::string_view key, RigidTransform& value, const Range& range, std::string_view sentence);
+    void flag(std::string_view key, bool& value, std::string_view sentence);
+    void integer(std::string_view key, int& value, int low, int high, std::string_view sentence);
+    void integer(std::string_view key, std::uint64_t& value, std::string_view sentence);
+    void text(std::string_view key, std::string& value, std::string_view sentence = {});
+    void texts(std::string_view key, std::vector<std::string>& values, std::size_t most,
+               std::string_view sentence = {});
+    void path(std::string_view key, std::filesystem::path& value, std::string_view sentence);
+    void paths(std::string_view key, std::vector<std::filesystem::path>& values, std::size_t most,
+               std::string_view sentence);
+    /// The value whose number is that of the word found.
+    template <typename Choice>
+    void choice(std::string_view key, Choice& value, std::span<const std::string_view> words,
+                std::string_view /*sentence*/) {
+        value = static_cast<Choice>(word_of(key, static_cast<std::size_t>(value), words));
+    }
+    /// A text that is more than a text: `from_text` gives nothing of what is not `allowed`.
+    template <typename Value>
+    void parsed(std::string_view key, Value& value, const auto& to_text, const auto& from_text,
+                std::string_view allowed, std::string_view /*sentence*/) {
+        std::string written = to_text(value);
+        text(key, written);
+        if (const auto read = from_text(written)) {
+            value = *read;
+        } else {
+            refuse_text(key, written, allowed);
+        }
+    }
+    void table(std::string_view key, std::string_view /*sentence*/, const auto& describe) {
+        TableReader inner = table_of(key);
+        describe(inner);
+        inner.finish();
+    }
+    /// One value for each table of the list `key`.
+    template <typename Value>
+    void tables(std::string_view key, std::vector<Value>& values, std::size_t most, const auto& describe,
+                std::string_view /*sentence*/) {
+        for (TableReader& item : tables_of(key, most)) {
+            describe(item, values.emplace_back());
+            item.finish();
+        }
+    }
+    /// Else refuses `key` with `what` ("is ...; allowed ...").
+    void require(bool well, std::string_view key, std::string_view what) {
+        if (!well) {
+            refuse(key, what);
+        }
+    }
+    /// Refuses `key` if one of `others` stands beside it.
+    void one_way(std::string_view key, std::initializer_list<std::string_view> others,
+                 std::string_view words);
     /// Refuses what nobody asked for. Call once, last.
     void finish();
 
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.
     void refuse(std::string_view key, std::string_view what);
-    [[nodiscard]] std::string full_name(std::string_view key) const;
     /// `file:line: name` of a key that was read, for messages about what it names.
     [[nodiscard]] std::string place(std::string_view key) const;
 
 private:
+    [[nodiscard]] std::string full_name(std::string_view key) const;
     [[nodiscard]] std::uint32_t line_of_key(std::string_view name) const;
     const toml::node* take(std::string_view key);
+    void read_matrix(std::string_view key, glm::dmat4& value, const Range& range);
     bool number_of(const toml::node& node, const std::string& name, double& value, const Range& range);
     bool text_of(const toml::node& node, const std::string& name, std::string& value);
+    void refuse_text(std::string_view key, std::string_view found, std::string_view allowed);
+    /// The number of the word found; `usual` if the key is left out.
+    [[nodiscard]] std::size_t word_of(std::string_view key, std::size_t usual,
+                                      std::span<const std::string_view> words);
+    [[nodiscard]] TableReader table_of(std::string_view key);
+    [[nodiscard]] std::vector<TableReader> tables_of(std::string_view key, std::size_t most);
     const toml::array* list_of(std::string_view key, std::size_t least, std::size_t most,
                                std::string_view allowed_items);
 

@@ -116,7 +116,7 @@ struct ArtifactShow::Loader {
         for (const PackCaption& caption : (*pack)->captions) {
             add_language(languages, caption.language);
         }
-        if (const auto note = note_other_prop(file.string(), **pack, settings.prop.kind)) {
+        if (const auto note = note_other_prop(file.string(), **pack, name_of(settings.prop.kind))) {
             notes.push_back(*note);
         }
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};

@@ -3,10 +3,10 @@
 /// Threads  the render thread's; a device's own thread is behind its interface.
 #pragma once
 
+#include "app/tracking/registered_tracker.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/panel/panel.h"
 #include "firmware_host/tracker/packet_recorder.h"
-#include "firmware_host/tracker/tracker.h"
 
 #include <memory>
 
@@ -14,9 +14,9 @@ namespace frustumscreen {
 
 struct Inputs {
     std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
-    Sentence why_not_recorded;        ///< of packets that were to be recorded; empty: none, or they are
-    std::unique_ptr<Tracker> tracker; ///< none: the prop stands at the table's centre
-    std::unique_ptr<Panel> panel;     ///< none: nothing is pressed
+    Sentence why_not_recorded; ///< of packets that were to be recorded; empty: none, or they are
+    std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
+    std::unique_ptr<Panel> panel;               ///< none: nothing is pressed
 };
 
 } // namespace frustumscreen

@@ -2,6 +2,7 @@
 
 #include "app/geometry/time_curves.h"
 #include "app/render/read_back.h"
+#include "firmware_host/base/quantile.h"
 
 #include <fmt/format.h>
 
@@ -97,10 +98,7 @@ double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanV
         each = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
     // The first two warm up: shaders are compiled, buffers come into the GPU's memory.
-    const auto first = ms.begin() + 2;
-    const auto middle = first + (ms.end() - first) / 2;
-    std::nth_element(first, middle, ms.end());
-    return *middle;
+    return quantile_in(std::span(ms).subspan(2), 0.5);
 }
 
 void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& renderer,

@@ -44,11 +44,8 @@ public:
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
           head_is_followed_(settings.eye.tracked),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
-          situation_(inputs.tracker && !inputs.tracker->reports_table_frame()
-                         ? settings.tracker.table_from_tracker
-                         : RigidTransform{},
-                     settings.eye.default_m, 0.5 * settings.prop.height_m),
-          times_(window_frames), presented_(start) {
+          situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
+          presented_(start) {
         samples_.reserve(1024);
         events_.reserve(64);
         commands_.reserve(64);
@@ -105,7 +102,7 @@ private:
         if (drawn.drawn) {
             coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
             for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
-                display_.changed({part.x, part.y, part.width, part.height});
+                display_.changed(part);
             }
             watch_.enters("waits for the display");
             const Result<MonotonicTime> shown = display_.present(now);

@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/quantile.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/chrono.h>
@@ -91,15 +92,8 @@ void FrameTimes::add(double ms) {
 
 double FrameTimes::quantile(double share) {
     const std::size_t count = std::min(count_, window_.size());
-    if (count == 0) {
-        return 0.0;
-    }
     std::copy_n(window_.begin(), count, sorted_.begin());
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
-    const auto nth =
-        sorted_.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, count) - 1);
-    std::nth_element(sorted_.begin(), nth, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
-    return static_cast<double>(*nth);
+    return quantile_in(std::span(sorted_).first(count), share);
 }
 
 std::string status_json(const RunStatus& status) {

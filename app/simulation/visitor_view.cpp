@@ -55,14 +55,11 @@ public:
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
         const glm::dvec3 in_prop = prop_from_table_.direction(direction);
         PropHit hit;
-        if (intersect(scene_.prop, eye_in_prop_, in_prop, hit)) {
-            const Plane& plane = scene_.prop.faces[static_cast<std::size_t>(hit.face)].plane;
+        if (enter(scene_.prop, eye_in_prop_, in_prop, hit)) {
+            const auto bound = static_cast<std::size_t>(hit.face);
+            const Plane& plane = scene_.prop.bounds[bound];
             return Place{scene_.eye_m + hit.t * direction, scene_.table_from_prop.direction(plane.normal),
-                         true, plane.distance(lens_in_prop_) > 0.0};
-        }
-        if (meets_bottom(in_prop)) {
-            return Place{glm::dvec3(0.0), scene_.table_from_prop.direction(glm::dvec3(0, 0, -1)), true,
-                         false};
+                         true, bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0};
         }
         const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
         const glm::dvec3 point = scene_.eye_m + t * direction;
@@ -72,7 +69,7 @@ public:
         }
         PropHit shade;
         const bool shadowed =
-            intersect(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
+            enter(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
             shade.t < 1.0;
         return Place{point, glm::dvec3(0, 0, 1), false, !shadowed};
     }
@@ -122,17 +119,11 @@ private:
         const std::array<float, 256>& linear = linear_from_srgb8();
         return {linear[code.r], linear[code.g], linear[code.b]};
     }
-    [[nodiscard]] bool meets_bottom(const glm::dvec3& direction) const {
-        const double t = -eye_in_prop_.z / direction.z;
-        const glm::dvec3 point = eye_in_prop_ + t * direction;
-        const double half = scene_.prop.size.base_m / 2.0;
-        return direction.z > 0.0 && t > 0.0 && std::abs(point.x) <= half && std::abs(point.y) <= half;
-    }
     /// Less of the room's light arrives close to the prop.
     [[nodiscard]] double contact_shadow(const glm::dvec3& point_m) const {
         const glm::dvec3 p = prop_from_table_.point(point_m);
-        const double half = scene_.prop.size.base_m / 2.0;
-        const glm::dvec3 outside = glm::max(glm::abs(p) - glm::dvec3(half, half, 0.0), glm::dvec3(0.0));
+        const glm::dvec2& foot = scene_.prop.corners.front();
+        const glm::dvec3 outside = glm::max(glm::abs(p) - glm::dvec3(glm::abs(foot), 0.0), glm::dvec3(0.0));
         return 1.0 - 0.75 * std::exp(-glm::length(outside) / contact_shadow_reach_m);
     }
 
@@ -150,14 +141,11 @@ private:
 
 VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
                              const glm::dvec3& eye_m, int width, int height) {
-    const glm::dvec3 centre_in_prop(0.0, 0.0, prop.size.height_m / 2.0);
     double radius = 0.0;
-    for (const PropFace& face : prop.faces) {
-        for (const glm::dvec3& corner : face.corners) {
-            radius = std::max(radius, glm::distance(corner, centre_in_prop));
-        }
+    for (const glm::dvec3& corner : prop.corners) {
+        radius = std::max(radius, glm::distance(corner, prop.middle));
     }
-    const glm::dvec3 towards = table_from_prop.point(centre_in_prop) - eye_m;
+    const glm::dvec3 towards = table_from_prop.point(prop.middle) - eye_m;
     const double distance = glm::length(towards);
     const glm::dvec3 forward = distance > 0.0 ? towards / distance : glm::dvec3(0, 0, -1);
     const glm::dvec3 across = glm::cross(forward, glm::dvec3(0, 0, 1));

@@ -20,18 +20,17 @@ PoseEstimator estimator() {
 
 } // namespace
 
-LiveSituation::LiveSituation(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
-                             double lever_m)
-    : table_from_device_(table_from_device), default_eye_m_(default_eye_m), prop_(estimator()),
-      head_(estimator()), shown_prop_({.lever_m = lever_m}), shown_head_({.lever_m = head_lever_m}) {}
+LiveSituation::LiveSituation(const glm::dvec3& default_eye_m, double lever_m)
+    : default_eye_m_(default_eye_m), prop_(estimator()), head_(estimator()),
+      shown_prop_({.lever_m = lever_m}), shown_head_({.lever_m = head_lever_m}) {}
 
 bool LiveSituation::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
         return true;
     }
     PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
-    const RigidTransform device_from_station{sample.rotation, sample.position_m}; // of any length until taken
-    const Taken taken = estimator.take(sample.time, table_from_device_ * device_from_station);
+    const RigidTransform table_from_station{sample.rotation, sample.position_m}; // of any length until taken
+    const Taken taken = estimator.take(sample.time, table_from_station);
     return taken == Taken::Used || taken == Taken::Late;
 }
 

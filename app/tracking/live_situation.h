@@ -1,7 +1,7 @@
 /// What will be the case on the table when the picture is lit: the situation of a live tracker, smoothed and
 /// predicted. An offline picture uses SituationTracker, which does neither.
 ///
-/// Frames   table T, metres. Samples of a device that reports in its own frame are registered on the way in.
+/// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample counts from its own time on; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
 #pragma once
@@ -15,7 +15,7 @@ namespace frustumscreen {
 class LiveSituation {
 public:
     /// `lever_m`: half the prop's height.
-    LiveSituation(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m, double lever_m);
+    LiveSituation(const glm::dvec3& default_eye_m, double lever_m);
 
     /// False: a sample that claims to be usable and is no pose, or that no hand can have brought about.
     bool take(const PoseSample& sample);
@@ -28,7 +28,6 @@ private:
     /// The head, or the default eye in its place; a change between them is an uptake.
     [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
 
-    RigidTransform table_from_device_;
     glm::dvec3 default_eye_m_;
     PoseEstimator prop_;
     PoseEstimator head_;

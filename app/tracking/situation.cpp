@@ -4,9 +4,8 @@
 
 namespace frustumscreen {
 
-SituationTracker::SituationTracker(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
-                                   const SituationLimits& limits)
-    : table_from_device_(table_from_device), default_eye_m_(default_eye_m), limits_(limits) {}
+SituationTracker::SituationTracker(const glm::dvec3& default_eye_m, const SituationLimits& limits)
+    : default_eye_m_(default_eye_m), limits_(limits) {}
 
 bool SituationTracker::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
@@ -19,7 +18,7 @@ bool SituationTracker::take(const PoseSample& sample) {
     }
     std::optional<Latest>& latest = sample.station == prop_station ? prop_ : head_;
     if (!latest || sample.time >= latest->time) {
-        latest = Latest{table_from_device_ * RigidTransform{*rotation, p}, sample.time};
+        latest = Latest{{*rotation, p}, sample.time};
     }
     return true;
 }

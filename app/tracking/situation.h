@@ -1,6 +1,6 @@
 /// What is the case on the table now: where the prop stands and where the visitor's eye is.
 ///
-/// Frames   table T, metres. Samples of a device that reports in its own frame are registered on the way in.
+/// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample counts from its own time on; `at(now)` asks for any later time.
 /// Threads  values; one caller.
 #pragma once
@@ -30,9 +30,7 @@ struct SituationLimits {
 
 class SituationTracker {
 public:
-    /// `table_from_device`: the registration, identity for samples in table coordinates.
-    SituationTracker(const RigidTransform& table_from_device, const glm::dvec3& default_eye_m,
-                     const SituationLimits& limits = {});
+    explicit SituationTracker(const glm::dvec3& default_eye_m, const SituationLimits& limits = {});
 
     /// Samples with ok = false, of other stations, or older than the last one of their station change
     /// nothing. Rotations of any length are made unit. False: a sample that claims to be usable and is no
@@ -47,7 +45,6 @@ private:
         MonotonicTime time;
     };
 
-    RigidTransform table_from_device_;
     glm::dvec3 default_eye_m_;
     SituationLimits limits_;
     std::optional<Latest> prop_;

@@ -27,6 +27,18 @@ constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
+/// The axis that each face looks along most.
+std::vector<ReliefDirection> directions_of(const PropShape& prop) {
+    std::vector<ReliefDirection> directions;
+    for (const PropFace& face : prop.faces) {
+        const glm::dvec3& n = face.plane.normal;
+        const glm::dvec3 size = glm::abs(n);
+        const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+        directions.push_back(static_cast<ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0)));
+    }
+    return directions;
+}
+
 /// A level with the picture that it wears.
 struct Candidate {
     PackLevel level;
@@ -78,15 +90,9 @@ public:
 
     /// Relief levels share one atlas; `relief` receives it.
     std::vector<Candidate> relief_levels(ReliefAtlas& atlas) {
-        std::vector<ReliefDirection> directions{ReliefDirection::PlusX, ReliefDirection::MinusX,
-                                                ReliefDirection::PlusY, ReliefDirection::MinusY,
-                                                ReliefDirection::PlusZ};
-        if (options_.prop == PropKind::Cube) {
-            directions.push_back(ReliefDirection::MinusZ);
-        }
         options_.progress("layered relief", 0.6);
-        std::optional<BakedRelief> relief =
-            bake_relief(source_, visible_, frame_.box_size, directions, options_.size);
+        std::optional<BakedRelief> relief = bake_relief(source_, visible_, frame_.box_size,
+                                                        directions_of(options_.prop.shape), options_.size);
         std::vector<Candidate> candidates;
         if (!relief) {
             return candidates;
@@ -114,11 +120,11 @@ private:
         const std::vector<SourceMaterial>& materials = source_.mesh().materials;
         if (std::any_of(materials.begin(), materials.end(),
                         [](const SourceMaterial& material) { return material.alpha_mask; })) {
-            return visible_sides(mesh, source_, ViewingZone{});
+            return visible_sides(mesh, source_, options_.prop.zone);
         }
         const SourceMesh own = as_source(mesh);
         const std::vector<glm::dvec3> own_points(mesh.positions.begin(), mesh.positions.end());
-        return visible_sides(mesh, SourceScene(own, own_points), ViewingZone{});
+        return visible_sides(mesh, SourceScene(own, own_points), options_.prop.zone);
     }
 
     Candidate candidate_of(const TriangleMesh& mesh, float tolerance) {
@@ -166,35 +172,33 @@ private:
     ImageFloat light_;
 };
 
-double mm_per_box_on_usual_prop(const Pack& pack, PropKind kind) {
-    PropSize size;
-    size.kind = kind;
-    return place(pack, make_prop(size)).metres_per_box * 1e3;
+double mm_per_box(const Pack& pack, const BakedProp& prop) {
+    return place(pack, prop.shape).metres_per_box * 1e3;
 }
 
 /// As a visitor sees it on the usual prop.
-bool good_enough(const PackLevel& level, const Pack& pack, const SourceScene& source, double mm_per_box) {
+bool good_enough(const PackLevel& level, const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
     // The worst of fifty poses in two set-ups shows up to three times as much of each.
     constexpr double good_mean_mm = 0.09;
     constexpr double good_outline_shift_mm = 0.04;
     constexpr double good_silhouette_share = 0.012; // a thin object is outline throughout
-    const SeenError error = seen_error(level, pack.textures[level.texture], pack.box_size, source);
-    return error.mean_box * mm_per_box <= good_mean_mm &&
-           error.outline_shift_box * mm_per_box <= good_outline_shift_mm &&
+    const SeenError error =
+        seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source(), prop.zone);
+    const double scale = mm_per_box(pack, prop);
+    return error.mean_box * scale <= good_mean_mm &&
+           error.outline_shift_box * scale <= good_outline_shift_mm &&
            error.silhouette_share <= good_silhouette_share;
 }
 
 /// The cheapest level that is good enough; below a number of triangles that any source may cost, the finest
 /// instead. The last level is for looking closer: it is drawn with more samples.
-std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, PropKind kind) {
+std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
     constexpr std::size_t free_triangles = 30'000;
-    const double mm_per_box = mm_per_box_on_usual_prop(pack, kind);
     std::uint32_t level = 0;
     while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
         ++level;
     }
-    while (level + 1 < pack.levels.size() &&
-           !good_enough(pack.levels[level], pack, bakery.source(), mm_per_box)) {
+    while (level + 1 < pack.levels.size() && !good_enough(pack.levels[level], pack, bakery, prop)) {
         ++level;
     }
     return level;
@@ -268,6 +272,14 @@ std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
     return front;
 }
 
+BakedProp baked_frustum() {
+    return {"frustum", make_frustum({}), {}};
+}
+
+BakedProp baked_cube() {
+    return {"cube", make_cube(FrustumSize{}.base_m), ViewingZone::all_around()};
+}
+
 std::uintmax_t room_for_pack(int size) {
     constexpr std::uintmax_t triangles_bytes = 20'000'000;
     constexpr std::uintmax_t bytes_each_square = 200; // of all levels and the relief
@@ -293,7 +305,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         candidates.push_back(std::move(candidate));
     }
     Pack pack;
-    pack.prop_kind = name_of(options.prop);
+    pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;
     pack.box_size = frame->box_size;
@@ -308,7 +320,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.extremes = profile_extremes(used);
     keep(pack, candidates, atlas);
     pack.samples =
-        samples_needed(bakery.source(), pack.box_size, mm_per_box_on_usual_prop(pack, options.prop));
+        samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
     pack.default_level = choose_default(pack, bakery, options.prop);
     options.progress("done", 1.0);
     return pack;

@@ -9,6 +9,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/source_mesh.h"
+#include "assets_baked/bake/visibility.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
@@ -18,10 +19,21 @@
 
 namespace frustumscreen {
 
+/// What a pack is baked for: every prop of that kind, whatever its size.
+struct BakedProp {
+    std::string kind;
+    PropShape shape; ///< of the usual size: what a visitor would notice is judged on it
+    ViewingZone zone;
+};
+/// It stands on the table.
+[[nodiscard]] BakedProp baked_frustum();
+/// It is held in the hand: seen from all around, from below too.
+[[nodiscard]] BakedProp baked_cube();
+
 struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096
     bool unlit = false;
-    PropKind prop = PropKind::Frustum;
+    BakedProp prop = baked_frustum();
     std::string up; ///< empty: the format's own
     /// Called with what is being done and how much of all is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};

@@ -8,6 +8,7 @@
 #include "app/pack/pack.h"
 #include "assets_baked/bake/charts.h"
 #include "assets_baked/bake/source_scene.h"
+#include "assets_baked/bake/visibility.h"
 
 namespace frustumscreen {
 
@@ -46,11 +47,12 @@ struct SeenError {
     double silhouette_share = 0.0; ///< the same rays, as a share of those that hit both
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                                   const SourceScene& source);
+                                   const SourceScene& source, const ViewingZone& zone);
 
 /// Samples a pixel (2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies
 /// need two, thin or finely painted ones more.
-[[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box);
+[[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,
+                                 const ViewingZone& zone);
 
 } // namespace frustumscreen

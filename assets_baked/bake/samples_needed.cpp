@@ -90,11 +90,14 @@ std::array<double, grids.size()> errors_of(const FarView& view, const SourceScen
 
 } // namespace
 
-int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box) {
+int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,
+                   const ViewingZone& zone) {
     constexpr double good_rmse = 8.0;
     constexpr double most_samples =
         45e3; // of the artifact's pixels on a usual table: what a slow GPU shades in time
     constexpr int views = 4;
+    const double lowest_deg = zone.lowest_elevation_deg + 17.0;
+    constexpr double highest_deg = 65.0;
     constexpr double golden_angle = 2.399963229728653;
     const glm::vec2 pixel_box = glm::vec2(0.63F, 1.6F) / static_cast<float>(mm_per_box);
     const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
@@ -102,7 +105,8 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
     std::array<double, grids.size()> worst{};
     double pixels = 0.0;
     for (int k = 0; k < views; ++k) {
-        const double elevation = (20.0 + 15.0 * k) * std::numbers::pi / 180.0;
+        const double elevation =
+            (lowest_deg + (highest_deg - lowest_deg) * k / (views - 1)) * std::numbers::pi / 180.0;
         const glm::vec3 towards(glm::dvec3(std::cos(elevation) * std::cos(k * golden_angle + 1.0),
                                            std::cos(elevation) * std::sin(k * golden_angle + 1.0),
                                            std::sin(elevation)));

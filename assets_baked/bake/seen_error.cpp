@@ -101,11 +101,11 @@ Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& 
 } // namespace
 
 SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                     const SourceScene& source) {
+                     const SourceScene& source, const ViewingZone& zone) {
     constexpr int eyes = 10;
     constexpr double golden_angle = 2.399963229728653;
     constexpr double eye_distance_box = 6.0;
-    constexpr double lowest_deg = 12.0;
+    const double lowest_deg = zone.lowest_elevation_deg + 9.0; // at the very edge hardly anybody stands
     constexpr double highest_deg = 80.0;
     const TriangleMesh surface = surface_of(level, box_size);
     const SourceMesh level_mesh = cut_out(as_source(surface), level, texture);

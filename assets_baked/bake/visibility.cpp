@@ -30,10 +30,10 @@ std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre)
     constexpr int count = 1024;
     constexpr double golden_angle = 2.399963229728653;
     const double lowest = std::sin(zone.lowest_elevation_deg * std::numbers::pi / 180.0);
+    const double power = lowest > 0.0 ? 1.5 : 1.0; // above a table, more of the low ones
     std::vector<glm::vec3> eyes;
     for (int k = 0; k < count; ++k) {
-        const double sine =
-            lowest + (1.0 - lowest) * std::pow((k + 0.5) / count, 1.5); // more of the low ones
+        const double sine = lowest + (1.0 - lowest) * std::pow((k + 0.5) / count, power);
         const double cosine = std::sqrt(1.0 - sine * sine);
         const double azimuth = k * golden_angle;
         const double distance = k % 3 == 0 ? zone.farthest_box : zone.nearest_box;

@@ -1,6 +1,6 @@
 /// Which sides of which triangles a visitor can ever see.
 ///
-/// Frame    box; the eyes are those of the viewing zone, all the way round (the prop can be turned), from
+/// Frame    box; the eyes are those of the viewing zone, at every azimuth (the prop can be turned), from
 ///          `lowest_elevation_deg` up to straight above.
 /// Method   sample points on each triangle look for one eye of the zone that sees them; what is found is
 ///          grown by the triangles that share a vertex, so that no picture meets an edge of the kept surface.
@@ -16,9 +16,16 @@ namespace frustumscreen {
 
 /// Where eyes can be, relative to the artifact; generous, since one pack serves every kiosk.
 struct ViewingZone {
-    double lowest_elevation_deg = 3.0; ///< above the table, seen from the prop's centre
+    double lowest_elevation_deg = 3.0; ///< above the prop's bottom, seen from its centre
     double nearest_box = 2.0;          ///< distance in box units
     double farthest_box = 20.0;
+
+    /// Of a prop that is turned anyhow.
+    [[nodiscard]] static ViewingZone all_around() {
+        ViewingZone zone;
+        zone.lowest_elevation_deg = -90.0;
+        return zone;
+    }
 };
 
 /// The triangles of `mesh` whose counter-clockwise side is seen, and for those whose other side is seen a

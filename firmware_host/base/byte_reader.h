@@ -9,6 +9,7 @@
 #include <cstring>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -31,6 +32,21 @@ public:
         bytes_ = bytes_.subspan(sizeof(T));
         return value;
     }
+    /// The next `count` of them, or none past the end.
+    template <typename T> [[nodiscard]] std::vector<T> read_all(std::size_t count) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (count > bytes_.size() / sizeof(T)) {
+            ok_ = false;
+            bytes_ = {};
+            return {};
+        }
+        std::vector<T> values(count);
+        if (count > 0) {
+            std::memcpy(values.data(), bytes_.data(), count * sizeof(T));
+            bytes_ = bytes_.subspan(count * sizeof(T));
+        }
+        return values;
+    }
     [[nodiscard]] std::size_t left() const { return bytes_.size(); }
     [[nodiscard]] bool ok() const { return ok_; }
 
@@ -44,6 +60,14 @@ template <typename T> void append(Bytes& bytes, const T& value) {
     const std::size_t at = bytes.size();
     bytes.resize(at + sizeof(T));
     std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+template <typename T> void append_all(Bytes& bytes, const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (!values.empty()) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + values.size() * sizeof(T));
+        std::memcpy(bytes.data() + at, values.data(), values.size() * sizeof(T));
+    }
 }
 
 } // namespace frustumscreen

@@ -26,7 +26,7 @@ public:
     /// How many presents ago the framebuffer held what it holds now; 0 = undefined, 1 = the last picture.
     [[nodiscard]] virtual int buffer_age() const = 0;
     /// The part of the framebuffer that was drawn into since the last present; not told: all of it.
-    virtual void changed(const PixelPlace& /*part*/) {}
+    virtual void changed(const PixelRectangle& /*part*/) {}
     /// Shows what was drawn; the time at which it was (or will be) lit.
     [[nodiscard]] virtual Result<MonotonicTime> present(MonotonicTime now) = 0;
     /// When the frame after the one that began at `now` should begin, for one frame every `period`: on a

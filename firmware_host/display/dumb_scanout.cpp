@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] Result<void> make();
     [[nodiscard]] PixelSize size() const override { return size_; }
-    [[nodiscard]] FramebufferId fill(int which, const PixelPlace& part) override;
+    [[nodiscard]] FramebufferId fill(int which, const PixelRectangle& part) override;
     [[nodiscard]] bool read(int which, std::span<std::byte> rgba) const override;
 
 private:
@@ -96,7 +96,7 @@ DumbScanoutPair::~DumbScanoutPair() {
     }
 }
 
-FramebufferId DumbScanoutPair::fill(int which, const PixelPlace& part) {
+FramebufferId DumbScanoutPair::fill(int which, const PixelRectangle& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     if (const CopyingNow copying(screen_); copying.current()) {
         read_back_->fill(screen_.copy(), screen_.picture(), part, buffer.memory, buffer.stride);

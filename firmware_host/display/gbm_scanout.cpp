@@ -29,7 +29,7 @@ public:
     /// What is missing; nullptr = nothing.
     [[nodiscard]] const char* make();
     [[nodiscard]] PixelSize size() const override { return size_; }
-    [[nodiscard]] FramebufferId fill(int which, const PixelPlace& part) override;
+    [[nodiscard]] FramebufferId fill(int which, const PixelRectangle& part) override;
     [[nodiscard]] bool read(int which, std::span<std::byte> rgba) const override;
 
 private:
@@ -114,7 +114,7 @@ GbmScanoutPair::~GbmScanoutPair() {
 
 /// The picture is drawn to its end (KmsDisplay::present). The kernel shows the copy only when it is drawn
 /// too, on a card that draws itself and on one that does not.
-FramebufferId GbmScanoutPair::fill(int which, const PixelPlace& part) {
+FramebufferId GbmScanoutPair::fill(int which, const PixelRectangle& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     const CopyingNow copying(screen_);
     if (copying.current()) {

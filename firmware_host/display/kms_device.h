@@ -33,7 +33,7 @@ using FramebufferId = std::uint32_t;
 struct ScannedOut {
     FramebufferId framebuffer = 0;
     PixelSize size;
-    PixelPlace place;
+    PixelRectangle place;
 };
 
 struct Flipped {
@@ -70,7 +70,7 @@ public:
     virtual ~ScanoutPair() = default;
     [[nodiscard]] virtual PixelSize size() const = 0;
     /// Copies that part of the picture into framebuffer 0 or 1; done when it returns.
-    [[nodiscard]] virtual FramebufferId fill(int which, const PixelPlace& part) = 0;
+    [[nodiscard]] virtual FramebufferId fill(int which, const PixelRectangle& part) = 0;
     /// The first pixels of its top row, RGBA codes; false: they cannot be read.
     [[nodiscard]] virtual bool read(int /*which*/, std::span<std::byte> /*rgba*/) const { return false; }
 };

@@ -65,10 +65,10 @@ Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
     if (std::optional<CardSeen> seen = watch_.news()) {
         presenter_.connected(std::move(*seen));
     }
-    const PixelPlace told = std::exchange(changed_, {});
+    const PixelRectangle told = std::exchange(changed_, {});
     const std::unique_lock quiet = watch_.quiet();
     Result<MonotonicTime> shown =
-        presenter_.present(told.empty() ? PixelPlace{0, 0, width(), height()} : told, quiet.owns_lock());
+        presenter_.present(told.empty() ? PixelRectangle{0, 0, width(), height()} : told, quiet.owns_lock());
     watch_.set_lit(presenter_.lit());
     return shown;
 }

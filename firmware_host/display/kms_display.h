@@ -32,7 +32,7 @@ public:
     [[nodiscard]] int height() const override { return screen_->picture().height(); }
     [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
-    void changed(const PixelPlace& part) override { changed_ = around(changed_, part); }
+    void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
     /// Waits until the picture is drawn, and for the flip before, at most `flip_patience`.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
@@ -58,8 +58,8 @@ private:
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;
     bool presented_ = false;
-    PixelPlace changed_;   ///< empty: not told
-    ConnectorWatch watch_; ///< last: it asks the card
+    PixelRectangle changed_; ///< empty: not told
+    ConnectorWatch watch_;   ///< last: it asks the card
 };
 
 } // namespace frustumscreen

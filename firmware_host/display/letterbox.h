@@ -1,6 +1,8 @@
-/// Rectangles of pixels, and where a picture goes on a screen of another size: as large as it fits, centred,
+/// Where a picture goes on a screen of another size: as large as it fits, centred,
 /// nothing distorted.
 #pragma once
+
+#include "firmware_host/base/pixel_rectangle.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,36 +15,17 @@ struct PixelSize {
     [[nodiscard]] bool operator==(const PixelSize&) const = default;
 };
 
-struct PixelPlace {
-    int x = 0; ///< of the left column
-    int y = 0; ///< of the first row
-    int width = 0;
-    int height = 0;
-    [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
-    [[nodiscard]] bool operator==(const PixelPlace&) const = default;
-};
-
 /// Of the picture's top row: they bear a code that a watchdog reads and are shown pixel for pixel at the
 /// screen's top left, however the picture is scaled (the same as `probe_pixels` of app/render/probe.h).
 inline constexpr int code_pixels = 8;
 
-/// The smallest one around both; an empty one adds nothing.
-[[nodiscard]] inline PixelPlace around(const PixelPlace& a, const PixelPlace& b) {
-    if (a.empty() || b.empty()) {
-        return a.empty() ? b : a;
-    }
-    const int x = std::min(a.x, b.x);
-    const int y = std::min(a.y, b.y);
-    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 /// Both sizes at least 1 x 1.
-[[nodiscard]] inline PixelPlace letterbox(PixelSize picture, PixelSize screen) {
+[[nodiscard]] inline PixelRectangle letterbox(PixelSize picture, PixelSize screen) {
     const auto scaled = [](int length, int numerator, int denominator) {
         const std::int64_t rounded = (2LL * length * numerator + denominator) / (2LL * denominator);
         return static_cast<int>(std::max<std::int64_t>(rounded, 1));
     };
-    PixelPlace place{0, 0, screen.width, screen.height};
+    PixelRectangle place{0, 0, screen.width, screen.height};
     if (std::int64_t{picture.width} * screen.height >= std::int64_t{screen.width} * picture.height) {
         place.height = std::min(scaled(picture.height, screen.width, picture.width), screen.height);
     } else {
@@ -55,8 +38,8 @@ inline constexpr int code_pixels = 8;
 
 /// The pixels of the screen on which `part` of the picture can be seen, if the picture is at `place`; one
 /// that lies between two pixels of the picture is of both.
-[[nodiscard]] inline PixelPlace part_on_screen(const PixelPlace& part, PixelSize picture,
-                                               const PixelPlace& place) {
+[[nodiscard]] inline PixelRectangle part_on_screen(const PixelRectangle& part, PixelSize picture,
+                                                   const PixelRectangle& place) {
     const auto from = [](int at, int screen, int whole) {
         return static_cast<int>((std::int64_t{at} * screen) / whole);
     };

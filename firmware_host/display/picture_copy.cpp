@@ -79,8 +79,8 @@ PictureCopy::PictureCopy(GlProgram program, GlSampler nearest, GlSampler interpo
 struct PictureCopy::Pass {
     bool exact = true;
     TopRow top = TopRow::First;
-    PixelPlace place;
-    PixelPlace part;
+    PixelRectangle place;
+    PixelRectangle part;
 };
 
 void PictureCopy::draw(const PictureFramebuffer& picture, const Pass& pass) const {
@@ -97,30 +97,30 @@ void PictureCopy::draw(const PictureFramebuffer& picture, const Pass& pass) cons
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-PixelPlace PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
-                             const PixelPlace& part) const {
+PixelRectangle PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
+                                 const PixelRectangle& part) const {
     const PixelSize size{picture.width(), picture.height()};
-    const PixelPlace screen{0, 0, target.width, target.height};
-    const PixelPlace place = letterbox(size, target);
+    const PixelRectangle screen{0, 0, target.width, target.height};
+    const PixelRectangle place = letterbox(size, target);
     const bool same = size == target;
-    PixelPlace drawn = part_on_screen(part, size, place);
-    if (part == PixelPlace{0, 0, size.width, size.height} && !(place == screen)) {
+    PixelRectangle drawn = part_on_screen(part, size, place);
+    if (part == PixelRectangle{0, 0, size.width, size.height} && !(place == screen)) {
         glDisable(GL_SCISSOR_TEST);
         glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         glClear(GL_COLOR_BUFFER_BIT);
         drawn = screen;
     }
-    const auto in_target = [&](const PixelPlace& of) {
+    const auto in_target = [&](const PixelRectangle& of) {
         const int first_row = top == TopRow::First ? of.y : target.height - of.y - of.height;
-        return PixelPlace{of.x, first_row, of.width, of.height};
+        return PixelRectangle{of.x, first_row, of.width, of.height};
     };
     draw(picture, {same, top, in_target(place), in_target(part_on_screen(part, size, place))});
     if (same) {
         return drawn;
     }
-    const PixelPlace code{0, 0, std::min({code_pixels, size.width, target.width}), 1};
+    const PixelRectangle code{0, 0, std::min({code_pixels, size.width, target.width}), 1};
     draw(picture, {true, top, in_target({0, 0, size.width, size.height}), in_target(code)});
-    return around(drawn, code);
+    return united(drawn, code);
 }
 
 } // namespace frustumscreen

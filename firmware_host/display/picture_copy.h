@@ -31,8 +31,8 @@ public:
     /// Into the framebuffer bound, whose colour is 8 bits a channel and holds codes as they are written.
     /// `part`: of the picture, what the framebuffer has not yet; all of it: what lies around it is blackened
     /// too. What was drawn into, row 0 at the top.
-    PixelPlace draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
-                    const PixelPlace& part) const;
+    PixelRectangle draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
+                        const PixelRectangle& part) const;
 
 private:
     struct Pass;

@@ -38,7 +38,7 @@ void Presenter::connected(CardSeen seen) {
     }
 }
 
-Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set) {
+Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may_set) {
     if (seen_.state == CardState::Back) {
         return fail(ErrorKind::DeviceLost,
                     "display: the graphics card is there again; the exhibit must be started anew "
@@ -56,8 +56,8 @@ Result<MonotonicTime> Presenter::present(const PixelPlace& changed, bool may_set
                                     stuck_given_up / std::chrono::seconds(1)));
         }
     }
-    for (PixelPlace& stale : stale_) {
-        stale = around(stale, changed);
+    for (PixelRectangle& stale : stale_) {
+        stale = united(stale, changed);
     }
     while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
         take(*flipped);
@@ -205,7 +205,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
     if (!make_scanout(framebuffer)) {
         return false;
     }
-    const PixelPlace place = letterbox(framebuffer, {mode.width, mode.height});
+    const PixelRectangle place = letterbox(framebuffer, {mode.width, mode.height});
     const KmsAnswer answer = device_.light(connector.id, mode, {fill(), framebuffer, place}, ++ticket_);
     if (answer == KmsAnswer::Done) {
         const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
@@ -259,7 +259,7 @@ bool Presenter::make_scanout(PixelSize size) {
 }
 
 FramebufferId Presenter::fill() {
-    PixelPlace& stale = stale_.at(static_cast<std::size_t>(free_));
+    PixelRectangle& stale = stale_.at(static_cast<std::size_t>(free_));
     return scanout_->fill(free_, std::exchange(stale, {}));
 }
 

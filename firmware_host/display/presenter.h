@@ -39,7 +39,7 @@ public:
     /// Shows the picture, where there is a projector: the time at which it flips, else now. `changed`: of the
     /// picture, since the call before. `may_set`: this is a good moment to set a mode, because nobody else is
     /// asking the card.
-    [[nodiscard]] Result<MonotonicTime> present(const PixelPlace& changed, bool may_set);
+    [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
     /// The first picture is shown, or it is known that no projector takes one now.
@@ -94,7 +94,7 @@ private:
     CardSeen seen_;
     std::unique_ptr<ScanoutPair> scanout_;
     std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown
-    std::array<PixelPlace, 2> stale_{};         ///< of the picture, what each framebuffer has not yet
+    std::array<PixelRectangle, 2> stale_{};     ///< of the picture, what each framebuffer has not yet
     std::optional<Lit> lit_;
     std::optional<Queued> queued_;
     FlipClock clock_;

@@ -30,10 +30,10 @@ ReadBack::ReadBack(PixelSize screen) : screen_(screen) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.get());
 }
 
-void ReadBack::fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelPlace& part,
+void ReadBack::fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelRectangle& part,
                     std::span<std::byte> memory, std::size_t stride) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    const PixelPlace drawn = copy.draw(picture, screen_, TopRow::First, part);
+    const PixelRectangle drawn = copy.draw(picture, screen_, TopRow::First, part);
     if (drawn.empty()) {
         return;
     }

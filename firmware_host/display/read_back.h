@@ -23,7 +23,7 @@ public:
     [[nodiscard]] static Result<ReadBack> create(PixelSize screen);
 
     /// Writes into `memory` what it has not yet: `part` of the picture.
-    void fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelPlace& part,
+    void fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelRectangle& part,
               std::span<std::byte> memory, std::size_t stride) const;
 
 private:

@@ -1,5 +1,7 @@
 #include "firmware_host/tracker/text_rows.h"
 
+#include "firmware_host/base/printable.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -79,12 +81,7 @@ std::optional<std::int64_t> integer_in(std::string_view field) {
 }
 
 std::string quoted(std::string_view field) {
-    constexpr std::size_t longest = 30;
-    std::string result = "\"";
-    for (const char c : field.substr(0, longest)) {
-        result += c >= 0x20 && c < 0x7f ? c : '?';
-    }
-    return result + (field.size() > longest ? "...\"" : "\"");
+    return '"' + printable(field, 30) + '"';
 }
 
 } // namespace frustumscreen

@@ -143,7 +143,7 @@ std::optional<glm::dvec2> SdlWindow::on_table(int x, int y) const {
     PixelSize window;
     SDL_GetWindowSize(window_, &window.width, &window.height);
     window = {std::max(window.width, 1), std::max(window.height, 1)};
-    const PixelPlace place = letterbox({set_up_.width, set_up_.height}, window);
+    const PixelRectangle place = letterbox({set_up_.width, set_up_.height}, window);
     return set_up_.table_from_picture({(x + 0.5 - place.x) * set_up_.width / place.width,
                                        (y + 0.5 - place.y) * set_up_.height / place.height});
 }

@@ -60,9 +60,7 @@ TEST(BoxFrame, ExtremesGiveTheSameScaleAsAllPoints) {
         }
         const std::vector<glm::dvec3> extremes = profile_extremes(points);
         EXPECT_LT(extremes.size(), points.size() / 2);
-        for (const PropSize& size : {PropSize{}, PropSize{PropKind::Frustum, 0.2, 0.05, 0.3},
-                                     PropSize{PropKind::Cube, 0.12, 0.12, 0.12}}) {
-            const PropShape prop = make_prop(size);
+        for (const PropShape& prop : {make_frustum({}), make_frustum({0.2, 0.05, 0.3}), make_cube(0.12)}) {
             const double all = largest_scale_inside(prop, points);
             EXPECT_NEAR(largest_scale_inside(prop, extremes), all, 1e-12 * all);
         }

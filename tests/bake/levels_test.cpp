@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace frustumscreen {
@@ -108,6 +110,31 @@ TEST(Levels, AConeCulledClusterFacesAwayFromTheEye) {
         }
     }
     EXPECT_GT(culled, 1000);
+}
+
+TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
+    SourceMesh mesh = test::empty_mesh();
+    test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 64);
+    for (glm::dvec3& position : mesh.positions) {
+        position.z = std::max(position.z, 0.2); // a flat bottom
+    }
+    const auto looking_down = [&](const BakedProp& prop) {
+        BakeOptions options = quick();
+        options.prop = prop;
+        options.up = "z";
+        const Pack pack = bake(mesh, options).value();
+        EXPECT_EQ(pack.prop_kind, prop.kind);
+        const TriangleMesh surface = surface_of(pack.levels.back(), pack.box_size);
+        double area = 0.0;
+        for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+            const glm::vec3 normal = surface.area_normal(t);
+            area += normal.z < -0.999F * glm::length(normal) ? -0.5 * normal.z : 0.0;
+        }
+        return area;
+    };
+    constexpr double bottom = std::numbers::pi * (0.5 * 0.5 - 0.3 * 0.3);
+    EXPECT_NEAR(looking_down(baked_cube()), bottom, 0.02 * bottom);
+    EXPECT_LT(looking_down(baked_frustum()), 0.2 * bottom); // a rim of it
 }
 
 TEST(Levels, TheFrontFallsInErrorAsItGrowsInCost) {

@@ -29,7 +29,7 @@ protected:
     }
 
     std::unique_ptr<SurfacelessDisplay> display_ = SurfacelessDisplay::create(640, 400).value();
-    Stage stage_{near_settings(), make_prop({}), display_->framebuffer()};
+    Stage stage_{near_settings(), make_frustum({}), display_->framebuffer()};
 };
 
 } // namespace frustumscreen

@@ -88,14 +88,6 @@ TEST(Measure, PixelsAtThePicturesEdgeAreOutline) {
     EXPECT_EQ(error.outline_pixels, 20);
 }
 
-TEST(Measure, QuantilesAreValuesOfTheSample) {
-    EXPECT_EQ(quantile({}, 0.5), 0.0);
-    EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
-    EXPECT_EQ(quantile({4.0, 3.0, 1.0, 2.0}, 0.5), 2.0);
-    EXPECT_EQ(quantile({4.0, 3.0, 1.0, 2.0}, 1.0), 4.0);
-    EXPECT_EQ(quantile({4.0, 3.0, 1.0, 2.0}, 0.0), 1.0);
-}
-
 TEST(Measure, ASummaryHasTheMeanAndEachFiguresWorst) {
     PictureError a;
     a.silhouette_percent = 1.0;

@@ -53,7 +53,7 @@ std::shared_ptr<SourceMesh> ball() {
 
 TEST(Projection, TheVisitorsRayCastMeetsABallWhereAlgebraSaysSo) {
     const BenchPose pose = pose_at(0.03, 0.02, 0.8);
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const VisitorScene scene = scene_of(near_settings(), prop, pose);
     const auto truth = Truth::build(ball(), glm::dmat4(1.0));
     ASSERT_TRUE(truth) << truth.error().message;
@@ -96,7 +96,7 @@ TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
 }
 
 TEST(Projection, NoPixelOfTheVisitorsPictureIsFinerThanTheProjectors) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     for (const double yaw : {0.0, 0.4, 0.785}) {
         const VisitorScene scene = scene_of(near_settings(), prop, pose_at(0.05, -0.04, yaw));
         const VisitorCamera camera = no_finer_camera(scene);
@@ -118,7 +118,7 @@ class ProjectedRing : public ::testing::Test {
 protected:
     [[nodiscard]] static double right_percent(const BenchPose& drawn, const BenchPose& stands) {
         auto display = SurfacelessDisplay::create(640, 400);
-        const Stage stage{near_settings(), make_prop({}), (*display)->framebuffer()};
+        const Stage stage{near_settings(), make_frustum({}), (*display)->framebuffer()};
         auto mesh = std::make_shared<SourceMesh>(*ring());
         auto peer = PeerMesh::upload(*mesh, glm::dmat4(1.0));
         auto full = make_full_mesh(stage, *peer);

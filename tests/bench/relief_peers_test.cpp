@@ -29,7 +29,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
     ASSERT_TRUE(truth);
     constexpr int texels = 64;
     const ReliefImages images =
-        cast_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_prop({}), texels);
+        cast_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_frustum({}), texels);
     ASSERT_EQ(images.images.size(), 5U);
     const glm::dvec3 size = images.box.high - images.box.low;
     int hits = 0;
@@ -68,7 +68,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
 }
 
 TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const Box box{{-0.02, -0.03, 0.01}, {0.03, 0.01, 0.09}};
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> random(0.0, 1.0);

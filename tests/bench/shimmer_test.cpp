@@ -72,7 +72,7 @@ TEST(Shimmer, ASpeckleIsAnExcessAndAnEdgeBesideTheTruthsIsNot) {
 
 TEST(Shimmer, EachStepMovesThePropsMiddleByATenthOfAPixel) {
     const Settings settings = near_settings();
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     for (const PushDirection direction : {PushDirection::Row, PushDirection::Column}) {
         const ShimmerSequence sequence(settings, prop, pose_at(0.04, -0.02, 0.7), direction, 20);
         ASSERT_EQ(sequence.poses().size(), 21U);
@@ -104,7 +104,7 @@ protected:
     }
 
     Settings settings_ = near_settings();
-    PropShape prop_ = make_prop({});
+    PropShape prop_ = make_frustum({});
     std::optional<Truth> truth_;
     std::optional<ShimmerSequence> sequence_;
 };

@@ -170,7 +170,7 @@ const std::array<glm::dvec3, 4> eyes = {glm::dvec3(0.5, -0.4, 0.4), glm::dvec3(-
                                         glm::dvec3(0.02, 0.01, 0.5), glm::dvec3(-0.9, 0.2, 0.25)};
 
 TEST(Truth, EqualsABruteForceCastInDouble) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     int hits = 0;
     int judged = 0;
     for (std::size_t k = 0; k < eyes.size(); ++k) {
@@ -213,7 +213,7 @@ TEST(Truth, EqualsABruteForceCastInDouble) {
 }
 
 TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const auto mesh = random_mesh(11);
     const auto truth = Truth::build(mesh, into_prop());
     ASSERT_TRUE(truth);
@@ -252,7 +252,7 @@ TEST(Truth, TheRayGoesOnBehindTheProp) {
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));
     ASSERT_TRUE(truth);
     const TruthView view = view_from({0.0, -0.6, 0.2});
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const TruthPicture picture = truth->cast(prop, view, false);
     int seen = 0;
     for (int y = 0; y < 48; ++y) {
@@ -270,7 +270,7 @@ TEST(Truth, TheRayGoesOnBehindTheProp) {
 TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
     // The same mesh in a file's frame a thousand times larger and far off: 64-bit set-up gives the same
     // picture.
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const auto mesh = random_mesh(5);
     auto moved = std::make_shared<SourceMesh>(*mesh);
     for (glm::dvec3& position : moved->positions) {

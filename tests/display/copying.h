@@ -82,13 +82,13 @@ protected:
         return picture;
     }
     std::vector<Texel> copied(const PictureFramebuffer& picture, PixelSize size, TopRow top,
-                              std::optional<PixelPlace> part = std::nullopt) {
+                              std::optional<PixelRectangle> part = std::nullopt) {
         EXPECT_TRUE(copying_->make_current());
         std::vector<Texel> texels;
         {
             const Screen screen(size);
             drawn_ = copy_->draw(picture, size, top,
-                                 part.value_or(PixelPlace{0, 0, picture.width(), picture.height()}));
+                                 part.value_or(PixelRectangle{0, 0, picture.width(), picture.height()}));
             EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
             texels = screen.read();
         }
@@ -99,7 +99,7 @@ protected:
     Result<EglContext> drawing_;
     std::optional<EglContext> copying_;
     std::optional<PictureCopy> copy_;
-    PixelPlace drawn_; ///< as the last copy told it
+    PixelRectangle drawn_; ///< as the last copy told it
 };
 
 } // namespace frustumscreen

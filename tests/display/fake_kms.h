@@ -41,12 +41,12 @@ public:
         ModeTiming mode;
         FramebufferId framebuffer = 0;
         PixelSize size;
-        PixelPlace place;
+        PixelRectangle place;
     };
 
     KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                     std::uint64_t ticket) override {
-        if (!scales && !(shown.place == PixelPlace{0, 0, shown.size.width, shown.size.height})) {
+        if (!scales && !(shown.place == PixelRectangle{0, 0, shown.size.width, shown.size.height})) {
             ++scalings_refused;
             return KmsAnswer::Refused;
         }
@@ -62,7 +62,7 @@ public:
         if (gone || !master || !screen) {
             return gone ? KmsAnswer::Gone : !master ? KmsAnswer::NotMaster : KmsAnswer::Refused;
         }
-        const bool scaled = !(screen->place == PixelPlace{0, 0, screen->size.width, screen->size.height});
+        const bool scaled = !(screen->place == PixelRectangle{0, 0, screen->size.width, screen->size.height});
         if (std::find(no_flips.begin(), no_flips.end(), screen->mode) != no_flips.end() ||
             (no_scaled_flips && scaled)) {
             return KmsAnswer::Refused;
@@ -163,7 +163,7 @@ struct FakeMemory {
     int pairs = 0;
     int alive = 0;
     int fills = 0;
-    PixelPlace filled; ///< the last time
+    PixelRectangle filled; ///< the last time
     bool none_left = false;
 
     class Pair final : public ScanoutPair {
@@ -175,7 +175,7 @@ struct FakeMemory {
         Pair(const Pair&) = delete;
         Pair& operator=(const Pair&) = delete;
         PixelSize size() const override { return size_; }
-        FramebufferId fill(int which, const PixelPlace& part) override {
+        FramebufferId fill(int which, const PixelRectangle& part) override {
             ++memory_.fills;
             memory_.filled = part;
             return name(which);

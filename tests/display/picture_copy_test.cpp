@@ -54,12 +54,12 @@ TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
         const auto code = static_cast<unsigned char>(y > 0 || x >= code_pixels ? 250 : x % 3 == 0 ? 2 : 1);
         return Texel{code, code, code, 255};
     });
-    const PixelPlace away{30, 20, 5, 5};
-    const PixelPlace whole{0, 0, 64, 40};
+    const PixelRectangle away{30, 20, 5, 5};
+    const PixelRectangle whole{0, 0, 64, 40};
     // Bars above, bars at the sides, none, smaller than the picture, and as it is.
     for (const PixelSize size : {PixelSize{128, 100}, {200, 80}, {128, 80}, {32, 20}, {64, 40}, {5, 30}}) {
         for (const TopRow top : {TopRow::First, TopRow::Last}) {
-            for (const PixelPlace& part : {whole, away}) {
+            for (const PixelRectangle& part : {whole, away}) {
                 const std::vector<Texel> screen = copied(picture, size, top, part);
                 const int row = top == TopRow::First ? 0 : size.height - 1;
                 const bool there = part == whole || !(size == PixelSize{64, 40});
@@ -82,17 +82,17 @@ TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
     for (const PixelSize size : {PixelSize{64, 40}, {128, 100}, {50, 30}}) {
         for (const TopRow top : {TopRow::First, TopRow::Last}) {
             const std::vector<Texel> whole = copied(picture, size, top);
-            const PixelPlace part{10, 4, 20, 16};
+            const PixelRectangle part{10, 4, 20, 16};
             const std::vector<Texel> some = copied(picture, size, top, part);
-            const PixelPlace place = letterbox({64, 40}, size);
-            const PixelPlace there = part_on_screen(part, {64, 40}, place);
-            const PixelPlace code{0, 0, size == PixelSize{64, 40} ? 0 : code_pixels, 1};
-            EXPECT_EQ(drawn_, code.empty() ? there : around(there, code));
+            const PixelRectangle place = letterbox({64, 40}, size);
+            const PixelRectangle there = part_on_screen(part, {64, 40}, place);
+            const PixelRectangle code{0, 0, size == PixelSize{64, 40} ? 0 : code_pixels, 1};
+            EXPECT_EQ(drawn_, code.empty() ? there : united(there, code));
             int inside = 0;
             for (int row = 0; row < size.height; ++row) {
                 const int y = top == TopRow::First ? row : size.height - 1 - row;
                 for (int x = 0; x < size.width; ++x) {
-                    const auto lies_in = [x, y](const PixelPlace& area) {
+                    const auto lies_in = [x, y](const PixelRectangle& area) {
                         return x >= area.x && x < area.x + area.width && y >= area.y &&
                                y < area.y + area.height;
                     };
@@ -140,13 +140,13 @@ TEST_F(Copying, LeavesTheRenderersStateAlone) {
 }
 
 TEST(Letterbox, IsAsLargeAsItFitsAndCentred) {
-    EXPECT_EQ(letterbox({1280, 800}, {1280, 800}), (PixelPlace{0, 0, 1280, 800}));
-    EXPECT_EQ(letterbox({1280, 800}, {1920, 1080}), (PixelPlace{96, 0, 1728, 1080}));
-    EXPECT_EQ(letterbox({1280, 800}, {1024, 768}), (PixelPlace{0, 64, 1024, 640}));
-    EXPECT_EQ(letterbox({8192, 1}, {64, 8192}), (PixelPlace{0, 4095, 64, 1}));
+    EXPECT_EQ(letterbox({1280, 800}, {1280, 800}), (PixelRectangle{0, 0, 1280, 800}));
+    EXPECT_EQ(letterbox({1280, 800}, {1920, 1080}), (PixelRectangle{96, 0, 1728, 1080}));
+    EXPECT_EQ(letterbox({1280, 800}, {1024, 768}), (PixelRectangle{0, 64, 1024, 640}));
+    EXPECT_EQ(letterbox({8192, 1}, {64, 8192}), (PixelRectangle{0, 4095, 64, 1}));
     for (int width = 1; width < 60; ++width) {
         for (int height = 1; height < 60; ++height) {
-            const PixelPlace place = letterbox({width, height}, {48, 30});
+            const PixelRectangle place = letterbox({width, height}, {48, 30});
             EXPECT_TRUE(place.width == 48 || place.height == 30);
             EXPECT_TRUE(place.x >= 0 && place.y >= 0 && place.x + place.width <= 48 &&
                         place.y + place.height <= 30);

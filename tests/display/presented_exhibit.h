@@ -24,7 +24,7 @@ public:
         : presenter(kms, memory.maker(), wish) {}
 
     /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.
-    MonotonicTime frame(const PixelPlace& changed = {0, 0, 1280, 800}) {
+    MonotonicTime frame(const PixelRectangle& changed = {0, 0, 1280, 800}) {
         const MonotonicTime begin = kms.time;
         kms.time += std::chrono::milliseconds(5);
         const MonotonicTime called = kms.time;

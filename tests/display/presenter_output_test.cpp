@@ -11,17 +11,17 @@ TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
     projector.modes = {a_mode(1920, 1080, 60.0, true)};
     exhibit.presenter.connected(a_card({projector}));
     exhibit.frame({10, 20, 30, 40});
-    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{0, 0, 1280, 800}));
+    EXPECT_EQ(exhibit.memory.filled, (PixelRectangle{0, 0, 1280, 800}));
     exhibit.frames(5);
     ASSERT_TRUE(exhibit.kms.screen);
     EXPECT_EQ(exhibit.kms.screen->mode.width, 1920);
     EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{1280, 800})) << "memory of the picture's size";
-    EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{96, 0, 1728, 1080})) << "black at the sides";
+    EXPECT_EQ(exhibit.kms.screen->place, (PixelRectangle{96, 0, 1728, 1080})) << "black at the sides";
     EXPECT_EQ(exhibit.memory.pairs, 1);
     projector.modes = {a_mode(1024, 768, 60.0, true)};
     exhibit.presenter.connected(a_card({projector}));
     exhibit.frames(5);
-    EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{0, 64, 1024, 640}));
+    EXPECT_EQ(exhibit.kms.screen->place, (PixelRectangle{0, 64, 1024, 640}));
     EXPECT_EQ(exhibit.memory.pairs, 1) << "another mode needs no new memory";
 }
 
@@ -34,7 +34,7 @@ TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
         exhibit.frames(5);
         ASSERT_TRUE(exhibit.kms.screen);
         EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{width, 1080}));
-        EXPECT_EQ(exhibit.kms.screen->place, (PixelPlace{0, 0, width, 1080}));
+        EXPECT_EQ(exhibit.kms.screen->place, (PixelRectangle{0, 0, width, 1080}));
         EXPECT_EQ(exhibit.memory.alive, 1);
     }
     EXPECT_EQ(exhibit.kms.scalings_refused, 1);

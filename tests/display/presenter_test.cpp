@@ -49,7 +49,7 @@ TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
 
 TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
     Exhibit exhibit;
-    const PixelPlace whole{0, 0, 1280, 800};
+    const PixelRectangle whole{0, 0, 1280, 800};
     exhibit.frame({5, 5, 1, 1}); // in the dark
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame({10, 10, 1, 1});
@@ -57,12 +57,12 @@ TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
     exhibit.frame({20, 20, 1, 1});
     EXPECT_EQ(exhibit.memory.filled, whole) << "the other one is new too";
     exhibit.frame({30, 40, 5, 6});
-    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{20, 20, 15, 26}))
+    EXPECT_EQ(exhibit.memory.filled, (PixelRectangle{20, 20, 15, 26}))
         << "what changed for the one before and now";
     exhibit.frame({100, 100, 1, 1});
-    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{30, 40, 71, 61}));
+    EXPECT_EQ(exhibit.memory.filled, (PixelRectangle{30, 40, 71, 61}));
     exhibit.frame({});
-    EXPECT_EQ(exhibit.memory.filled, (PixelPlace{100, 100, 1, 1}));
+    EXPECT_EQ(exhibit.memory.filled, (PixelRectangle{100, 100, 1, 1}));
     ConnectorSeen other = a_projector();
     other.modes = {a_mode(1920, 1080, 60.0, true)};
     exhibit.presenter.connected(a_card({other}));

@@ -21,7 +21,7 @@ RigidTransform standing(double x, double y, double yaw) {
 }
 
 struct Table {
-    PropShape prop = make_prop({});
+    PropShape prop = make_frustum({});
     CaptionPlacer placer;
     glm::dvec3 lens_m = lens;
 
@@ -55,7 +55,7 @@ TEST(Captions, TheShadowHoldsExactlyTheTablePointsWhoseRayMeetsTheProp) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> x(-0.3, 0.3);
     std::uniform_real_distribution<double> turn(-3.2, 3.2);
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     for (int k = 0; k < 200; ++k) {
         const RigidTransform pose = standing(x(random), x(random), turn(random));
         const auto shadow = hidden_by_prop(prop, pose, lens);

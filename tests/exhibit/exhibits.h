@@ -12,7 +12,7 @@ inline const MonotonicTime start{std::chrono::seconds(100)};
 
 inline ExhibitPlace place() {
     ExhibitPlace place;
-    place.prop = make_prop({});
+    place.prop = make_frustum({});
     place.lens_m = {0.0, 0.3, 1.4};
     place.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
     return place;

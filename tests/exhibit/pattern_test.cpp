@@ -10,7 +10,7 @@ PatternScene shipped() {
     return {{1280, 800, 1920.0, 1920.0, 640.0, 400.0},
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
             {0.8, 0.5},
-            make_prop({})};
+            make_frustum({})};
 }
 
 TEST(Pattern, TheOutermostPixelsAreWhiteAndTheNextOnesMostlyBlack) {

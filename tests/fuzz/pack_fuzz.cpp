@@ -34,7 +34,7 @@ void require_usable(const Pack& pack, const PackLevel& level) {
 
 void require_usable(const Pack& pack) {
     fuzz::require(pack.default_level < pack.levels.size(), "the default level is there");
-    const Placement placement = place(pack, make_prop({}));
+    const Placement placement = place(pack, make_frustum({}));
     fuzz::require(placement.metres_per_box > 0.0 && std::isfinite(placement.metres_per_box), "it has a size");
     for (int column = 0; column < 4; ++column) {
         fuzz::require(fuzz::is_finite(placement.prop_from_artifact[column]), "it has a place");

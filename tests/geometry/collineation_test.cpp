@@ -87,7 +87,7 @@ RigidTransform random_projector(Random& random, double scale) {
 }
 
 Case random_case(Random& random, double eye_distance, double scale) {
-    PropSize size = random.prop();
+    FrustumSize size = random.prop();
     size.base_m *= scale;
     size.top_m *= scale;
     size.height_m *= scale;
@@ -103,7 +103,7 @@ Case random_case(Random& random, double eye_distance, double scale) {
     const glm::dvec3 eye = direction * eye_distance * scale + glm::dvec3(0, 0, size.height_m / 2);
     const double reach = size.base_m * random.between(0.1, 0.5);
     return {
-        make_prop(size),
+        make_frustum(size),
         eye,
         PlainProjector(pinhole, projector_from_prop),
         clip_of(pinhole, projector_from_prop),

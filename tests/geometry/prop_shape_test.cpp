@@ -10,11 +10,11 @@ namespace frustumscreen {
 namespace {
 
 /// Half the side of the prop's square section at height z.
-double half_at(const PropSize& size, double z) {
+double half_at(const FrustumSize& size, double z) {
     return (size.base_m + (size.top_m - size.base_m) * z / size.height_m) / 2.0;
 }
 
-bool inside(const PropSize& size, const glm::dvec3& p, double margin = 0.0) {
+bool inside(const FrustumSize& size, const glm::dvec3& p, double margin = 0.0) {
     const double half = half_at(size, p.z) + margin;
     return p.z >= -margin && p.z <= size.height_m + margin && std::abs(p.x) <= half && std::abs(p.y) <= half;
 }
@@ -22,11 +22,12 @@ bool inside(const PropSize& size, const glm::dvec3& p, double margin = 0.0) {
 TEST(PropShape, FacesLookOutwardsInTheOrderOfTheHeader) {
     Random random(21);
     for (int k = 0; k < 200; ++k) {
-        const PropSize size = random.prop();
-        const PropShape prop = make_prop(size);
+        const FrustumSize size = random.prop();
+        const PropShape prop = make_frustum(size);
         ASSERT_EQ(prop.faces.size(), 5U);
         const std::array<glm::dvec3, 5> expected{
             glm::dvec3(1, 0, 0), {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+        const std::array<std::string_view, 5> names{"+X", "-X", "+Y", "-Y", "+Z"};
         const double rise = (size.base_m - size.top_m) / 2.0 / size.height_m;
         for (std::size_t f = 0; f < 5; ++f) {
             const Plane& plane = prop.faces[f].plane;
@@ -35,6 +36,7 @@ TEST(PropShape, FacesLookOutwardsInTheOrderOfTheHeader) {
             EXPECT_LT(glm::distance(plane.normal, normal), 1e-12);
             EXPECT_LT(plane.distance({0, 0, size.height_m / 2}), 0.0);
             EXPECT_EQ(prop.bounds[f].normal, plane.normal);
+            EXPECT_EQ(prop.faces[f].name, names[f]);
         }
         EXPECT_EQ(prop.bounds.back().normal, glm::dvec3(0, 0, -1));
     }
@@ -43,8 +45,8 @@ TEST(PropShape, FacesLookOutwardsInTheOrderOfTheHeader) {
 TEST(PropShape, CornersLieOnThePlaneAndOnTheSolidCounterClockwise) {
     Random random(22);
     for (int k = 0; k < 200; ++k) {
-        const PropSize size = random.prop();
-        for (const PropFace& face : make_prop(size).faces) {
+        const FrustumSize size = random.prop();
+        for (const PropFace& face : make_frustum(size).faces) {
             glm::dvec3 area(0.0);
             for (std::size_t c = 0; c < 4; ++c) {
                 const glm::dvec3& corner = face.corners[c];
@@ -59,11 +61,41 @@ TEST(PropShape, CornersLieOnThePlaneAndOnTheSolidCounterClockwise) {
 }
 
 TEST(PropShape, ACubeIsAsWideAtTheTopAsAtTheBottom) {
-    const PropShape cube = make_prop({PropKind::Cube, 0.1, 0.02, 0.1});
+    const PropShape cube = make_cube(0.1);
     EXPECT_EQ(cube.faces[0].plane.normal, glm::dvec3(1, 0, 0));
     EXPECT_EQ(cube.faces[4].corners[2], glm::dvec3(0.05, 0.05, 0.1));
-    EXPECT_EQ(name_of(PropKind::Cube), "cube");
-    EXPECT_EQ(name_of(PropKind::Frustum), "frustum");
+}
+
+TEST(PropShape, ACubesSixFacesBoundIt) {
+    const PropShape cube = make_cube(0.1);
+    ASSERT_EQ(cube.faces.size(), 6U);
+    ASSERT_EQ(cube.bounds.size(), 6U);
+    glm::dvec3 sum(0.0);
+    for (const PropFace& face : cube.faces) {
+        const std::size_t axis = face.name[1] - std::size_t{'X'};
+        const double sign = face.name[0] == '+' ? 1.0 : -1.0;
+        glm::dvec3 normal(0.0);
+        normal[static_cast<glm::length_t>(axis)] = sign;
+        EXPECT_EQ(face.plane.normal, normal) << face.name;
+        EXPECT_NEAR(face.plane.distance(cube.middle), -0.05, 1e-15) << face.name;
+        for (const glm::dvec3& corner : face.corners) {
+            EXPECT_NEAR(face.plane.distance(corner), 0.0, 1e-15) << face.name;
+            sum += corner - cube.middle;
+        }
+    }
+    EXPECT_LT(glm::length(sum), 1e-15);
+    PropHit hit;
+    ASSERT_TRUE(intersect(cube, {0.01, 0.02, -1.0}, {0.0, 0.0, 1.0}, hit));
+    EXPECT_EQ(cube.faces[static_cast<std::size_t>(hit.face)].name, "-Z");
+    EXPECT_EQ(hit.t, 1.0);
+}
+
+TEST(PropShape, AFrustumIsEnteredByItsBottomButNotLitThere) {
+    const PropShape prop = make_frustum({});
+    PropHit hit;
+    ASSERT_TRUE(enter(prop, {0, 0, -1}, {0, 0, 1}, hit));
+    EXPECT_EQ(prop.bounds[static_cast<std::size_t>(hit.face)].normal, glm::dvec3(0, 0, -1));
+    EXPECT_FALSE(intersect(prop, {0, 0, -1}, {0, 0, 1}, hit));
 }
 
 /// Where a ray enters, found by walking along it: first point inside, refined by halving.
@@ -71,7 +103,7 @@ struct Walked {
     bool enters = false;
     glm::dvec3 at{0.0};
 };
-Walked walk(const PropSize& size, const glm::dvec3& origin, const glm::dvec3& direction, double length) {
+Walked walk(const FrustumSize& size, const glm::dvec3& origin, const glm::dvec3& direction, double length) {
     constexpr int steps = 4000;
     for (int k = 1; k <= steps; ++k) {
         if (inside(size, origin + direction * (length * k / steps))) {
@@ -91,8 +123,8 @@ TEST(PropShape, RaysEnterWhereAWalkAlongThemEnters) {
     Random random(23);
     int hits = 0;
     for (int k = 0; k < 3000; ++k) {
-        const PropSize size = random.prop();
-        const PropShape prop = make_prop(size);
+        const FrustumSize size = random.prop();
+        const PropShape prop = make_frustum(size);
         const glm::dvec3 origin = random.direction() * random.between(1.0, 3.0) + glm::dvec3(0, 0, 0.2);
         const glm::dvec3 aim(random.between(-0.4, 0.4) * size.base_m, random.between(-0.4, 0.4) * size.base_m,
                              random.between(0.0, 1.0) * size.height_m);
@@ -121,7 +153,7 @@ TEST(PropShape, RaysEnterWhereAWalkAlongThemEnters) {
 }
 
 TEST(PropShape, RaysAwayBesideFromInsideAndThroughTheBottomMiss) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     PropHit hit;
     EXPECT_FALSE(intersect(prop, {0, 0, 1}, {0, 0, 1}, hit));
     EXPECT_FALSE(intersect(prop, {0.2, 0, 1}, {0, 0, -1}, hit)); // along a plane's normal, beside it
@@ -137,8 +169,8 @@ TEST(PropShape, RaysAwayBesideFromInsideAndThroughTheBottomMiss) {
 TEST(PropShape, TheLargestScaleTouchesAndFits) {
     Random random(24);
     for (int k = 0; k < 500; ++k) {
-        const PropSize size = random.prop();
-        const PropShape prop = make_prop(size);
+        const FrustumSize size = random.prop();
+        const PropShape prop = make_frustum(size);
         const double unit = random.scale(1e-3, 1e3);
         std::vector<glm::dvec3> points{{0, 0, 0}, {0.3 * unit, 0, 0}};
         for (int p = 0; p < 50; ++p) {
@@ -156,7 +188,7 @@ TEST(PropShape, TheLargestScaleTouchesAndFits) {
 }
 
 TEST(PropShape, TheLargestScaleOfNothingOrOfOnePointOnTheBottomIsInfinite) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     EXPECT_EQ(largest_scale_inside(prop, {}), std::numeric_limits<double>::infinity());
     const std::vector<glm::dvec3> origin{{0, 0, 0}};
     EXPECT_EQ(largest_scale_inside(prop, origin), std::numeric_limits<double>::infinity());

@@ -35,9 +35,9 @@ public:
             }
         }
     }
-    PropSize prop() {
+    FrustumSize prop() {
         const double base = between(0.05, 0.5);
-        return {PropKind::Frustum, base, base * between(0.05, 0.95), between(0.05, 0.5)};
+        return {base, base * between(0.05, 0.95), between(0.05, 0.5)};
     }
 
 private:

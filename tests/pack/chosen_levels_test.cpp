@@ -43,8 +43,7 @@ TEST(ChosenLevels, are_chosen_from_the_whole_outline) {
                 EXPECT_EQ(outline.levels[k].triangles, pack.levels[k].indices.size() / 3);
                 EXPECT_EQ(outline.levels[k].vertices, pack.levels[k].vertices.size());
             }
-            EXPECT_EQ(outline.description.captions.size(), pack.captions.size());
-            EXPECT_TRUE(outline.description.textures.empty());
+            EXPECT_TRUE(outline.description == pack);
             return std::vector<std::uint32_t>{};
         });
     EXPECT_TRUE(read);

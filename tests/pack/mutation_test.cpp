@@ -43,7 +43,7 @@ void mutate(Bytes& bytes, std::mt19937& random) {
 void expect_usable(const Pack& pack) {
     ASSERT_FALSE(pack.levels.empty());
     ASSERT_LT(pack.default_level, pack.levels.size());
-    const Placement placement = place(pack, make_prop({}));
+    const Placement placement = place(pack, make_frustum({}));
     ASSERT_TRUE(placement.metres_per_box > 0.05 && placement.metres_per_box < 0.3)
         << placement.metres_per_box;
     for (const PackLevel& level : pack.levels) {

@@ -83,24 +83,24 @@ TEST_F(Program, list_gives_errors_in_millimetres_on_the_default_prop) {
     EXPECT_EQ(json["languages"], nlohmann::json({"en", "pt-BR"}));
     EXPECT_EQ(json["levels"][0]["triangles"], 3);
     EXPECT_EQ(json["parts"].size(), 7U);
-    const double mm_per_box = place(samples::pack(), make_prop({})).metres_per_box * 1000.0;
+    const double mm_per_box = place(samples::pack(), make_frustum({})).metres_per_box * 1000.0;
     EXPECT_NEAR(json["levels"][1]["error"]["p95_mm"].get<double>(), 0.002 * mm_per_box, 1e-6);
 }
 
 TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
     const Pack pack = samples::pack();
-    const auto expect_matrix = [&](const std::string& options, const PropSize& prop) {
+    const auto expect_matrix = [&](const std::string& options, const PropShape& prop) {
         const Outcome outcome = pack_program("explain good.fspack --json " + options);
         ASSERT_EQ(outcome.status, 0) << outcome.error;
         const auto json = nlohmann::json::parse(outcome.out);
         const auto matrix = json["prop_from_artifact"].get<std::vector<double>>();
         ASSERT_EQ(matrix.size(), 16U);
-        const glm::dmat4 expected = place(pack, make_prop(prop)).prop_from_artifact;
+        const glm::dmat4 expected = place(pack, prop).prop_from_artifact;
         for (int k = 0; k < 16; ++k) {
             EXPECT_EQ(matrix[static_cast<std::size_t>(k)], expected[k / 4][k % 4]) << k;
         }
     };
-    expect_matrix("", PropSize{});
+    expect_matrix("", make_frustum({}));
     ASSERT_TRUE(write_file("cube.toml", as_bytes("[prop]\nkind = \"cube\"\nbase_m = 0.1\nheight_m = 0.1\n")));
-    expect_matrix("--config cube.toml", PropSize{PropKind::Cube, 0.1, 0.1, 0.1});
+    expect_matrix("--config cube.toml", make_cube(0.1));
 }

@@ -27,7 +27,7 @@ namespace frustumscreen::synthetic {
 
 struct Rig {
     Pack pack;
-    PropShape prop = make_prop({});
+    PropShape prop = make_frustum({});
     std::unique_ptr<SurfacelessDisplay> display;
     std::optional<Renderer> renderer;
     std::optional<HitPointRenderer> hit_points;

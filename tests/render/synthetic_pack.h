@@ -125,7 +125,7 @@ inline double metres_per_box(const Pack& pack, const PropShape& prop) {
 /// A projector above the table that looks straight down; near: the prop covers about a quarter of the
 /// picture.
 struct Stage {
-    PropShape prop = make_prop({});
+    PropShape prop = make_frustum({});
     Pinhole projector;
     RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 0.9}};
     RigidTransform table_from_prop;

@@ -11,7 +11,7 @@ namespace {
 
 /// A closed surface of one cluster in the pack's box, and a kiosk that looks straight down.
 struct Kiosk {
-    PropShape prop = make_prop({});
+    PropShape prop = make_frustum({});
     PlacedLevel artifact;
     glm::dvec3 eye{0.05, -0.5, 0.45};
     PlanView view{

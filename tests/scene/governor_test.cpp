@@ -72,7 +72,8 @@ TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
     const Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
     const RigidTransform projector_from_prop =
         RigidTransform{{0.0, 1.0, 0.0, 0.0}, {0.1, 0.0, 1.2}}.inverse();
-    EXPECT_NEAR(pixel_on_prop_m(make_prop({}), pinhole, projector_from_prop), (1.2 - 0.12) / 1920.0, 1e-12);
+    EXPECT_NEAR(pixel_on_prop_m(make_frustum({}), pinhole, projector_from_prop), (1.2 - 0.12) / 1920.0,
+                1e-12);
 }
 
 /// A GPU whose frames take fixed + per_triangle * triangles + per_sample * pixels * samples, in milliseconds.

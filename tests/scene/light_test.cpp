@@ -12,7 +12,7 @@ namespace {
 const Pinhole pinhole{1280, 800, 1900.0, 1850.0, 600.0, 450.0};
 
 struct Lit {
-    PropShape prop = make_prop({});
+    PropShape prop = make_frustum({});
     RigidTransform projector_from_prop{{0.0, 1.0, 0.0, 0.0}, {0.03, -0.02, 0.9}}; // looking down
     glm::dvec3 projector() const { return projector_from_prop.inverse().translation; }
 };

@@ -50,6 +50,17 @@ bool has_captions(const ScenePlan& plan) {
     return plan.needs.draws.count({ShaderKey::Pass::TablePicture}) > 0;
 }
 
+TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
+    Settings settings;
+    settings.prop = cube_settings();
+    const ScenePlan held = plan_scene(settings, outline(), request(settings)).value();
+    EXPECT_EQ(held.faces, 0b111111U);
+    settings.prop.zone = PropZone::Table;
+    const ScenePlan standing = plan_scene(settings, outline(), request(settings)).value();
+    EXPECT_EQ(standing.faces, 0b011111U);
+    EXPECT_TRUE(leaves_out(standing, UnseenFaces, "face -Z"));
+}
+
 TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     const Settings settings;
     SceneRequest asked = request(settings);

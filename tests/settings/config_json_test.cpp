@@ -3,6 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <map>
+#include <string>
+
 namespace frustumscreen {
 namespace {
 
@@ -27,13 +31,44 @@ TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
         EXPECT_NEAR(projector["table_from_projector"][k].get<double>(), expected[k].get<double>(), 1e-15);
     }
     EXPECT_EQ(json.at("render").at("error_tolerance_px"), 0.5);
-    EXPECT_EQ(json.at("prop"),
-              nlohmann::json({{"kind", "frustum"}, {"base_m", 0.16}, {"top_m", 0.09}, {"height_m", 0.12}}));
+    nlohmann::json prop = json.at("prop");
+    prop.erase("faces");
+    EXPECT_EQ(
+        prop,
+        nlohmann::json(
+            {{"kind", "frustum"}, {"base_m", 0.16}, {"top_m", 0.09}, {"height_m", 0.12}, {"zone", "table"}}));
     EXPECT_EQ(json.at("eye_default_m"), nlohmann::json({0.0, -0.55, 0.50}));
     EXPECT_EQ(json.at("eye_zone").at("lowest_elevation_deg"), 15.0);
     EXPECT_GT(json.at("lit_zone").at("any_eye").at("area_m2"), 0.1);
     EXPECT_GT(json.at("lit_zone").at("any_eye").at("polygon_m").size(), 4U);
     EXPECT_GT(json.at("lit_zone").at("default_eye").at("polygon_m").size(), 300U);
+}
+
+/// name -> corners, each the sum of its signs.
+std::map<std::string, nlohmann::json> faces_of(const nlohmann::json& json) {
+    std::map<std::string, nlohmann::json> faces;
+    for (const nlohmann::json& face : json.at("prop").at("faces")) {
+        EXPECT_EQ(face.at("corners").size(), 4U);
+        faces[face.at("name")] = face;
+    }
+    return faces;
+}
+
+TEST(ConfigJson, ListsTheFacesOfAFrustumAndOfACube) {
+    const auto frustum = faces_of(report_of(shipped_text()));
+    ASSERT_EQ(frustum.size(), 5U);
+    const double length = std::hypot(0.12, 0.035);
+    EXPECT_NEAR(frustum.at("-Y").at("normal")[1].get<double>(), -0.12 / length, 1e-12);
+    EXPECT_NEAR(frustum.at("-Y").at("normal")[2].get<double>(), 0.035 / length, 1e-12);
+    EXPECT_EQ(frustum.at("+Z").at("normal"), nlohmann::json({0.0, 0.0, 1.0}));
+    EXPECT_EQ(frustum.at("+Z").at("corners")[0], nlohmann::json({-0.045, -0.045, 0.12}));
+    const auto cube = faces_of(report_of("[prop]\nkind = \"cube\"\nbase_m = 0.1\n"));
+    ASSERT_EQ(cube.size(), 6U);
+    EXPECT_EQ(cube.at("-Z").at("normal"), nlohmann::json({0.0, 0.0, -1.0}));
+    for (const nlohmann::json& corner : cube.at("-Z").at("corners")) {
+        EXPECT_EQ(corner[2], 0.0);
+        EXPECT_EQ(std::abs(corner[0].get<double>()), 0.05);
+    }
 }
 
 TEST(ConfigJson, PathsThatAreNotUtf8DoNotStopTheReport) {

@@ -238,6 +238,45 @@ TEST(LitZone, ACubesSidesAreNeverLitFromStraightAbove) {
     EXPECT_TRUE(zone.default_eye.empty());
 }
 
+TEST(LitZone, InTheHandItIsWhereTheWholePropIsInThePictureHoweverItIsTurned) {
+    Settings s;
+    s.prop = cube_settings(0.12);
+    s.projector.pinhole.cx = 500.0; // lens shift
+    const PropShape prop = make_prop(s.prop);
+    const double reach = 0.06 * std::sqrt(3.0);
+    const LitZone zone = lit_zone(s);
+    ASSERT_GE(zone.any_eye.size(), 4U);
+    EXPECT_EQ(zone.default_eye, zone.any_eye);
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    const auto leaves = [&](const glm::dvec2& place) {
+        for (int k = 0; k < 20000; ++k) {
+            const glm::dquat rotation =
+                glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+            for (const glm::dvec3& corner : prop.corners) {
+                const glm::dvec3 at = glm::dvec3(place, reach) + rotation * (corner - prop.middle);
+                const auto pixel =
+                    s.projector.pinhole.pixel(s.projector.table_from_projector.inverse().point(at));
+                const bool on_table = std::abs(at.x) <= 0.4 + 1e-9 && std::abs(at.y) <= 0.25 + 1e-9;
+                if (!on_table || !pixel || pixel->x < -1e-6 || pixel->y < -1e-6 || pixel->x > 1280.0 + 1e-6 ||
+                    pixel->y > 800.0 + 1e-6) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& corner : zone.any_eye) {
+        EXPECT_FALSE(leaves(corner)) << corner.x << ' ' << corner.y;
+        middle += corner / static_cast<double>(zone.any_eye.size());
+    }
+    for (const glm::dvec2& corner : zone.any_eye) {
+        const glm::dvec2 outside = corner + 0.01 * glm::normalize(corner - middle);
+        EXPECT_TRUE(leaves(outside)) << outside.x << ' ' << outside.y;
+    }
+}
+
 TEST(LitZone, ATableHardlyDeeperThanThePropIsNoReasonToHang) {
     Settings settings;
     settings.projector.pinhole.fx = settings.projector.pinhole.fy = 200.0;

@@ -143,6 +143,10 @@ TEST(Settings, ACubesEdgesAreAllTheSame) {
     EXPECT_EQ(settings.prop.kind, PropKind::Cube);
     EXPECT_EQ(settings.prop.top_m, 0.12);
     EXPECT_EQ(settings.prop.height_m, 0.12);
+    EXPECT_EQ(settings.prop.zone, PropZone::Hand);
+    EXPECT_EQ(parsed("[prop]\nkind = \"cube\"\nzone = \"table\"\n").prop.zone, PropZone::Table);
+    EXPECT_EQ(parsed("[prop]\nzone = \"hand\"\n").prop.zone, PropZone::Hand);
+    EXPECT_EQ(parsed("").prop.zone, PropZone::Table);
 }
 
 TEST(Settings, PathsAreRelativeToTheSettingsFile) {

@@ -79,7 +79,7 @@ const Kiosk kiosks[] = {{"near", {1280, 800, 2850.0, 2850.0, 640.0, 400.0}, 0.9}
 VisitorScene scene_of(const Kiosk& kiosk, const glm::dvec2& place, double yaw, const glm::dvec3& eye) {
     return {kiosk.projector,
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, kiosk.height_m}},
-            make_prop({}),
+            make_frustum({}),
             {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {place, 0.0}},
             eye,
             {0.8, 0.5}};
@@ -155,7 +155,7 @@ TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinary
 }
 
 TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const RigidTransform pose{glm::angleAxis(0.4, glm::dvec3(0, 0, 1)), {0.1, 0.05, 0.0}};
     const glm::dvec3 eye(-0.2, -0.6, 0.45);
     const VisitorCamera camera = visitor_camera(prop, pose, eye, 640, 400);
@@ -202,7 +202,7 @@ TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
     // 0.217: the +X face is lit and the table beyond it too. A taller prop would shade: make one.
     EXPECT_EQ(at({0.25, 0.0, 0.0}).r, 255);
     VisitorScene tall = scene;
-    tall.prop = make_prop({PropKind::Cube, 0.16, 0.16, 0.30});
+    tall.prop = make_frustum({0.16, 0.16, 0.30});
     const Image8 shaded = visitor_view(tall, white, camera, exact_check());
     const glm::dvec2 pixel =
         *camera.pinhole.pixel(camera.table_from_camera.inverse().point({0.25, 0.0, 0.0}));

@@ -19,7 +19,7 @@ PoseSample sample_at(std::int64_t t_us, int station, const glm::dvec3& position,
 }
 
 TEST(Situation, KnowsNothingAtFirstButTheDefaultEye) {
-    const SituationTracker tracker({}, default_eye);
+    const SituationTracker tracker(default_eye);
     const Situation situation = tracker.at(from_microseconds(7));
     EXPECT_FALSE(situation.prop_known);
     EXPECT_FALSE(situation.head_known);
@@ -28,8 +28,7 @@ TEST(Situation, KnowsNothingAtFirstButTheDefaultEye) {
 }
 
 TEST(Situation, TakesTheLatestPoseOfEachStationAndForgetsItWhenOld) {
-    SituationTracker tracker({}, default_eye,
-                             {std::chrono::milliseconds(100), std::chrono::milliseconds(50)});
+    SituationTracker tracker(default_eye, {std::chrono::milliseconds(100), std::chrono::milliseconds(50)});
     tracker.take(sample_at(0, prop_station, {1, 0, 0}));
     tracker.take(sample_at(10'000, prop_station, {2, 0, 0}));
     tracker.take(sample_at(10'000, head_station, {0, -1, 1}));
@@ -46,23 +45,13 @@ TEST(Situation, TakesTheLatestPoseOfEachStationAndForgetsItWhenOld) {
 }
 
 TEST(Situation, UnusableLateAndForeignSamplesChangeNothing) {
-    SituationTracker tracker({}, default_eye);
+    SituationTracker tracker(default_eye);
     tracker.take(sample_at(10, prop_station, {1, 0, 0}));
     tracker.take(sample_at(20, prop_station, {9, 0, 0}, false));
     tracker.take(sample_at(5, prop_station, {9, 0, 0}));
     tracker.take(sample_at(20, torch_station, {9, 0, 0}));
     EXPECT_EQ(tracker.at(from_microseconds(30)).table_from_prop.translation, glm::dvec3(1, 0, 0));
     EXPECT_EQ(tracker.at(from_microseconds(30)).prop_age, std::chrono::microseconds(20));
-}
-
-TEST(Situation, ADevicesOwnFrameIsRegisteredToTheTable) {
-    // The device's +Z points down and its origin lies 0.3 m above the table.
-    const RigidTransform table_from_device{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
-    SituationTracker tracker(table_from_device, default_eye);
-    tracker.take(sample_at(0, prop_station, {0.1, 0.2, 0.3}));
-    const Situation situation = tracker.at(from_microseconds(0));
-    EXPECT_LT(glm::distance(situation.table_from_prop.translation, glm::dvec3(0.1, -0.2, 0.0)), 1e-15);
-    EXPECT_LT(glm::distance(situation.table_from_prop.direction({0, 0, 1}), glm::dvec3(0, 0, -1)), 1e-15);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 #include "app/bench/latency/latency.h"
 
 #include "app/bench/latency/one_euro.h"
-#include "app/bench/measures/measure.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
+#include "firmware_host/base/quantile.h"
 
 #include <algorithm>
 #include <cmath>

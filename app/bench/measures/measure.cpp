@@ -1,5 +1,7 @@
 #include "app/bench/measures/measure.h"
 
+#include "firmware_host/base/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,17 +44,6 @@ private:
 };
 
 } // namespace
-
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) {
-        return 0.0;
-    }
-    const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
-    const auto index = static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
-    const auto place = values.begin() + std::min(index, std::ssize(values) - 1);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
 
 PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
     PictureError error;

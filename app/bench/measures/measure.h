@@ -38,10 +38,6 @@ struct PictureError {
 /// there were one artifact pixel otherwise.
 [[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
 
-/// Value below which `share` of the values lie: the smallest with at least share * n values at or below it.
-/// Zero for none.
-[[nodiscard]] double quantile(std::vector<double> values, double share);
-
 /// Mean and worst of each figure over many pictures.
 struct ErrorSummary {
     PictureError mean;

@@ -1,6 +1,7 @@
 #include "app/bench/measures/shimmer_sequence.h"
 
 #include "app/bench/measures/measure.h"
+#include "firmware_host/base/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +30,7 @@ glm::dvec2 step_m(const Settings& settings, const PropShape& prop, const BenchPo
                   PushDirection direction) {
     constexpr double probe_m = 1e-4;
     const auto middle_px = [&](const glm::dvec2& by_m) {
-        return projected(settings, pushed(pose, by_m), {0.0, 0.0, prop.size.height_m / 2.0})
-            .value_or(glm::dvec2(0.0));
+        return projected(settings, pushed(pose, by_m), prop.middle).value_or(glm::dvec2(0.0));
     };
     const glm::dvec2 along_x = (middle_px({probe_m, 0.0}) - middle_px({-probe_m, 0.0})) / (2.0 * probe_m);
     const glm::dvec2 along_y = (middle_px({0.0, probe_m}) - middle_px({0.0, -probe_m})) / (2.0 * probe_m);

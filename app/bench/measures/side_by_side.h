@@ -6,7 +6,7 @@
 #pragma once
 
 #include "app/bench/measures/measure.h"
-#include "app/scene/lit_tiles.h"
+#include "firmware_host/base/pixel_rectangle.h"
 
 #include <span>
 

@@ -5,6 +5,7 @@
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
 #include "app/render/read_back.h"
+#include "firmware_host/base/quantile.h"
 #include "firmware_host/display/surfaceless_display.h"
 
 #include <fmt/format.h>

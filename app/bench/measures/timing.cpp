@@ -1,6 +1,6 @@
 #include "app/bench/measures/timing.h"
 
-#include "app/bench/measures/measure.h"
+#include "firmware_host/base/quantile.h"
 #include "firmware_host/gl/gl_handle.h"
 
 #include <chrono>

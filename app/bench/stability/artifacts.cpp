@@ -75,7 +75,7 @@ PlacingErrors placing_errors(const SourceMesh& mesh) {
     pack.box_size = frame->box_size;
     pack.box_from_file = frame->box_from_file;
     pack.extremes = profile_extremes(points);
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     const Placement placement = place(pack, prop);
     const exact::Real scale = exact_scale(prop, mesh, bounds);
     errors.scale = static_cast<double>(std::abs(placement.metres_per_box / scale - 1));
@@ -138,7 +138,7 @@ StabilityResult baked(const StabilityOptions&) {
         }
         const Result<Bytes> bytes = write_pack(*pack);
         const bool written = bytes && verify_pack(*bytes);
-        const double metres = place(*pack, make_prop({})).metres_per_box;
+        const double metres = place(*pack, make_frustum({})).metres_per_box;
         least = std::fmin(least, metres);
         most = std::fmax(most, metres);
         result.rows.push_back({where + "pack not written or not verified", 0.0, written ? 0.0 : 1.0});

@@ -238,7 +238,7 @@ private:
 } // namespace
 
 exact::Stage usual_stage() {
-    return {make_prop({}),
+    return {make_frustum({}),
             {1280, 800, 1920.0, 1920.0, 640.0, 400.0},
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
             {},

@@ -50,7 +50,7 @@ StabilityResult of_any_length(const StabilityOptions&) {
         const glm::dquat q = turned * std::pow(10.0, exponent);
         const auto unit = normalised(q);
         off = std::fmax(off, unit ? off_turn(*unit) : 1.0);
-        SituationTracker tracker({}, glm::dvec3(0.0));
+        SituationTracker tracker(glm::dvec3(0.0));
         const bool taken = tracker.take(sample_of(q));
         off_tracked = std::fmax(off_tracked, taken ? off_turn(tracker.at({}).table_from_prop.rotation) : 1.0);
     }
@@ -68,7 +68,7 @@ StabilityResult of_none(const StabilityOptions&) {
 
 /// The tracker refuses them and keeps what it knew.
 StabilityResult into_the_tracker(const StabilityOptions&) {
-    SituationTracker tracker({}, glm::dvec3(0.0, -0.5, 0.5));
+    SituationTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
     const RigidTransform before = tracker.at({}).table_from_prop;
     std::vector<PoseSample> bad;

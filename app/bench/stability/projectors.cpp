@@ -113,7 +113,7 @@ StabilityResult light(const StabilityOptions&) {
 
 /// A face that comes in sight of the projector changes the others' brightness without a jump.
 StabilityResult coming_in_sight(const StabilityOptions&) {
-    const PropShape prop = make_prop({});
+    const PropShape prop = make_frustum({});
     double most = 0.0;
     constexpr double step_deg = 1e-3;
     double before = -1.0;

@@ -54,7 +54,7 @@ PoseSample sample_at(MonotonicTime time, double x) {
 
 /// Against the plain rule: of all samples so far the latest, of equals the last.
 StabilityResult situations(const StabilityOptions&) {
-    SituationTracker tracker({}, glm::dvec3(0.0));
+    SituationTracker tracker(glm::dvec3(0.0));
     double wrong = 0.0;
     std::optional<PoseSample> latest;
     double x = 0.0;
@@ -215,7 +215,7 @@ StabilityResult recordings(const StabilityOptions& options) {
         wrong +=
             samples.size() + static_cast<std::size_t>(recording->dropped_rows) == times.size() ? 0.0 : 1.0;
         // Delivered in disorder, every time all but the latest of the pair counts.
-        SituationTracker tracker({}, glm::dvec3(0.0));
+        SituationTracker tracker(glm::dvec3(0.0));
         for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
             wrong += tracker.take(samples[k + 1]) && tracker.take(samples[k]) ? 0.0 : 1.0;
             wrong += tracker.at(samples[k + 1].time).table_from_prop.translation == samples[k + 1].position_m

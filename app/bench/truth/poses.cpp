@@ -22,18 +22,41 @@ private:
     std::mt19937_64 engine_;
 };
 
-BenchPose draw_one(const Settings& settings, Draw& draw) {
+/// Upright on the table.
+RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
+    const double yaw = draw.between(-std::numbers::pi, std::numbers::pi);
+    return {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(over_table, 0.0)};
+}
+
+/// Turned anyhow (Shoemake 1992, uniform random rotations), from just above the table to a forearm higher.
+RigidTransform held(const PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
+    constexpr double highest_above_table_m = 0.25;
+    const double share = draw.between(0.0, 1.0);
+    const double first = draw.between(-std::numbers::pi, std::numbers::pi);
+    const double second = draw.between(-std::numbers::pi, std::numbers::pi);
+    const glm::dquat rotation(std::sqrt(share) * std::cos(second), std::sqrt(1.0 - share) * std::sin(first),
+                              std::sqrt(1.0 - share) * std::cos(first), std::sqrt(share) * std::sin(second));
+    double lowest = 0.0;
+    for (const glm::dvec3& corner : prop.corners) {
+        lowest = std::fmin(lowest, (rotation * corner).z);
+    }
+    const glm::dvec3 middle = rotation * prop.middle;
+    return {rotation,
+            glm::dvec3(over_table - glm::dvec2(middle), draw.between(0.0, highest_above_table_m) - lowest)};
+}
+
+BenchPose draw_one(const Settings& settings, const PropShape& prop, Draw& draw) {
     const double x = draw.between(-settings.table.width_m / 2.0, settings.table.width_m / 2.0);
     const double y = draw.between(-settings.table.depth_m / 2.0, settings.table.depth_m / 2.0);
-    const double yaw = draw.between(-std::numbers::pi, std::numbers::pi);
+    const RigidTransform table_from_prop =
+        settings.prop.zone == PropZone::Hand ? held(prop, draw, {x, y}) : slid(draw, {x, y});
     const double lowest_sine = std::sin(settings.eye.lowest_elevation_deg * std::numbers::pi / 180.0);
     const double sine = draw.between(lowest_sine, 1.0);
     const double cosine = std::sqrt(1.0 - sine * sine);
     const double azimuth = draw.between(-std::numbers::pi, std::numbers::pi);
     const double distance = draw.between(settings.eye.nearest_m, settings.eye.farthest_m);
-    const glm::dvec3 foot(x, y, 0.0);
     const glm::dvec3 towards_eye(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine);
-    return {{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), foot}, foot + distance * towards_eye};
+    return {table_from_prop, table_from_prop.translation + distance * towards_eye};
 }
 
 } // namespace
@@ -74,7 +97,7 @@ Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropSh
                 "hardly any place on the table has the prop inside the picture with every face that is "
                 "seen lit; move the projector higher or make the prop smaller");
         }
-        const BenchPose pose = draw_one(settings, draw);
+        const BenchPose pose = draw_one(settings, prop, draw);
         if (in_zone(settings, prop, pose)) {
             poses.push_back(pose);
         }

@@ -164,7 +164,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    arguments.options.prop = arguments.prop == "cube" ? PropKind::Cube : PropKind::Frustum;
+    arguments.options.prop = arguments.prop == "cube" ? baked_cube() : baked_frustum();
     try {
         if (const Result<void> done = work(arguments); !done) {
             fmt::print(stderr, "frustumscreen-bake: {}\n", done.error().message);

@@ -8,37 +8,16 @@
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 
 namespace frustumscreen {
 
-BenchProgress::BenchProgress()
-    : on_terminal_(::isatty(STDERR_FILENO) != 0), started_(std::chrono::steady_clock::now()) {}
-
-BenchProgress::~BenchProgress() {
-    clear();
-}
-
 void BenchProgress::show(const std::string& step, double done) {
-    const double passed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    const double passed_s = to_seconds(monotonic_now() - started_);
     const std::optional<double> left_s = time_left_.at(step, done, passed_s);
-    if (!on_terminal_ || passed_s < 2.0) {
-        return;
-    }
-    fmt::print(stderr, "\r\033[K{} {:.0f} %{}", step, done * 100.0,
-               left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string());
-    std::fflush(stderr);
-    written_ = true;
-}
-
-void BenchProgress::clear() {
-    if (written_) {
-        fmt::print(stderr, "\r\033[K");
-        written_ = false;
-    }
+    line_.say(fmt::format("{} {:.0f} %{}", step, done * 100.0,
+                          left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string()));
 }
 
 void add_place_options(CLI::App& command, BenchPlace& place) {

@@ -8,12 +8,13 @@
 #include "app/bench/measures/technique_set.h"
 #include "app/bench/measures/time_left.h"
 #include "app/bench/techniques/pack_level.h"
+#include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/time.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -23,22 +24,17 @@
 
 namespace frustumscreen {
 
-/// One line that is written over while a person waits longer than two seconds; silent in a pipe.
+/// The step that a long run is at, and how long it still takes.
 class BenchProgress {
 public:
-    BenchProgress();
-    ~BenchProgress();
-    BenchProgress(const BenchProgress&) = delete;
-    BenchProgress& operator=(const BenchProgress&) = delete;
     /// The steps to come, so that the time left is that of the whole run; without, of each step alone.
     void plan(std::vector<WorkStep> steps) { time_left_ = TimeLeft(std::move(steps)); }
     void show(const std::string& step, double done);
-    void clear();
+    void clear() { line_.clear(); }
 
 private:
-    bool on_terminal_;
-    bool written_ = false;
-    std::chrono::steady_clock::time_point started_;
+    ProgressLine line_;
+    MonotonicTime started_ = monotonic_now();
     TimeLeft time_left_;
 };
 

@@ -18,20 +18,35 @@ ProgressLine::ProgressLine(std::string what)
       start_(std::chrono::steady_clock::now()), last_(start_) {}
 
 ProgressLine::~ProgressLine() {
-    if (shown_) {
-        fmt::print(stderr, "\r\033[K");
-    }
+    clear();
+}
+
+bool ProgressLine::is_due() const {
+    const auto now = std::chrono::steady_clock::now();
+    return on_terminal_ && now - start_ >= patience && now - last_ >= pause;
 }
 
 void ProgressLine::show(std::size_t done, std::size_t all) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!on_terminal_ || now - start_ < patience || now - last_ < pause) {
+    if (is_due()) {
+        say(fmt::format("{} {} of {}", what_, done, all));
+    }
+}
+
+void ProgressLine::say(std::string_view line) {
+    if (!is_due()) {
         return;
     }
-    last_ = now;
+    last_ = std::chrono::steady_clock::now();
     shown_ = true;
-    fmt::print(stderr, "\r\033[K{} {} of {}", what_, done, all);
+    fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+    if (shown_) {
+        fmt::print(stderr, "\r\033[K");
+        shown_ = false;
+    }
 }
 
 } // namespace frustumscreen

@@ -4,18 +4,25 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
 class ProgressLine {
 public:
-    explicit ProgressLine(std::string what);
+    explicit ProgressLine(std::string what = {});
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(std::size_t done, std::size_t all);
+    void say(std::string_view line);
+    /// The line is free again, for what a program has to tell.
+    void clear();
 
 private:
+    /// Whether a person has waited long enough for another line.
+    [[nodiscard]] bool is_due() const;
+
     std::string what_;
     bool on_terminal_;
     bool shown_ = false;

@@ -6,6 +6,7 @@
 #include "app/programs/frustumscreen/run_command.h"
 #include "app/settings/config_json.h"
 #include "app/settings/settings.h"
+#include "app/settings/settings_page.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,15 +22,25 @@ namespace frustumscreen {
 namespace {
 
 int config_command(int argc, char** argv) {
-    CLI::App app("Prints the resolved, checked settings.", "frustumscreen config");
+    CLI::App app("Prints the resolved, checked settings, or what settings there are.",
+                 "frustumscreen config");
     std::filesystem::path file;
     bool json = false;
-    app.add_option("--config", file, "the kiosk's settings, TOML")->required();
+    bool describe = false;
+    app.add_option("--config", file, "the kiosk's settings, TOML");
     app.add_flag("--json", json, "as JSON (the only form)");
+    app.add_flag("--describe", describe, "every setting with its default and what it is; needs no --config");
     try {
         app.parse(argc, argv);
+        if (file.empty() && !describe) {
+            throw CLI::RequiredError("--config");
+        }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (describe) {
+        fmt::print("{}", settings_page());
+        return 0;
     }
     const Result<CheckedSettings> settings = load_settings(file);
     if (!settings) {

@@ -5,6 +5,7 @@
 #include "app/render/gl_memory.h"
 #include "app/render/read_back.h"
 #include "app/tracking/situation.h"
+#include "firmware_host/base/quantile.h"
 
 #include <malloc.h>
 
@@ -38,7 +39,7 @@ Result<std::vector<Situation>> situations(const Settings& settings, const Device
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
-    SituationTracker tracker({}, settings.eye.default_m);
+    SituationTracker tracker(settings.eye.default_m);
     if (!inputs->tracker) {
         Situation standing = tracker.at(start);
         standing.prop_known = true;
@@ -68,13 +69,6 @@ struct Scene {
     SceneCost cost;
     std::vector<double> us; ///< of each frame drawn
 };
-
-double quantile(std::vector<double> values, double share) {
-    const auto nth =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
 
 SceneCost saving(const Scene& with, const Scene& without) {
     std::vector<double> differences;

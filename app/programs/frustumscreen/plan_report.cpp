@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -13,13 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 5> face_names{"+X", "-X", "+Y", "-Y", "top"}; // prop_shape.h
-
 std::vector<std::string> faces_of(const ScenePlan& plan) {
     std::vector<std::string> names;
     for (std::size_t face = 0; face < plan.prop.faces.size(); ++face) {
         if (((plan.faces >> face) & 1U) != 0) {
-            names.emplace_back(face_names.at(face));
+            names.emplace_back(plan.prop.faces[face].name);
         }
     }
     return names;

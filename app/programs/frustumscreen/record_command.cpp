@@ -5,7 +5,6 @@
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
-#include "app/tracking/placed_pose.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/sentence.h"
@@ -101,38 +100,34 @@ private:
     Sentence state_;
 };
 
-/// Into table coordinates, times from the beginning on; sensors that are no station of ours are left out.
-std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses,
-                                      const RigidTransform& table_from_device, MonotonicTime start) {
+/// Times from the beginning on; sensors that are no station of ours are left out.
+std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, MonotonicTime start) {
     std::vector<PoseSample> kept;
     for (PoseSample pose : poses) {
         if (pose.station > torch_station) {
             continue;
         }
         pose.time = MonotonicTime(pose.time - start);
-        kept.push_back(placed_on_table(pose, table_from_device));
+        kept.push_back(pose);
     }
     return kept;
 }
 
-Result<void> write_pose_recording(const Request& request, const Settings& settings, const Inputs& inputs,
-                                  const Recording& recording, MonotonicTime start) {
+Result<void> write_pose_recording(const Request& request, const Inputs& inputs, const Recording& recording,
+                                  MonotonicTime start) {
     if (recording.poses().empty()) {
         return fail(ErrorKind::DeviceLost,
                     fmt::format("no pose came, and {} was not written{}{}", request.output.string(),
                                 recording.state().empty() ? "" : "; ", recording.state()));
     }
-    const bool registered = !inputs.tracker->reports_table_frame();
-    const RigidTransform table_from_device =
-        registered ? settings.tracker.table_from_tracker : RigidTransform{};
-    const std::vector<PoseSample> poses = for_pose_file(recording.poses(), table_from_device, start);
+    const std::vector<PoseSample> poses = for_pose_file(recording.poses(), start);
     std::array<std::size_t, torch_station + 1> of_station{};
     for (const PoseSample& pose : poses) {
         ++of_station[static_cast<std::size_t>(pose.station)];
     }
     std::string text = write_poses(poses);
-    if (registered) {
-        const glm::dmat4 matrix = table_from_device.matrix();
+    if (const std::optional<RigidTransform>& table_from_tracker = inputs.tracker->registration()) {
+        const glm::dmat4 matrix = table_from_tracker->matrix();
         const std::span<const double> numbers(&matrix[0][0], 16);
         text.insert(text.find('\n') + 1,
                     fmt::format("# table_from_tracker = [{}], column by column\n", fmt::join(numbers, ", ")));
@@ -190,7 +185,7 @@ Result<void> record(const Request& request, Inputs& inputs) {
     recording.run(request, stop, !request.raw);
     const StopSignals::AtOnce at_once(stop); // a disk may take long, or hang; whoever asks twice means it
     return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
-                       : write_pose_recording(request, **settings, inputs, recording, start);
+                       : write_pose_recording(request, inputs, recording, start);
 }
 
 } // namespace

@@ -172,7 +172,7 @@ Result<void> render(const Request& request) {
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
     }
-    if (const auto note = note_other_prop(request.pack.string(), **pack, (*settings)->prop.kind)) {
+    if (const auto note = note_other_prop(request.pack.string(), **pack, name_of((*settings)->prop.kind))) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;

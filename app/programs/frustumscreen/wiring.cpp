@@ -180,7 +180,8 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
         if (!tracker) {
             return tl::unexpected<Error>(tracker.error());
         }
-        inputs.tracker = std::move(*tracker);
+        inputs.tracker =
+            std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.table_from_tracker);
     }
     if (plan.panel) {
         Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,32 +53,38 @@ int verify(const Request& request) {
     return status;
 }
 
+/// Of the kind that it was baked for.
+PropSettings usual_prop(const Pack& pack) {
+    return pack.prop_kind == name_of(PropKind::Cube) ? cube_settings() : PropSettings{};
+}
+
 int list(const Request& request) {
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
         return complain(opened.error());
     }
     if (request.json) {
-        print_json(list_json(*opened, PropSize{}));
+        print_json(list_json(*opened, usual_prop(*opened->pack)));
     } else {
-        fmt::print("{}", list_text(*opened, PropSize{}));
+        fmt::print("{}", list_text(*opened, usual_prop(*opened->pack)));
     }
     return 0;
 }
 
 int explain(const Request& request) {
-    PropSize prop;
+    std::optional<PropSettings> configured;
     if (!request.config.empty()) {
         const Result<CheckedSettings> settings = load_settings(request.config);
         if (!settings) {
             return complain(settings.error());
         }
-        prop = (*settings)->prop;
+        configured = (*settings)->prop;
     }
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
         return complain(opened.error());
     }
+    const PropSettings prop = configured.value_or(usual_prop(*opened->pack));
     if (request.json) {
         print_json(explain_json(*opened, prop));
     } else {

@@ -22,7 +22,7 @@ std::string in_units(std::uint64_t bytes) {
                              : fmt::format("{:.1f} MB", value / 1e6);
 }
 
-double mm_per_box(const Pack& pack, const PropSize& prop) {
+double mm_per_box(const Pack& pack, const PropSettings& prop) {
     return place(pack, make_prop(prop)).metres_per_box * mm_per_m;
 }
 
@@ -83,12 +83,12 @@ void add_description(Json& json, const Pack& pack) {
     }
 }
 
-void add_placement(Json& json, const Pack& pack, const PropSize& prop) {
+void add_placement(Json& json, const Pack& pack, const PropSettings& prop) {
     const Placement placement = place(pack, make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box;
     json["prop"] = {{"kind", frustumscreen::name_of(prop.kind)},
                     {"base_m", prop.base_m},
-                    {"top_m", prop.kind == PropKind::Cube ? prop.base_m : prop.top_m},
+                    {"top_m", prop.top_m},
                     {"height_m", prop.height_m}};
     json["metres_per_box"] = placement.metres_per_box;
     json["artifact_size_m"] = {size.x, size.y, size.z};
@@ -164,7 +164,7 @@ Result<OpenedPack> open_pack(const std::filesystem::path& file) {
     return OpenedPack{file, bytes->size(), std::move(*pack), std::move(*parts)};
 }
 
-Json list_json(const OpenedPack& opened, const PropSize& prop) {
+Json list_json(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
     return {{"file", opened.file.string()},
             {"bytes", opened.file_bytes},
@@ -176,14 +176,14 @@ Json list_json(const OpenedPack& opened, const PropSize& prop) {
             {"parts", parts_json(opened.parts)}};
 }
 
-Json explain_json(const OpenedPack& opened, const PropSize& prop) {
+Json explain_json(const OpenedPack& opened, const PropSettings& prop) {
     Json json = list_json(opened, prop);
     add_description(json, *opened.pack);
     add_placement(json, *opened.pack, prop);
     return json;
 }
 
-std::string list_text(const OpenedPack& opened, const PropSize& prop) {
+std::string list_text(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
     std::string text = title_line(opened) + levels_text(pack, mm_per_box(pack, prop));
     for (const PackPart& part : opened.parts) {
@@ -193,7 +193,7 @@ std::string list_text(const OpenedPack& opened, const PropSize& prop) {
     return text;
 }
 
-std::string explain_text(const OpenedPack& opened, const PropSize& prop) {
+std::string explain_text(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
     const Placement placement = place(pack, make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box * mm_per_m;

@@ -4,9 +4,9 @@
 /// Threads  one caller.
 #pragma once
 
-#include "app/geometry/prop_shape.h"
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/settings/settings.h"
 
 #include <nlohmann/json.hpp>
 
@@ -26,13 +26,13 @@ struct OpenedPack {
 [[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
 
 /// {file, bytes, signed, title, languages, levels with errors in mm on this prop, default_level, parts}
-[[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSize& prop);
+[[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
 /// list_json and {format_version, captions, provenance, prop_kind, unlit, relief_size, box_size, textures,
 /// relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
-[[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSize& prop);
+[[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);
 
 /// The same for people; each ends with a line break.
-[[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSize& prop);
-[[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSize& prop);
+[[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSettings& prop);
+[[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSettings& prop);
 
 } // namespace frustumscreen

@@ -2,7 +2,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
-#include "app/tracking/placed_pose.h"
+#include "app/tracking/registered_tracker.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/tracker/convert_recording.h"
@@ -46,23 +46,21 @@ Result<void> write_pose_file(const std::string& path, const std::string& comment
 
 /// Packets of `frustumscreen record --raw`: the poses that the exhibit had then.
 Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
-    RigidTransform table_from_device;
     Result<PacketReplay> replay = PacketReplay::open(std::move(bytes), request.input);
     if (!replay) {
         return tl::unexpected(replay.error());
     }
+    std::vector<PoseSample> samples;
+    replay->play(replay->end(), samples);
     if (!request.settings.empty() && !replay->reports_table_frame()) {
         const auto settings = load_settings(request.settings);
         if (!settings) {
             return tl::unexpected(settings.error());
         }
-        table_from_device = (*settings)->tracker.table_from_tracker;
+        place_on_table(samples, (*settings)->tracker.table_from_tracker);
     }
-    std::vector<PoseSample> samples;
-    replay->play(replay->end(), samples);
     std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
     for (PoseSample& sample : samples) {
-        sample = placed_on_table(sample, table_from_device);
         sample.time = MonotonicTime(sample.time - replay->begin());
     }
     const std::string comment =

@@ -1,12 +1,12 @@
 #include "app/programs/sheet/sheet_table.h"
 
+#include "firmware_host/base/quantile.h"
 #include "firmware_host/base/xml_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace frustumscreen {
 
@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::array<std::string_view, 8> headings{"artifact",  "level",   "frames drawn",  "unchanged",
                                                    "median ms", "99 % ms", "99 % / median", "mean error mm"};
-
-double quantile(std::vector<double>& values, double share) {
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-    const auto nth =
-        values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
 
 std::array<std::string, 8> cells(const TableLine& line) {
     return {line.artifact,

@@ -116,7 +116,7 @@ Result<void> run(const Request& request) {
         return tl::unexpected<Error>(show.error());
     }
     Inputs inputs;
-    inputs.tracker = std::move(window->tracker);
+    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window->tracker), RigidTransform{});
     inputs.panel = std::move(window->panel);
     LoopOptions options;
     if (request.seconds > 0.0) {

@@ -1,8 +1,9 @@
-#include "app/pack/json_fields.h"
+#include "app/pack/json_reader.h"
 
-#include "app/pack/printable.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -28,7 +29,7 @@ void Refusal::refuse(const std::string& place, std::string_view what) {
     }
 }
 
-JsonFields::JsonFields(Refusal& refusal, const Json* object, std::string place)
+JsonReader::JsonReader(Refusal& refusal, const Json* object, std::string place)
     : refusal_(&refusal), object_(object), place_(std::move(place)) {
     if (object_ == nullptr || !object_->is_object()) {
         object_ = nullptr;
@@ -36,11 +37,15 @@ JsonFields::JsonFields(Refusal& refusal, const Json* object, std::string place)
     }
 }
 
-std::string JsonFields::place_of(const char* key) const {
+std::string JsonReader::place_of(const char* key) const {
     return place_.empty() ? std::string(key) : place_ + "." + key;
 }
 
-const Json* JsonFields::take(const char* key) {
+std::string JsonReader::place_of(const char* key, std::size_t item) const {
+    return fmt::format("{}[{}]", place_of(key), item);
+}
+
+const Json* JsonReader::take(const char* key) {
     known_.insert(key);
     if (refusal_->message || object_ == nullptr) {
         return nullptr;
@@ -53,7 +58,7 @@ const Json* JsonFields::take(const char* key) {
     return &*value;
 }
 
-const Json* JsonFields::take_list(const char* key, std::size_t most) {
+const Json* JsonReader::take_list(const char* key, std::size_t most) {
     const Json* value = take(key);
     if (value == nullptr) {
         return nullptr;
@@ -65,65 +70,66 @@ const Json* JsonFields::take_list(const char* key, std::size_t most) {
     return value;
 }
 
-std::string JsonFields::text(const char* key) {
-    const Json* value = take(key);
-    if (value == nullptr) {
-        return {};
+void JsonReader::text(const char* key, std::string& value) {
+    const Json* read = take(key);
+    if (read == nullptr) {
+        return;
     }
-    if (!value->is_string()) {
-        refuse(key, fmt::format("is {}; allowed is a text", found(*value)));
-        return {};
+    if (!read->is_string()) {
+        refuse(key, fmt::format("is {}; allowed is a text", found(*read)));
+        return;
     }
-    return value->get<std::string>();
+    value = read->get<std::string>();
 }
 
-std::vector<std::string> JsonFields::texts(const char* key, std::size_t most) {
-    std::vector<std::string> result;
+void JsonReader::texts(const char* key, std::vector<std::string>& values, std::size_t most) {
     const Json* list = take_list(key, most);
     for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
         if (!(*list)[k].is_string()) {
             refuse(key, fmt::format("has {}; allowed are texts", found((*list)[k])));
-            return {};
+            return;
         }
-        result.push_back((*list)[k].get<std::string>());
+        values.push_back((*list)[k].get<std::string>());
     }
-    return result;
 }
 
-bool JsonFields::flag(const char* key) {
-    const Json* value = take(key);
-    if (value != nullptr && !value->is_boolean()) {
-        refuse(key, fmt::format("is {}; allowed are true and false", found(*value)));
-        return false;
+void JsonReader::flag(const char* key, bool& value) {
+    const Json* read = take(key);
+    if (read == nullptr) {
+        return;
     }
-    return value != nullptr && value->get<bool>();
+    if (!read->is_boolean()) {
+        refuse(key, fmt::format("is {}; allowed are true and false", found(*read)));
+        return;
+    }
+    value = read->get<bool>();
 }
 
-std::uint64_t JsonFields::whole(const char* key, std::uint64_t most) {
-    const Json* value = take(key);
-    if (value == nullptr) {
+std::uint64_t JsonReader::whole_of(const char* key, std::uint64_t most) {
+    const Json* read = take(key);
+    if (read == nullptr) {
         return 0;
     }
-    if (!value->is_number_unsigned() || value->get<std::uint64_t>() > most) {
-        refuse(key, fmt::format("is {}; allowed are whole numbers from 0 to {}", found(*value), most));
+    if (!read->is_number_unsigned() || read->get<std::uint64_t>() > most) {
+        refuse(key, fmt::format("is {}; allowed are whole numbers from 0 to {}", found(*read), most));
         return 0;
     }
-    return value->get<std::uint64_t>();
+    return read->get<std::uint64_t>();
 }
 
-double JsonFields::number(const char* key) {
-    const Json* value = take(key);
-    if (value == nullptr) {
-        return 0.0;
+void JsonReader::number(const char* key, float& value) {
+    const Json* read = take(key);
+    if (read == nullptr) {
+        return;
     }
-    if (!value->is_number()) {
-        refuse(key, fmt::format("is {}; allowed is a number", found(*value)));
-        return 0.0;
+    if (!read->is_number()) {
+        refuse(key, fmt::format("is {}; allowed is a number", found(*read)));
+        return;
     }
-    return value->get<double>();
+    value = static_cast<float>(read->get<double>());
 }
 
-void JsonFields::numbers(const char* key, std::span<double> values) {
+void JsonReader::numbers(const char* key, std::span<double> values) {
     const Json* list = take_list(key, values.size());
     if (list == nullptr) {
         return;
@@ -138,44 +144,43 @@ void JsonFields::numbers(const char* key, std::span<double> values) {
     }
 }
 
-std::vector<std::array<double, 3>> JsonFields::triples(const char* key, std::size_t most) {
-    std::vector<std::array<double, 3>> result;
+void JsonReader::triples(const char* key, std::vector<glm::dvec3>& values, std::size_t most) {
     const Json* list = take_list(key, most);
     for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
         const Json& item = (*list)[k];
         if (!item.is_array() || item.size() != 3 || !item[0].is_number() || !item[1].is_number() ||
             !item[2].is_number()) {
             refuse(key, fmt::format("has {}; allowed are lists of 3 numbers", found(item)));
-            return {};
+            return;
         }
-        result.push_back({item[0].get<double>(), item[1].get<double>(), item[2].get<double>()});
+        values.emplace_back(item[0].get<double>(), item[1].get<double>(), item[2].get<double>());
     }
-    return result;
 }
 
-JsonFields JsonFields::object(const char* key) {
-    const Json* value = take(key);
-    return {*refusal_, value, place_of(key)};
-}
-
-std::vector<JsonFields> JsonFields::objects(const char* key, std::size_t most) {
-    std::vector<JsonFields> result;
-    const Json* list = take_list(key, most);
-    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-        result.emplace_back(*refusal_, &(*list)[k], fmt::format("{}[{}]", place_of(key), k));
+std::size_t JsonReader::word_of(const char* key, std::span<const std::string_view> words) {
+    std::string word;
+    text(key, word);
+    const auto known = std::find(words.begin(), words.end(), word);
+    if (known == words.end()) {
+        refuse(key, fmt::format("is '{}'; allowed are {}", printable(word, 40), fmt::join(words, " and ")));
+        return 0;
     }
-    return result;
+    return static_cast<std::size_t>(known - words.begin());
 }
 
-std::optional<JsonFields> JsonFields::object_or_null(const char* key) {
-    const Json* value = take(key);
-    if (value == nullptr || value->is_null()) {
-        return std::nullopt;
+void JsonReader::name_in(const char* key, std::uint32_t& index, std::span<const std::string> names,
+                         std::string_view otherwise) {
+    std::string name;
+    text(key, name);
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end()) {
+        refuse(key, fmt::format("is '{}', {}", printable(name, 40), otherwise));
+        return;
     }
-    return JsonFields(*refusal_, value, place_of(key));
+    index = static_cast<std::uint32_t>(known - names.begin());
 }
 
-void JsonFields::finish() {
+void JsonReader::finish() {
     if (refusal_->message || object_ == nullptr) {
         return;
     }

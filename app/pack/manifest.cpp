@@ -1,0 +1,103 @@
+#include "app/pack/manifest.h"
+
+#include "app/pack/json_reader.h"
+#include "app/pack/json_writer.h"
+#include "app/pack/manifest_fields.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace frustumscreen::pack_format {
+
+namespace {
+
+/// A later format may look different in everything but these two fields, so they are read first and alone.
+void read_format(Refusal& refusal, const nlohmann::json& document) {
+    JsonReader fields(refusal, &document, "");
+    std::string format;
+    fields.text("format", format);
+    if (!refusal.message && format != format_name) {
+        fields.refuse("format",
+                      fmt::format("is '{}'; this is not a FrustumScreen pack", printable(format, 40)));
+    }
+    std::uint64_t version = 0;
+    fields.whole("version", version, no_limit);
+    if (!refusal.message && version > pack_format_version) {
+        refusal.refuse("the pack",
+                       fmt::format("has format version {}, this program knows up to {}; it needs a newer "
+                                   "FrustumScreen",
+                                   version, pack_format_version));
+    }
+    if (!refusal.message && version == 0) {
+        fields.refuse("version", fmt::format("is 0; allowed is {}", pack_format_version));
+    }
+}
+
+bool is_part_name(std::string_view name) {
+    const auto allowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
+               c == '/';
+    };
+    return !name.empty() && name.size() <= most_name_bytes &&
+           std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' &&
+           name.find("..") == std::string_view::npos && name != manifest_name && name != signature_name;
+}
+
+void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
+    std::set<std::string> names;
+    std::uint64_t together = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const PartRecord& part = parts[k];
+        const std::string place = fmt::format("parts[{}].name", k);
+        if (!is_part_name(part.name)) {
+            refusal.refuse(place, fmt::format("is '{}'; allowed are a-z 0-9 _ - . and / between them",
+                                              printable(part.name, 40)));
+        }
+        if (!names.insert(part.name).second) {
+            refusal.refuse(place, fmt::format("is {}, which stands there twice", part.name));
+        }
+        together += part.bytes;
+    }
+    if (together > most_parts_bytes) {
+        refusal.refuse("parts",
+                       fmt::format("have {} bytes together, allowed are {}", together, most_parts_bytes));
+    }
+}
+
+Manifest read_fields(Refusal& refusal, const nlohmann::json& document) {
+    Manifest manifest;
+    JsonReader fields(refusal, &document, "");
+    manifest_fields(fields, manifest);
+    check_parts(refusal, manifest.parts);
+    fields.finish();
+    return manifest;
+}
+
+} // namespace
+
+Result<Manifest> parse_manifest(std::string_view text) {
+    Refusal refusal;
+    const nlohmann::json document = parse_json(refusal, text);
+    if (!refusal.message) {
+        read_format(refusal, document);
+    }
+    Manifest manifest;
+    if (!refusal.message) {
+        manifest = read_fields(refusal, document);
+    }
+    if (refusal.message) {
+        return bad_input(*refusal.message);
+    }
+    return manifest;
+}
+
+std::string write_manifest(const Manifest& manifest) {
+    JsonWriter fields;
+    manifest_fields(fields, manifest);
+    return fields.document().dump(2) + "\n";
+}
+
+} // namespace frustumscreen::pack_format

@@ -1,0 +1,97 @@
+/// The fields of a pack's manifest, in their order: each name and each limit stands here once. What reads
+/// (JsonReader) and what writes (JsonWriter) walk the same description. FORMAT.md says what the fields mean.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/limits.h"
+#include "app/pack/manifest.h"
+#include "app/pack/pack_file.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace frustumscreen::pack_format {
+
+inline constexpr std::string_view format_name = "FrustumScreen pack";
+inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+inline constexpr std::size_t most_parts = most_textures + most_levels + 2; ///< and the relief's two
+/// In the order of LevelTechnique.
+inline constexpr std::array<std::string_view, 2> technique_names{"relief", "mesh"};
+
+void caption_fields(auto& fields, auto& caption) {
+    fields.text("language", caption.language);
+    fields.text("title", caption.title);
+    fields.text("text", caption.text);
+}
+
+void provenance_fields(auto& fields, auto& provenance) {
+    fields.text("source_name", provenance.source_name);
+    fields.text("source_sha256", provenance.source_sha256);
+    fields.text("licence", provenance.licence);
+    fields.whole("source_triangles", provenance.source_triangles, no_limit);
+}
+
+void placement_fields(auto& fields, auto& pack) {
+    fields.numbers("box_size", std::span(glm::value_ptr(pack.box_size), 3));
+    fields.numbers("box_from_file", std::span(glm::value_ptr(pack.box_from_file), 16)); // column by column
+    fields.triples("extremes", pack.extremes, most_extremes);
+}
+
+void relief_fields(auto& fields, auto& relief) {
+    fields.number("texel_box", relief.texel_box);
+    fields.text("atlas", relief.atlas);
+    fields.text("charts", relief.charts);
+}
+
+void error_fields(auto& fields, auto& error) {
+    fields.number("mean_box", error.mean_box);
+    fields.number("p95_box", error.p95_box);
+    fields.number("max_box", error.max_box);
+    fields.number("colour_rmse", error.colour_rmse);
+}
+
+void level_fields(auto& fields, auto& level, const std::vector<std::string>& textures) {
+    fields.choice("technique", level.technique, technique_names);
+    fields.object("error", [&](auto& error) { error_fields(error, level.error); });
+    fields.whole("triangles", level.triangles, most_indices / 3);
+    fields.whole("vertices", level.vertices, most_vertices);
+    fields.name_in("texture", level.texture, textures, "not one of the textures");
+    fields.text("mesh", level.mesh);
+}
+
+void part_fields(auto& fields, auto& part) {
+    fields.text("name", part.name);
+    fields.whole("bytes", part.bytes, most_part_bytes);
+    fields.text("sha256", part.sha256);
+}
+
+void manifest_fields(auto& fields, auto& manifest) {
+    auto& pack = manifest.description;
+    fields.fixed("format", format_name);
+    fields.fixed("version", pack_format_version);
+    fields.text("title", pack.title);
+    fields.texts("languages", pack.languages, most_languages);
+    fields.objects("captions", pack.captions, most_languages,
+                   [](auto& item, auto& caption) { caption_fields(item, caption); });
+    fields.object("provenance", [&](auto& provenance) { provenance_fields(provenance, pack.provenance); });
+    fields.text("prop_kind", pack.prop_kind);
+    fields.flag("unlit", pack.unlit);
+    fields.whole("samples", pack.samples, 8);
+    fields.whole("relief_size", pack.relief_size, most_side_texels);
+    fields.object("placement", [&](auto& placement) { placement_fields(placement, pack); });
+    fields.texts("textures", manifest.textures, most_textures);
+    fields.object_or_null("relief", manifest.relief,
+                          [](auto& item, auto& relief) { relief_fields(item, relief); });
+    fields.objects("levels", manifest.levels, most_levels,
+                   [&](auto& item, auto& level) { level_fields(item, level, manifest.textures); });
+    fields.whole("default_level", pack.default_level, most_levels - 1);
+    fields.objects("parts", manifest.parts, most_parts,
+                   [](auto& item, auto& part) { part_fields(item, part); });
+}
+
+} // namespace frustumscreen::pack_format

@@ -1,0 +1,233 @@
+/// Every setting, once: its name, its range, what it is for. Its default is that of its struct. What reads
+/// the file (TableReader), what reports it (config_json.cpp) and what writes its page (settings_page.cpp)
+/// walk this description, in this order.
+///
+/// A walker's `reads` is true if it fills in what it walks. An `input` is read and worked out into other
+/// settings; it is not kept.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/settings/command.h"
+#include "app/settings/display_mode.h"
+#include "app/settings/language_tag.h"
+#include "app/settings/looking_at.h"
+#include "app/settings/range.h"
+#include "app/settings/settings.h"
+
+#include <array>
+#include <functional>
+#include <string_view>
+
+namespace frustumscreen {
+
+inline constexpr std::size_t most_packs = 256;
+inline constexpr std::size_t most_presses = 1000;
+inline constexpr double longest_script_s = 86400.0;
+inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
+
+/// Each by its enumeration.
+inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
+inline constexpr std::array<std::string_view, 2> prop_names{"frustum", "cube"};
+inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
+inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse",
+                                                               "none"};
+inline constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
+inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
+
+template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
+    constexpr Range focal_length{50.0, 200000.0, "pixels"};
+    const Pinhole usual = ProjectorSettings().pinhole;
+    fields.integer("width", pinhole.width, 64, 8192, "columns of the picture; the projector's own");
+    fields.integer("height", pinhole.height, 64, 8192, "rows of the picture; the projector's own");
+    double throw_ratio = usual.fx / usual.width;
+    fields.input("throw_ratio", throw_ratio, {0.1, 20.0, "(distance over the picture's width)"},
+                 "how wide the picture is; fx and fy say the same");
+    if constexpr (Fields::reads) {
+        fields.one_way("throw_ratio", {"fx", "fy"}, "fx or fy");
+        pinhole.fx = throw_ratio * pinhole.width;
+    }
+    fields.number("fx", pinhole.fx, focal_length, "focal length along the rows, in place of throw_ratio");
+    if constexpr (Fields::reads) {
+        pinhole.fy = pinhole.fx;
+        pinhole.cx = 0.5 * pinhole.width;
+        pinhole.cy = 0.5 * pinhole.height;
+    }
+    fields.number("fy", pinhole.fy, focal_length, "focal length along the columns; left out: fx");
+    fields.number("cx", pinhole.cx, {-1.0 * pinhole.width, 2.0 * pinhole.width, "pixels"},
+                  "column of the optical axis, which a lens shift moves; left out: the picture's middle");
+    fields.number("cy", pinhole.cy, {-1.0 * pinhole.height, 2.0 * pinhole.height, "pixels"},
+                  "row of the optical axis; left out: the picture's middle");
+}
+
+template <typename Fields> void projector_pose_settings(Fields& fields, auto& pose) {
+    glm::dvec3 position = pose.translation;
+    double roll_deg = 0.0;
+    fields.input("position_m", position, near_the_table, "where the lens is");
+    glm::dvec3 aim(position.x, position.y, 0.0);
+    fields.input("aim_m", aim, near_the_table,
+                 "the point that the optical axis meets; left out: straight below position_m");
+    fields.input(
+        "roll_deg", roll_deg, {-360.0, 360.0, "degrees"},
+        "0: the top of the picture lies at the table's far side; clockwise as the projector sees it");
+    if constexpr (Fields::reads) {
+        for (const char* key : {"position_m", "aim_m", "roll_deg"}) {
+            fields.one_way(key, {"table_from_projector"}, "table_from_projector");
+        }
+    }
+    fields.rigid("table_from_projector", pose, near_the_table,
+                 "a measured pose, in place of the three above: 16 numbers, column by column");
+    if constexpr (Fields::reads) {
+        if (!fields.has("table_from_projector")) {
+            const auto looking = looking_at(position, aim, roll_deg);
+            pose = looking.value_or(pose);
+            fields.require(
+                looking.has_value(), "aim_m",
+                "gives no direction that looks down from position_m; allowed is a point on the table");
+        }
+    }
+}
+
+void projector_settings(auto& fields, auto& projector) {
+    lens_settings(fields, projector.pinhole);
+    projector_pose_settings(fields, projector.table_from_projector);
+    fields.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
+}
+
+void display_settings(auto& fields, auto& display) {
+    fields.choice("kind", display.kind, display_names,
+                  "a projector on this machine's graphics card, or no screen");
+    fields.text("card", display.card,
+                "kms: \"card1\" or a path; \"any\": the one that has a projector, also later");
+    fields.text("connector", display.connector,
+                "kms: as in /sys/class/drm, \"HDMI-A-1\"; \"any\": whichever has a projector");
+    fields.parsed("mode", display.mode, text_of, parse_display_mode,
+                  "\"preferred\", \"1280x800\" and \"1280x800@60\", of 64 to 8192 pixels and 10 to 480 hertz",
+                  "kms; \"preferred\": the picture's own size at refresh_hz, if the projector has that, else "
+                  "the projector's own choice. In another size the picture stands as large as it fits");
+    fields.flag("force", display.force,
+                "kms: the mode even where a bad EDID does not name it; with a connector named, also where "
+                "that says that nothing is connected");
+}
+
+void render_settings(auto& fields, auto& render) {
+    fields.number(
+        "error_tolerance_px", render.error_tolerance_px, {0.01, 20.0, "pixels"},
+        "of the projector, where one is smallest on the prop: the cheapest level within it is drawn, if it "
+        "keeps refresh_hz");
+}
+
+template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
+    fields.choice("kind", prop.kind, prop_names, "a pyramidal frustum, or a cube");
+    fields.number("base_m", prop.base_m, {0.02, 2.0, "metres"}, "side of the bottom square");
+    const bool cube = prop.kind == PropKind::Cube;
+    const Range edge{prop.base_m, prop.base_m, "metres: a cube's edges are prop.base_m"};
+    fields.number("top_m", prop.top_m, cube ? edge : Range{0.005, 2.0, "metres"},
+                  "side of the top square; a cube's is base_m");
+    fields.number("height_m", prop.height_m, cube ? edge : Range{0.01, 2.0, "metres"},
+                  "from the bottom to the top; a cube's is base_m");
+    if constexpr (Fields::reads) {
+        prop.top_m = cube ? prop.base_m : prop.top_m;
+        prop.height_m = cube ? prop.base_m : prop.height_m;
+        prop.zone = cube ? PropZone::Hand : PropZone::Table;
+    }
+    fields.choice("zone", prop.zone, prop_zone_names,
+                  "table: upright on the table, slid and turned; hand: lifted and turned anyhow; left out: "
+                  "\"hand\" for a cube");
+}
+
+void table_settings(auto& fields, auto& table) {
+    fields.number("width_m", table.width_m, {0.05, 10.0, "metres"}, "along X");
+    fields.number("depth_m", table.depth_m, {0.05, 10.0, "metres"}, "along Y");
+}
+
+void eye_settings(auto& fields, auto& eye) {
+    fields.vector("default_m", eye.default_m, near_the_table,
+                  "where a visitor's eyes are while no head is tracked");
+    fields.number("lowest_elevation_deg", eye.lowest_elevation_deg, {1.0, 89.0, "degrees"},
+                  "of all visitors' eyes, above the table, seen from the prop");
+    fields.number("nearest_m", eye.nearest_m, {0.05, 10.0, "metres"}, "of all visitors' eyes to the prop");
+    fields.number("farthest_m", eye.farthest_m, {0.1, 20.0, "metres"}, "of all visitors' eyes from the prop");
+    fields.flag("tracked", eye.tracked, "false: a fixed viewer, at default_m whatever a tracker says");
+}
+
+template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) {
+    constexpr double shortest_direction = 1e-3;
+    fields.choice("kind", tracker.kind, tracker_names,
+                  "usb: a Polhemus VIPER, PATRIOT or LIBERTY, or a HID tracker, whichever is connected; "
+                  "spacemouse: a 3Dconnexion SpaceMouse; none: the prop stands at the table's centre");
+    fields.integer("seed", tracker.seed, "simulated: another seed, another visitor");
+    fields.path("poses", tracker.poses, "replay: a pose file or a recording of packets");
+    if constexpr (Fields::reads) {
+        tracker.poses_key = tracker.poses.empty() ? "" : fields.place("poses");
+    }
+    fields.number("replay_speed", tracker.replay_speed, {0.01, 100.0, "times as fast as recorded"}, "replay");
+    fields.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""},
+                  "usb: from the tracker's source to the half space in which the prop moves, in its axes");
+    fields.require(glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
+                   "gives no direction; allowed are three numbers of which one is not 0");
+    fields.rigid("table_from_tracker", tracker.table_from_tracker, near_the_table,
+                 "registration of a device that reports in its own frame: 16 numbers, column by column");
+    fields.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"},
+                  "from the flip of a picture until it is lit; poses are predicted to then");
+}
+
+void press_settings(auto& fields, auto& press) {
+    fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "after the script's beginning");
+    fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
+                   "0 previous artifact, 1 next artifact, 2 language");
+}
+
+void panel_settings(auto& fields, auto& panel) {
+    fields.choice("kind", panel.kind, panel_names,
+                  "a script of presses; buttons at a GPIO chip; keys of a keyboard of its own, for a bench");
+    fields.tables(
+        "script", panel.script, most_presses, [](auto& item, auto& press) { press_settings(item, press); },
+        "scripted: presses, in the order of their times");
+    fields.number("repeat_s", panel.repeat_s, {0.0, longest_script_s, "seconds"},
+                  "scripted: the script begins again after this long; 0: it runs once");
+    fields.text("chip", panel.chip, "gpio: path, name, label or number; gpiodetect lists them");
+    fields.texts("lines", panel.lines, button_commands.size(),
+                 "gpio: names or offsets of buttons 0, 1 and 2; gpioinfo lists them");
+    fields.choice("bias", panel.bias, bias_names, "gpio: what holds a line while its button is up");
+    fields.flag("active_low", panel.active_low, "gpio: a pressed button pulls its line to ground");
+    fields.texts("lamps", panel.lamps, button_commands.size(),
+                 "gpio: lines that light the buttons, in the same order; may be fewer");
+    fields.text("device", panel.device, "keys: path or name of the keyboard's event device");
+    fields.texts("keys", panel.keys, button_commands.size(), "keys: KEY_... of buttons 0, 1 and 2");
+    fields.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"},
+                  "gpio, keys: a level must stand so long");
+    fields.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"},
+                  "gpio, keys: a button that is down for longer is ignored until it comes up");
+}
+
+void exhibit_settings(auto& fields, auto& exhibit) {
+    fields.paths("packs", exhibit.packs, most_packs, "shown in this order");
+    fields.parsed("language", exhibit.language, std::identity(), parse_language_tag,
+                  "language tags such as \"en\" or \"de-CH\"", "of the captions, at first");
+    fields.flag("captions", exhibit.captions, "on the table, beside the prop");
+    fields.number("caption_height_m", exhibit.caption_height_m, {0.002, 0.2, "metres"},
+                  "of a letter's em on the table; 24 pt are 0.0085 m");
+}
+
+void all_settings(auto& file, auto& settings) {
+    const auto table = [&file](const char* name, const char* sentence, const auto& describe) {
+        file.table(name, sentence, describe);
+    };
+    table("projector", "The projector's lens, and where it is.",
+          [&](auto& fields) { projector_settings(fields, settings.projector); });
+    table("display", "How the picture comes to the projector.",
+          [&](auto& fields) { display_settings(fields, settings.display); });
+    table("render", "How well an artifact is drawn.",
+          [&](auto& fields) { render_settings(fields, settings.render); });
+    table("prop", "The white solid on the table or in the hand.",
+          [&](auto& fields) { prop_settings(fields, settings.prop); });
+    table("table", "The table's top.", [&](auto& fields) { table_settings(fields, settings.table); });
+    table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });
+    table("tracker", "What knows where the prop and the visitor's head are.",
+          [&](auto& fields) { tracker_settings(fields, settings.tracker); });
+    table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
+    table("exhibit", "What is shown and said.",
+          [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,19 @@
+/// The pose of a projector that is said by what it looks at.
+///
+/// Frames   table T, metres; the roll in degrees.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/transform.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+/// The projector at `position` looking at `aim`, its picture's top towards the table's far side (+Y), turned
+/// by `roll_deg` about its axis, clockwise as the projector sees it. Nothing if it looks along +-Y or
+/// nowhere.
+[[nodiscard]] std::optional<RigidTransform> looking_at(const glm::dvec3& position, const glm::dvec3& aim,
+                                                       double roll_deg);
+
+} // namespace frustumscreen

@@ -1,0 +1,12 @@
+/// Every setting as a page of Markdown: docs/settings.md, for `frustumscreen config --describe`.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include <string>
+
+namespace frustumscreen {
+
+[[nodiscard]] std::string settings_page();
+
+} // namespace frustumscreen

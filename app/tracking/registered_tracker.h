@@ -1,0 +1,42 @@
+/// A tracker whose poses are in table coordinates, whichever frame its device reports in: the one place where
+/// a registration is applied.
+///
+/// Frame    table T. A device that reports in its own frame K is placed by its registration; one that reports
+///          in table coordinates is handed on as it is.
+/// Threads  those of the device's interface: one caller. Allocates nothing of its own.
+/// Errors   the device's.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/tracker/tracker.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+/// Places poses of a device's own frame on the table. A pose that is not ok has none and stays as it is.
+void place_on_table(std::span<PoseSample> samples, const RigidTransform& table_from_tracker);
+
+class RegisteredTracker final : public Tracker {
+public:
+    /// `table_from_tracker` is not used where the device reports in table coordinates.
+    RegisteredTracker(std::unique_ptr<Tracker> device, const RigidTransform& table_from_tracker);
+
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
+    [[nodiscard]] std::string name() const override { return device_->name(); }
+    [[nodiscard]] bool reports_table_frame() const override { return true; }
+    [[nodiscard]] std::string_view state() const override { return device_->state(); }
+    [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
+
+    /// What was applied; nothing: the device reports in table coordinates.
+    [[nodiscard]] const std::optional<RigidTransform>& registration() const { return registration_; }
+
+private:
+    std::unique_ptr<Tracker> device_;
+    std::optional<RigidTransform> registration_;
+};
+
+} // namespace frustumscreen

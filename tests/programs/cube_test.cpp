@@ -1,0 +1,97 @@
+// A cube from a mesh to its pictures and its measured error, by the programs alone.
+
+#include "app/pack/pack_file.h"
+#include "tests/programs/program_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace frustumscreen {
+namespace {
+
+/// A six-sided die of unequal pyramids on a core: every side has something to show, the bottom too.
+class CubeProgram : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        ASSERT_TRUE(
+            write_file(folder / "star.obj",
+                       as_bytes("v 1 0 0\nv -0.7 0 0\nv 0 0.8 0\nv 0 -0.9 0\nv 0 0 1.1\nv 0 0 -1\n"
+                                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n")));
+        ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --prop cube --up z --unlit --size 64"), 0)
+            << text("err.txt");
+    }
+    [[nodiscard]] static std::string settings() { return FRUSTUMSCREEN_SOURCE_DIR "/config/cube.toml"; }
+};
+
+TEST_F(CubeProgram, ItsPackIsSoundAndMeasuredOnACube) {
+    ASSERT_EQ(run("frustumscreen-pack verify star.fspack"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-pack explain --json star.fspack"), 0) << text("err.txt");
+    const nlohmann::json json = nlohmann::json::parse(text("out.txt"));
+    EXPECT_EQ(json.at("prop").at("kind"), "cube");
+    EXPECT_EQ(json.at("prop").at("height_m"), json.at("prop").at("base_m"));
+    // 2.1 high and 1.7 across at most: as high as the cube of 0.16 m.
+    EXPECT_NEAR(json.at("artifact_size_m")[2].get<double>(), 0.16, 1e-3);
+}
+
+TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
+    // Rotated by half a turn about X, the middle above the table's centre, seen from straight above.
+    ASSERT_TRUE(
+        write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                                                  "0,1,0,0,0.15,0,1,0,0,1\n0,2,0,0,0.8,1,0,0,0,1\n")));
+    ASSERT_EQ(
+        run(fmt::format("frustumscreen render --config '{}' --pack star.fspack --poses poses.csv --out out "
+                        "--technique finest --no-light --aov",
+                        settings())),
+        0)
+        << text("err.txt");
+    const std::string pfm = text("out/frame_00000.pfm");
+    std::istringstream header(pfm);
+    std::string kind;
+    int width = 0;
+    int height = 0;
+    double scale = 0.0;
+    header >> kind >> width >> height >> scale;
+    ASSERT_EQ(kind, "PF");
+    ASSERT_EQ(scale, -1.0);
+    const std::size_t floats = std::size_t{3} * static_cast<std::size_t>(width * height);
+    ASSERT_GT(pfm.size(), 4 * floats);
+    int hits = 0;
+    float highest = 0.0F;
+    for (std::size_t k = 0; k < floats; k += 3) {
+        std::array<float, 3> point{};
+        std::memcpy(point.data(), pfm.data() + pfm.size() - 4 * (floats - k), sizeof(point));
+        if (!std::isnan(point[2])) {
+            ++hits;
+            highest = std::max(highest, point[2]);
+        }
+    }
+    EXPECT_GT(hits, 5000);
+    // The lower half of the star alone, whose waist is 1 / 2.1 of its height.
+    EXPECT_LT(highest, 0.1F / 2.1F + 5e-4F);
+    EXPECT_GT(highest, 0.02F);
+}
+
+TEST_F(CubeProgram, ErrorTimeHoldsItAgainstTheTruthInSixDegreesOfFreedom) {
+    ASSERT_EQ(
+        run(fmt::format("frustumscreen-bench error-time --config '{}' --pack star.fspack --mesh star.obj "
+                        "--out bench --poses 6 --peers none",
+                        settings())),
+        0)
+        << text("err.txt") << text("out.txt");
+    std::istringstream rows(text("bench/error_time_poses.csv"));
+    std::string line;
+    int poses = 0;
+    while (std::getline(rows, line)) {
+        ++poses;
+    }
+    EXPECT_GT(poses, 6) << "a header, and a row for each pose of each level";
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,69 @@
+// A cube in the hand: six faces, lifted and turned anyhow.
+
+#include "tests/render/comparison.h"
+#include "tests/render/rig.h"
+
+#include <set>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+constexpr double edge_m = 0.12;
+
+/// Turned anyhow about its middle, which is held over the table; the eye anywhere above.
+void hold(Stage& stage, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    stage.shuffle(random);
+    const glm::dquat rotation =
+        glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+    const glm::dvec3 middle(0.03 * u(random), 0.02 * u(random), 0.16 + 0.04 * u(random));
+    stage.table_from_prop = {rotation, middle - rotation * stage.prop.middle};
+}
+
+Stage cube_stage() {
+    Stage stage(256, 160);
+    stage.prop = make_cube(edge_m);
+    return stage;
+}
+
+TEST(Cube, EveryFaceShowsWhatARayCastShows) {
+    Rig rig(256, 160);
+    rig.prop = make_cube(edge_m);
+    rig.level.metres_per_box = metres_per_box(rig.pack, rig.prop);
+    rig.plan = make_plan(rig.prop, rig.level);
+    Stage stage = cube_stage();
+    const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
+    std::mt19937 random(11);
+    std::set<std::string_view> shown;
+    for (int pose = 0; pose < 24; ++pose) {
+        hold(stage, random);
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        for (const FacePlan& face : rig.plan.faces) {
+            shown.insert(stage.prop.faces[static_cast<std::size_t>(face.face)].name);
+        }
+        const Comparison c = compare(stage, cast, rig.places());
+        EXPECT_LT(c.worst_mm, 0.02) << pose;
+        EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
+    }
+    EXPECT_EQ(shown, (std::set<std::string_view>{"+X", "-X", "+Y", "-Y", "+Z", "-Z"}));
+}
+
+TEST(Cube, UpsideDownItsBottomShowsTheArtifactFromBelow) {
+    Rig rig(256, 160);
+    rig.prop = make_cube(edge_m);
+    rig.level.metres_per_box = metres_per_box(rig.pack, rig.prop);
+    rig.plan = make_plan(rig.prop, rig.level);
+    Stage stage = cube_stage();
+    stage.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};
+    stage.eye_m = {0.0, 0.0, 0.7};
+    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    ASSERT_EQ(rig.plan.faces.size(), 1U);
+    EXPECT_EQ(stage.prop.faces[static_cast<std::size_t>(rig.plan.faces[0].face)].name, "-Z");
+    const Comparison c = compare(stage, ReferenceCast(rig.pack, rig.level.metres_per_box), rig.places());
+    EXPECT_GT(c.both, 600U);
+    EXPECT_EQ(c.unexcused, 0U);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,68 @@
+#include "app/tracking/registered_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+class FakeTracker final : public Tracker {
+public:
+    explicit FakeTracker(bool table_frame) : table_frame_(table_frame) {}
+
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
+        PoseSample sample;
+        sample.time = now;
+        sample.position_m = {0.1, 0.2, 0.3};
+        samples.push_back(sample);
+        sample.ok = false;
+        samples.push_back(sample);
+        return fail(ErrorKind::DeviceLost, "the cable was cut after these");
+    }
+    [[nodiscard]] std::string name() const override { return "fake"; }
+    [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
+    [[nodiscard]] std::string_view state() const override { return "the fake is well"; }
+    [[nodiscard]] TrackerCounts counts() const override { return {.frames = 7}; }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return from_microseconds(9); }
+
+private:
+    bool table_frame_;
+};
+
+/// The device's +Z points down and its origin lies 0.3 m above the table.
+const RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
+
+TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
+    RegisteredTracker tracker(std::make_unique<FakeTracker>(false), table_from_tracker);
+    EXPECT_TRUE(tracker.reports_table_frame());
+    ASSERT_TRUE(tracker.registration());
+    std::vector<PoseSample> samples;
+    for (int round = 0; round < 2; ++round) {
+        EXPECT_FALSE(tracker.poll(from_microseconds(5 + round), samples)); // what came is there all the same
+    }
+    ASSERT_EQ(samples.size(), 4U);
+    for (const std::size_t k : {0U, 2U}) {
+        EXPECT_LT(glm::distance(samples[k].position_m, glm::dvec3(0.1, -0.2, 0.0)), 1e-15);
+        EXPECT_LT(glm::distance(samples[k].rotation * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)), 1e-15);
+        EXPECT_EQ(samples[k + 1].position_m, glm::dvec3(0.1, 0.2, 0.3)); // is none
+    }
+}
+
+TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
+    RegisteredTracker tracker(std::make_unique<FakeTracker>(true), table_from_tracker);
+    EXPECT_FALSE(tracker.registration());
+    std::vector<PoseSample> samples;
+    EXPECT_FALSE(tracker.poll(from_microseconds(5), samples));
+    ASSERT_EQ(samples.size(), 2U);
+    EXPECT_EQ(samples[0].position_m, glm::dvec3(0.1, 0.2, 0.3));
+}
+
+TEST(RegisteredTracker, IsOtherwiseItsDevice) {
+    const RegisteredTracker tracker(std::make_unique<FakeTracker>(false), table_from_tracker);
+    EXPECT_EQ(tracker.name(), "fake");
+    EXPECT_EQ(tracker.state(), "the fake is well");
+    EXPECT_EQ(tracker.counts().frames, 7U);
+    EXPECT_EQ(tracker.alive_until(), from_microseconds(9));
+}
+
+} // namespace
+} // namespace frustumscreen
