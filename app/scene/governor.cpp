@@ -94,7 +94,7 @@ void Governor::change_to(std::size_t rung, MonotonicTime now) {
     entered_for_quality_ = !relief;
     current_ = rung;
     changed_ = now;
-    wish_ = Wish::None;
+    wanted_ = Change::None;
     ++switches_;
 }
 
@@ -104,21 +104,22 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
         return;
     }
     const std::size_t better = wanted();
-    const Wish wish = better == current_ ? Wish::None : (fits(current_) ? Wish::Quality : Wish::Relief);
-    if (wish != wish_) {
-        wish_ = wish;
-        wished_since_ = now;
+    const Change wanted =
+        better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
+    if (wanted != wanted_) {
+        wanted_ = wanted;
+        wanted_since_ = now;
     }
-    const Nanoseconds delay = wish == Wish::Relief ? relief_delay : patience_;
+    const Nanoseconds delay = wanted == Change::Relief ? relief_delay : patience_;
     const bool settled = switches_ == 0 || now - changed_ >= dwell;
-    if (wish != Wish::None && settled && now - wished_since_ >= delay) {
+    if (wanted != Change::None && settled && now - wanted_since_ >= delay) {
         change_to(better, now);
     }
 }
 
 void Governor::enter(MonotonicTime now, double load) {
     model_.set_load(load);
-    wish_ = Wish::None;
+    wanted_ = Change::None;
     if (const std::size_t better = wanted(); better != current_) {
         change_to(better, now);
     }

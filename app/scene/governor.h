@@ -99,9 +99,9 @@ private:
     std::size_t current_ = 0;
     bool entered_for_quality_ = false;
     MonotonicTime changed_; ///< when `current_` was entered
-    enum class Wish { None, Relief, Quality };
-    Wish wish_ = Wish::None;
-    MonotonicTime wished_since_;
+    enum class Change { None, Relief, Quality };
+    Change wanted_ = Change::None;
+    MonotonicTime wanted_since_;
     Nanoseconds patience_ = least_patience;
     std::uint64_t switches_ = 0;
     std::uint64_t ignored_ = 0;

@@ -311,7 +311,7 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    artifacts_[on_].levels.took(now, ms);
+    artifacts_[on_].levels.record_time(now, ms);
 }
 
 ShowState ArtifactShow::state(const Presentation& presentation) const {

@@ -151,7 +151,7 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
     return renderer.draw(plan_, target, redraw);
 }
 
-void RunLevels::took(MonotonicTime now, double ms) {
+void RunLevels::record_time(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
         return; // two levels, or nothing, were drawn: says little about one
     }

@@ -6,7 +6,7 @@
 /// than moving the prop by a quarter of a pixel did (RMSE 3 to 69 codes against 5 to 83), and a governor only
 /// decides while pictures change.
 ///
-/// Threads  the render thread, with the display's context current. `draw` and `took` allocate nothing.
+/// Threads  the render thread, with the display's context current. `draw` and `record_time` allocate nothing.
 /// Errors   a technique that the pack has not, a driver without memory.
 #pragma once
 
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
                                   Renderer& renderer, const RenderTarget& target, Redraw redraw);
     /// The latest `draw` took `ms`, until its picture was done.
-    void took(MonotonicTime now, double ms);
+    void record_time(MonotonicTime now, double ms);
 
     [[nodiscard]] LevelState state() const;
 

@@ -28,7 +28,7 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_
                        "watchdog: the picture hangs: nothing was heard of the exhibit for {} s, while it {}",
                        loop_patience / std::chrono::seconds(1), *part)
                  : Sentence("watchdog: the exhibit is heard of again");
-        journal_.note(part ? Weight::Error : Weight::Notice, line.view(), {{"DEVICE", "watchdog"}});
+        journal_.note(part ? LogPriority::Error : LogPriority::Notice, line.view(), {{"DEVICE", "watchdog"}});
         status_file.note_hang(part.has_value());
     });
 }
@@ -96,7 +96,7 @@ void RunWatch::note_health(Health health) {
     }
     health_ = health;
     const bool well = health == Health::Well;
-    note_state(well ? Weight::Notice : Weight::Error, "watchdog", sentence_of(health),
+    note_state(well ? LogPriority::Notice : LogPriority::Error, "watchdog", sentence_of(health),
                format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
 }
 
@@ -109,7 +109,7 @@ void RunWatch::note(const RunStatus& status) {
     language_ = Sentence(status.language);
     level_ = Sentence(status.level);
     if (other) {
-        note_state(Weight::Info, "exhibit", shows.view(), shows);
+        note_state(LogPriority::Info, "exhibit", shows.view(), shows);
     }
     note_device("display", status.display, display_);
     note_device("tracker", status.tracker, tracker_);
@@ -124,13 +124,14 @@ void RunWatch::note(const RunStatus& status) {
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {
     if (state != noted) {
         noted = state;
-        note_state(Weight::Notice, device, state.view(), format_sentence("{}: {}", device, state.view()));
+        note_state(LogPriority::Notice, device, state.view(),
+                   format_sentence("{}: {}", device, state.view()));
     }
 }
 
-void RunWatch::note_state(Weight weight, std::string_view device, std::string_view state,
+void RunWatch::note_state(LogPriority priority, std::string_view device, std::string_view state,
                           const Sentence& line) const {
-    journal_.note(weight, line.view(),
+    journal_.note(priority, line.view(),
                   {{"DEVICE", device},
                    {"STATE", state},
                    {"ARTIFACT", artifact_.view()},

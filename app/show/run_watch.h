@@ -50,7 +50,7 @@ private:
     [[nodiscard]] std::optional<std::uint8_t> code_of(const Display& display);
     void note_health(Health health);
     void note_device(std::string_view device, const Sentence& state, Sentence& noted);
-    void note_state(Weight weight, std::string_view device, std::string_view state,
+    void note_state(LogPriority priority, std::string_view device, std::string_view state,
                     const Sentence& line) const;
 
     ServiceManager& manager_;

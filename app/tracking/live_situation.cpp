@@ -38,13 +38,13 @@ Situation LiveSituation::at(MonotonicTime lit) {
     Situation situation;
     situation.time = lit;
     const PoseEstimate prop = prop_.at(lit);
-    if (prop.uptakes > 0) {
+    if (prop.reinitialisations > 0) {
         situation.table_from_prop = shown_prop_.follow(prop, lit);
         situation.prop_age = prop.age;
         situation.prop_known = prop.status != PoseStatus::Stale;
     }
     const PoseEstimate head = head_.at(lit);
-    situation.head_known = head.uptakes > 0 && head.status != PoseStatus::Stale;
+    situation.head_known = head.reinitialisations > 0 && head.status != PoseStatus::Stale;
     situation.eye_m = shown_head_.follow(goal_of_eye(head, situation.head_known), lit).translation;
     return situation;
 }
@@ -59,7 +59,7 @@ PoseEstimate LiveSituation::goal_of_eye(const PoseEstimate& head, bool known) {
         goal.pose = {{1.0, 0.0, 0.0, 0.0}, default_eye_m_};
         goal.status = PoseStatus::Exact;
     }
-    goal.uptakes += eye_goals_;
+    goal.reinitialisations += eye_goals_;
     return goal;
 }
 

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] Situation at(MonotonicTime lit);
 
 private:
-    /// The head, or the default eye in its place; a change between them is an uptake.
+    /// The head, or the default eye in its place; a change between them is an reinitialisation.
     [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
 
     glm::dvec3 default_eye_m_;

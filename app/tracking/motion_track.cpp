@@ -61,10 +61,10 @@ void MotionTrack::restart() {
     const double place = options_.measured_sd * options_.measured_sd;
     const double velocity = options_.first_velocity_sd * options_.first_velocity_sd;
     const double acceleration = options_.first_acceleration_sd * options_.first_acceleration_sd;
-    for (Belief& belief : beliefs()) {
-        belief = {};
-        belief.covariance = {{place, 0.0, 0.0}, {0.0, velocity, 0.0}, {0.0, 0.0, acceleration}};
-        belief.weight = 1.0 / static_cast<double>(count_);
+    for (ModeState& mode : modes()) {
+        mode = {};
+        mode.covariance = {{place, 0.0, 0.0}, {0.0, velocity, 0.0}, {0.0, 0.0, acceleration}};
+        mode.weight = 1.0 / static_cast<double>(count_);
     }
     velocity_ = acceleration_ = glm::dvec3(0.0);
 }
@@ -74,7 +74,7 @@ void MotionTrack::mix(double dt_s) {
     const double n = static_cast<double>(count_);
     const double other = -std::expm1(-options_.changes_per_s * dt_s) / n;
     const double same = 1.0 - (n - 1.0) * other;
-    const Beliefs before = beliefs_;
+    const ModeStates before = modes_;
     for (std::size_t to = 0; to < count_; ++to) {
         double total = 0.0;
         std::array<double, most_models> share{};
@@ -82,7 +82,7 @@ void MotionTrack::mix(double dt_s) {
             share[from] = (from == to ? same : other) * before[from].weight;
             total += share[from];
         }
-        Belief mixed;
+        ModeState mixed;
         mixed.weight = total;
         for (std::size_t from = 0; from < count_; ++from) {
             share[from] /= total;
@@ -104,7 +104,7 @@ void MotionTrack::mix(double dt_s) {
                 }
             }
         }
-        beliefs_[to] = mixed;
+        modes_[to] = mixed;
     }
 }
 
@@ -113,15 +113,15 @@ glm::dvec3 MotionTrack::advance(double dt_s) {
     const double velocity = options_.first_velocity_sd * options_.first_velocity_sd;
     const double acceleration = options_.first_acceleration_sd * options_.first_acceleration_sd;
     for (std::size_t m = 0; m < count_; ++m) {
-        Belief& belief = beliefs_[m];
+        ModeState& mode = modes_[m];
         const glm::dmat3 step = transition(models_[m].kind, dt_s);
-        const std::array<glm::dvec3, 3> mean = belief.mean;
+        const std::array<glm::dvec3, 3> mean = mode.mean;
         for (int row = 0; row < 3; ++row) {
-            belief.mean[static_cast<std::size_t>(row)] =
+            mode.mean[static_cast<std::size_t>(row)] =
                 step[0][row] * mean[0] + step[1][row] * mean[1] + step[2][row] * mean[2];
         }
-        belief.covariance = step * belief.covariance * glm::transpose(step) +
-                            driving_noise(models_[m], dt_s, velocity, acceleration);
+        mode.covariance = step * mode.covariance * glm::transpose(step) +
+                          driving_noise(models_[m], dt_s, velocity, acceleration);
     }
     return rebase();
 }
@@ -130,29 +130,29 @@ glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
     const double noise = options_.measured_sd * options_.measured_sd;
     std::array<double, most_models> log_likelihood{};
     for (std::size_t m = 0; m < count_; ++m) {
-        Belief& belief = beliefs_[m];
-        const glm::dvec3 surprise = measured - belief.mean[0];
-        const glm::dvec3 column = belief.covariance[0];
+        ModeState& mode = modes_[m];
+        const glm::dvec3 surprise = measured - mode.mean[0];
+        const glm::dvec3 column = mode.covariance[0];
         const double variance = column[0] + noise;
         const glm::dvec3 gain = column / variance;
         for (std::size_t k = 0; k < 3; ++k) {
-            belief.mean[k] += gain[static_cast<int>(k)] * surprise;
+            mode.mean[k] += gain[static_cast<int>(k)] * surprise;
         }
         // Joseph's form: symmetric and positive whatever the rounding.
         glm::dmat3 keep(1.0);
         keep[0] -= gain;
-        belief.covariance =
-            keep * belief.covariance * glm::transpose(keep) + noise * glm::outerProduct(gain, gain);
+        mode.covariance =
+            keep * mode.covariance * glm::transpose(keep) + noise * glm::outerProduct(gain, gain);
         log_likelihood[m] = -0.5 * glm::dot(surprise, surprise) / variance - 1.5 * std::log(variance);
     }
     const double best = *std::max_element(log_likelihood.begin(), log_likelihood.begin() + count_);
     double total = 0.0;
     for (std::size_t m = 0; m < count_; ++m) {
-        beliefs_[m].weight = std::fmax(beliefs_[m].weight * std::exp(log_likelihood[m] - best), least_weight);
-        total += beliefs_[m].weight;
+        modes_[m].weight = std::fmax(modes_[m].weight * std::exp(log_likelihood[m] - best), least_weight);
+        total += modes_[m].weight;
     }
-    for (Belief& belief : beliefs()) {
-        belief.weight /= total;
+    for (ModeState& mode : modes()) {
+        mode.weight /= total;
     }
     return rebase();
 }
@@ -160,7 +160,7 @@ glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
 double MotionTrack::manoeuvring() const {
     double sum = 0.0;
     for (std::size_t m = 0; m < count_; ++m) {
-        sum += models_[m].kind == MotionModel::Kind::Manoeuvre ? beliefs_[m].weight : 0.0;
+        sum += models_[m].kind == MotionModel::Kind::Manoeuvre ? modes_[m].weight : 0.0;
     }
     return sum;
 }
@@ -168,13 +168,13 @@ double MotionTrack::manoeuvring() const {
 glm::dvec3 MotionTrack::rebase() {
     glm::dvec3 place(0.0);
     velocity_ = acceleration_ = glm::dvec3(0.0);
-    for (const Belief& belief : beliefs()) {
-        place += belief.weight * belief.mean[0];
-        velocity_ += belief.weight * belief.mean[1];
-        acceleration_ += belief.weight * belief.mean[2];
+    for (const ModeState& mode : modes()) {
+        place += mode.weight * mode.mean[0];
+        velocity_ += mode.weight * mode.mean[1];
+        acceleration_ += mode.weight * mode.mean[2];
     }
-    for (Belief& belief : beliefs()) {
-        belief.mean[0] -= place;
+    for (ModeState& mode : modes()) {
+        mode.mean[0] -= place;
     }
     return place;
 }

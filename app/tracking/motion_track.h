@@ -63,22 +63,22 @@ public:
     [[nodiscard]] double manoeuvring() const;
 
 private:
-    struct Belief {
+    struct ModeState {
         std::array<glm::dvec3, 3> mean{}; ///< place, velocity, acceleration
         glm::dmat3 covariance{0.0};       ///< of each axis
         double weight = 1.0;
     };
-    using Beliefs = std::array<Belief, most_models>;
+    using ModeStates = std::array<ModeState, most_models>;
 
     void mix(double dt_s);
     /// Takes the weighted mean place out of every model's and returns it.
     glm::dvec3 rebase();
-    [[nodiscard]] std::span<Belief> beliefs() { return {beliefs_.data(), count_}; }
+    [[nodiscard]] std::span<ModeState> modes() { return {modes_.data(), count_}; }
 
     std::array<MotionModel, most_models> models_{};
     std::size_t count_;
     MotionTrackOptions options_;
-    Beliefs beliefs_{};
+    ModeStates modes_{};
     glm::dvec3 velocity_{0.0};
     glm::dvec3 acceleration_{0.0};
 };

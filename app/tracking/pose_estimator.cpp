@@ -36,7 +36,7 @@ Taken PoseEstimator::take_up(const Moment& measured) {
     filter_->restart(measured.pose);
     count_ = 0; // nothing is known between then and now
     remember(measured);
-    ++uptakes_;
+    ++reinitialisations_;
     return Taken::Used;
 }
 
@@ -94,7 +94,7 @@ PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     if (count_ == 0) {
         return {};
     }
-    PoseEstimate estimate{moment(0).pose, PoseStatus::Exact, time - moment(0).time, uptakes_};
+    PoseEstimate estimate{moment(0).pose, PoseStatus::Exact, time - moment(0).time, reinitialisations_};
     if (options_.predicts && estimate.age > Nanoseconds(0)) {
         estimate.pose = predicted(to_seconds(estimate.age));
         estimate.status = PoseStatus::Predicted;

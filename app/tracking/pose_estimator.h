@@ -27,8 +27,9 @@ enum class PoseStatus {
 struct PoseEstimate {
     RigidTransform pose;
     PoseStatus status = PoseStatus::Stale;
-    Nanoseconds age{0};        ///< from the latest sample to the time asked for
-    std::uint64_t uptakes = 0; ///< times the pose was taken up anew: here it may jump; 0 = never seen
+    Nanoseconds age{0}; ///< from the latest sample to the time asked for
+    std::uint64_t reinitialisations =
+        0; ///< times the pose was taken up anew: here it may jump; 0 = never seen
 };
 
 enum class Taken {
@@ -90,7 +91,7 @@ private:
     Moment doubtful_; ///< the latest outlier
     int outliers_ = 0;
     int late_ = 0;
-    std::uint64_t uptakes_ = 0;
+    std::uint64_t reinitialisations_ = 0;
 };
 
 } // namespace frustumscreen

@@ -5,16 +5,16 @@
 namespace frustumscreen {
 
 const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
-    if (uptakes_ == 0) {
+    if (reinitialisations_ == 0) {
         shown_ = estimate.pose; // nothing was shown that it could glide from
     }
     if (estimate.status == PoseStatus::Stale) {
         return shown_;
     }
-    if (estimate.uptakes != uptakes_) {
+    if (estimate.reinitialisations != reinitialisations_) {
         left_ = step_between(estimate.pose, shown_);
         return_ = time;
-        uptakes_ = estimate.uptakes;
+        reinitialisations_ = estimate.reinitialisations;
     }
     const double gone = ease(to_seconds(time - return_) / to_seconds(options_.return_time));
     const RigidTransform goal =

@@ -31,7 +31,7 @@ private:
     RigidTransform shown_;
     PoseStep left_;        ///< from the estimate to the old pose when the return began
     MonotonicTime return_; ///< when it began
-    std::uint64_t uptakes_ = 0;
+    std::uint64_t reinitialisations_ = 0;
 };
 
 } // namespace frustumscreen

@@ -54,7 +54,7 @@ std::vector<std::string> card_paths() {
 
 } // namespace
 
-Result<KmsCard> KmsCard::open(std::string_view name, const OutputWish& wish) {
+Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request) {
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
@@ -67,7 +67,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputWish& wish) {
         Result<KmsCard> card = open_path(path);
         if (card) {
             card->any_ = true;
-            const CardRank rank = paths.size() > 1 ? rank_of(card->look(true), wish) : CardRank{};
+            const CardRank rank = paths.size() > 1 ? rank_of(card->look(true), request) : CardRank{};
             if (!best || rank < best_rank) {
                 best_rank = rank;
                 best = std::move(card);
@@ -163,11 +163,11 @@ bool OtherCards::have_projector() {
     }
     bool all_opened = true;
     for (const std::string& path : card_paths()) {
-        if (path == own_path_ || !has_connected(connected, path, wish_.connector)) {
+        if (path == own_path_ || !has_connected(connected, path, request_.connector)) {
             continue;
         }
         const Result<KmsCard> card = KmsCard::open_path(path);
-        if (card && rank_of(card->look(true), wish_) < CardRank::NothingCertain) {
+        if (card && rank_of(card->look(true), request_) < CardRank::NothingCertain) {
             return true;
         }
         all_opened = all_opened && card.has_value();

@@ -17,7 +17,7 @@ namespace frustumscreen {
 class KmsCard {
 public:
     /// `name`: a path, or "card1", or empty for the first one of the best `CardRank`.
-    [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputWish& wish);
+    [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request);
     ~KmsCard();
     KmsCard(KmsCard&& other) noexcept;
     KmsCard& operator=(KmsCard&& other) noexcept;
@@ -49,13 +49,13 @@ private:
 /// the kernel says of its connectors has changed.
 class OtherCards {
 public:
-    OtherCards(std::string own_path, OutputWish wish)
-        : own_path_(std::move(own_path)), wish_(std::move(wish)) {}
+    OtherCards(std::string own_path, OutputRequest request)
+        : own_path_(std::move(own_path)), request_(std::move(request)) {}
     [[nodiscard]] bool have_projector();
 
 private:
     std::string own_path_;
-    OutputWish wish_;
+    OutputRequest request_;
     std::vector<std::string> looked_at_; ///< connectors to which something was connected, in vain
 };
 

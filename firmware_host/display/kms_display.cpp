@@ -21,8 +21,9 @@ std::unique_ptr<KmsDevice> make_device(const KmsCard& card) {
 
 } // namespace
 
-Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name, const OutputWish& wish) {
-    Result<KmsCard> card = KmsCard::open(card_name, wish);
+Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name,
+                                                       const OutputRequest& request) {
+    Result<KmsCard> card = KmsCard::open(card_name, request);
     if (!card) {
         return tl::unexpected<Error>(card.error());
     }
@@ -33,26 +34,26 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
                         card->path()));
     }
     Result<std::unique_ptr<CardScreen>> screen =
-        CardScreen::create(card->file(), {wish.picture_width, wish.picture_height});
+        CardScreen::create(card->file(), {request.picture_width, request.picture_height});
     if (!screen) {
         return tl::unexpected<Error>(screen.error());
     }
     return std::unique_ptr<KmsDisplay>(
-        new KmsDisplay(std::move(*card), card_name.empty(), std::move(*screen), wish));
+        new KmsDisplay(std::move(*card), card_name.empty(), std::move(*screen), request));
 }
 
 KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen,
-                       const OutputWish& wish)
-    : card_(std::move(card)), wish_(wish),
-      other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), wish)) : std::nullopt),
+                       const OutputRequest& request)
+    : card_(std::move(card)), request_(request),
+      other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), request)) : std::nullopt),
       screen_(std::move(screen)), kms_(make_device(card_)),
       presenter_(
-          *kms_, [this](PixelSize size) { return screen_->make_pair(size); }, wish),
+          *kms_, [this](PixelSize size) { return screen_->make_pair(size); }, request),
       watch_([this](bool thoroughly) { return look(thoroughly); }, make_udev_hotplug()) {}
 
 CardSeen KmsDisplay::look(bool thoroughly) {
     CardSeen seen = card_.look(thoroughly);
-    if (other_cards_ && seen.state == CardState::There && choose_connector(seen, wish_) == nullptr &&
+    if (other_cards_ && seen.state == CardState::There && choose_connector(seen, request_) == nullptr &&
         other_cards_->have_projector()) {
         seen.state = CardState::Elsewhere;
     }

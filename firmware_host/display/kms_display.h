@@ -24,9 +24,9 @@ namespace frustumscreen {
 
 class KmsDisplay final : public Display {
 public:
-    /// `card`: as KmsCard::open; the picture's size is in `wish`.
+    /// `card`: as KmsCard::open; the picture's size is in `request`.
     [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>> create(std::string_view card,
-                                                                    const OutputWish& wish);
+                                                                    const OutputRequest& request);
 
     [[nodiscard]] int width() const override { return screen_->picture().width(); }
     [[nodiscard]] int height() const override { return screen_->picture().height(); }
@@ -47,12 +47,12 @@ public:
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 
 private:
-    KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputWish& wish);
+    KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputRequest& request);
     /// What is connected, on the watch's thread.
     [[nodiscard]] CardSeen look(bool thoroughly);
 
     KmsCard card_;
-    OutputWish wish_;
+    OutputRequest request_;
     std::optional<OtherCards> other_cards_; ///< the watch's thread alone; nothing: this card was asked for
     std::unique_ptr<CardScreen> screen_;
     std::unique_ptr<KmsDevice> kms_;

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// 59.94, 59.81 and 60 Hz are the same wish, 50 and 60 are not.
+/// 59.94, 59.81 and 60 Hz are the same request, 50 and 60 are not.
 constexpr double same_refresh_hz = 0.5;
 constexpr double usual_refresh_hz = 60.0; ///< where a mode is made here and none is asked for
 
@@ -35,34 +35,34 @@ bool is_halved(const ModeTiming& mode) {
     return (mode.flags & (mode_interlaced | mode_doublescan)) != 0;
 }
 
-double off_rate(const ModeTiming& mode, const OutputWish& wish) {
-    return std::abs(refresh_hz(mode) - (wish.refresh_hz > 0.0 ? wish.refresh_hz : wish.picture_hz));
+double off_rate(const ModeTiming& mode, const OutputRequest& request) {
+    return std::abs(refresh_hz(mode) - (request.refresh_hz > 0.0 ? request.refresh_hz : request.picture_hz));
 }
 
 /// Smaller is nearer: whole pictures before half ones, then size and shape, then refresh.
-auto distance(const ModeTiming& mode, const OutputWish& wish) {
-    const int width = wish.width > 0 ? wish.width : wish.picture_width;
-    const int height = wish.height > 0 ? wish.height : wish.picture_height;
+auto distance(const ModeTiming& mode, const OutputRequest& request) {
+    const int width = request.width > 0 ? request.width : request.picture_width;
+    const int height = request.height > 0 ? request.height : request.picture_height;
     const double size = width > 0 && height > 0
                             ? std::abs(std::log(static_cast<double>(mode.width) / width)) +
                                   std::abs(std::log(static_cast<double>(mode.height) / height))
                             : 0.0;
-    return std::make_tuple(is_halved(mode), size, off_rate(mode, wish));
+    return std::make_tuple(is_halved(mode), size, off_rate(mode, request));
 }
 
 /// Smaller is better, where a mode is asked for: that one, the preferred one, the nearest.
-auto rank_asked(const ModeTiming& mode, const OutputWish& wish) {
-    const bool asked = fulfils(mode, wish);
-    return std::make_tuple(!asked, !asked && !mode.preferred, distance(mode, wish));
+auto rank_asked(const ModeTiming& mode, const OutputRequest& request) {
+    const bool asked = fulfils(mode, request);
+    return std::make_tuple(!asked, !asked && !mode.preferred, distance(mode, request));
 }
 
 /// Smaller is better, where none is asked for: the picture's size at its rate (of these the preferred one) or
 /// at another, the preferred one, the nearest.
-auto rank_unasked(const ModeTiming& mode, const OutputWish& wish) {
+auto rank_unasked(const ModeTiming& mode, const OutputRequest& request) {
     const bool fits =
-        mode.width == wish.picture_width && mode.height == wish.picture_height && !is_halved(mode);
-    const bool in_time = fits && off_rate(mode, wish) <= 2.0 * same_refresh_hz;
-    return std::make_tuple(!fits, !in_time, !mode.preferred, distance(mode, wish));
+        mode.width == request.picture_width && mode.height == request.picture_height && !is_halved(mode);
+    const bool in_time = fits && off_rate(mode, request) <= 2.0 * same_refresh_hz;
+    return std::make_tuple(!fits, !in_time, !mode.preferred, distance(mode, request));
 }
 
 int rank_of(const ConnectorSeen& connector) {
@@ -83,17 +83,17 @@ double refresh_hz(const ModeTiming& mode) {
     return mode.vscan > 1 ? hz / mode.vscan : hz;
 }
 
-bool is_lit_blindly(const ConnectorSeen& connector, const OutputWish& wish) {
-    return connector.plugged == Plugged::No && wish.force && wish.width > 0 &&
-           connector.name == wish.connector;
+bool is_lit_blindly(const ConnectorSeen& connector, const OutputRequest& request) {
+    return connector.plugged == Plugged::No && request.force && request.width > 0 &&
+           connector.name == request.connector;
 }
 
-const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wish) {
+const ConnectorSeen* choose_connector(const CardSeen& card, const OutputRequest& request) {
     const ConnectorSeen* best = nullptr;
     for (const ConnectorSeen& connector : card.connectors) {
-        const bool named = wish.connector.empty() || connector.name == wish.connector;
-        const bool there = connector.plugged != Plugged::No || is_lit_blindly(connector, wish);
-        if (named && there && !modes_to_try(connector, wish).empty() &&
+        const bool named = request.connector.empty() || connector.name == request.connector;
+        const bool there = connector.plugged != Plugged::No || is_lit_blindly(connector, request);
+        if (named && there && !modes_to_try(connector, request).empty() &&
             (best == nullptr || rank_of(connector) < rank_of(*best))) {
             best = &connector;
         }
@@ -101,39 +101,39 @@ const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wi
     return best;
 }
 
-CardRank rank_of(const CardSeen& card, const OutputWish& wish) {
-    const ConnectorSeen* best = choose_connector(card, wish);
+CardRank rank_of(const CardSeen& card, const OutputRequest& request) {
+    const ConnectorSeen* best = choose_connector(card, request);
     if (best != nullptr && best->plugged == Plugged::Yes) {
         return best->built_in ? CardRank::Panel : CardRank::Projector;
     }
     const bool could_be =
-        wish.connector.empty() ||
+        request.connector.empty() ||
         std::any_of(card.connectors.begin(), card.connectors.end(),
-                    [&wish](const ConnectorSeen& seen) { return seen.name == wish.connector; });
+                    [&request](const ConnectorSeen& seen) { return seen.name == request.connector; });
     return could_be ? CardRank::NothingCertain : CardRank::WithoutTheConnectorNamed;
 }
 
-std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputWish& wish) {
+std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputRequest& request) {
     std::vector<ModeTiming> modes;
     std::copy_if(connector.modes.begin(), connector.modes.end(), std::back_inserter(modes), is_usable);
-    std::stable_sort(modes.begin(), modes.end(), [&wish](const ModeTiming& a, const ModeTiming& b) {
-        return wish.width > 0 ? rank_asked(a, wish) < rank_asked(b, wish)
-                              : rank_unasked(a, wish) < rank_unasked(b, wish);
+    std::stable_sort(modes.begin(), modes.end(), [&request](const ModeTiming& a, const ModeTiming& b) {
+        return request.width > 0 ? rank_asked(a, request) < rank_asked(b, request)
+                                 : rank_unasked(a, request) < rank_unasked(b, request);
     });
-    const bool there = !modes.empty() && fulfils(modes.front(), wish);
-    if (wish.force && wish.width > 0 && !there) {
-        const double hz = wish.refresh_hz > 0.0 ? wish.refresh_hz : usual_refresh_hz;
-        if (const ModeTiming made = make_mode(wish.width, wish.height, hz); is_usable(made)) {
+    const bool there = !modes.empty() && fulfils(modes.front(), request);
+    if (request.force && request.width > 0 && !there) {
+        const double hz = request.refresh_hz > 0.0 ? request.refresh_hz : usual_refresh_hz;
+        if (const ModeTiming made = make_mode(request.width, request.height, hz); is_usable(made)) {
             modes.insert(modes.begin(), made);
         }
     }
     return modes;
 }
 
-bool fulfils(const ModeTiming& mode, const OutputWish& wish) {
-    const bool size = wish.width == 0 || (mode.width == wish.width && mode.height == wish.height);
+bool fulfils(const ModeTiming& mode, const OutputRequest& request) {
+    const bool size = request.width == 0 || (mode.width == request.width && mode.height == request.height);
     const bool rate =
-        wish.refresh_hz == 0.0 || std::abs(refresh_hz(mode) - wish.refresh_hz) <= same_refresh_hz;
+        request.refresh_hz == 0.0 || std::abs(refresh_hz(mode) - request.refresh_hz) <= same_refresh_hz;
     return size && rate && !is_halved(mode);
 }
 

@@ -67,7 +67,7 @@ struct CardSeen {
 };
 
 /// What the settings ask for.
-struct OutputWish {
+struct OutputRequest {
     std::string connector; ///< empty = whichever has a projector
     int width = 0;         ///< of the mode; 0 = the picture's, else the projector's preferred one
     int height = 0;
@@ -80,22 +80,23 @@ struct OutputWish {
 };
 
 /// Is this the connector that is lit by force though it says that nothing is connected?
-[[nodiscard]] bool is_lit_blindly(const ConnectorSeen& connector, const OutputWish& wish);
+[[nodiscard]] bool is_lit_blindly(const ConnectorSeen& connector, const OutputRequest& request);
 
 /// The connector to light; nothing: no projector is there. One that is certainly connected goes before one
 /// that cannot say, one of the outside before a built-in panel, else the first.
-[[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputWish& wish);
+[[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputRequest& request);
 
 /// Which of several cards to take: the one with the smallest number, of equal ones the first.
 enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTheConnectorNamed };
-[[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputWish& wish);
+[[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputRequest& request);
 
 /// The modes to try, best first: the one asked for; if none is, those of the picture's own size, then the
 /// preferred one; the rest by nearness.
-[[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const OutputWish& wish);
+[[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector,
+                                                   const OutputRequest& request);
 
 /// Does `mode` fulfil what the settings ask for?
-[[nodiscard]] bool fulfils(const ModeTiming& mode, const OutputWish& wish);
+[[nodiscard]] bool fulfils(const ModeTiming& mode, const OutputRequest& request);
 
 /// A timing of our own, where the projector's EDID has none; no clock: none can be made.
 [[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);

@@ -13,7 +13,7 @@ namespace {
 /// The kernel's way to believe that something is connected (Documentation/fb/modedb.rst).
 std::string kernel_argument(std::string_view connector, int width, int height, double hz) {
     return fmt::format("video={}:{}x{}@{}e", connector, width, height,
-                       hz > 0.0 ? std::lround(hz) : std::lround(OutputWish{}.picture_hz));
+                       hz > 0.0 ? std::lround(hz) : std::lround(OutputRequest{}.picture_hz));
 }
 
 } // namespace
@@ -30,46 +30,46 @@ Sentence sentence_of(const LitOutput& output) {
     }
     return format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}{}{}", output.connector,
                            mode.width, mode.height, hz,
-                           output.wished ? "" : ", because it cannot do the mode in the settings",
+                           output.as_requested ? "" : ", because it cannot do the mode in the settings",
                            output.shortcoming.empty() ? "" : "; ", output.shortcoming);
 }
 
-Sentence why_dark(const CardSeen& card, const OutputWish& wish) {
+Sentence why_dark(const CardSeen& card, const OutputRequest& request) {
     const auto& all = card.connectors;
-    const auto named = [&wish](const ConnectorSeen& seen) { return seen.name == wish.connector; };
-    const auto plugged = [&wish, &named](const ConnectorSeen& seen) {
-        return seen.plugged == Plugged::Yes && (wish.connector.empty() || named(seen));
+    const auto named = [&request](const ConnectorSeen& seen) { return seen.name == request.connector; };
+    const auto plugged = [&request, &named](const ConnectorSeen& seen) {
+        return seen.plugged == Plugged::Yes && (request.connector.empty() || named(seen));
     };
     const auto mute = std::find_if(all.begin(), all.end(), plugged);
-    if (choose_connector(card, wish) != nullptr) {
+    if (choose_connector(card, request) != nullptr) {
         return format_sentence("the projector is about to be lit");
     }
     if (mute != all.end()) {
         return format_sentence("the projector at {} names no mode; set display.mode and display.force",
                                mute->name);
     }
-    if (!wish.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
+    if (!request.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
         std::string names;
         for (const ConnectorSeen& seen : all) {
             names += (names.empty() ? "" : ", ") + seen.name;
         }
-        return format_sentence("the graphics card has no connector {}; it has {}", wish.connector, names);
+        return format_sentence("the graphics card has no connector {}; it has {}", request.connector, names);
     }
     return format_sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes{}",
-                           wish.connector.empty() ? "" : " to ", wish.connector,
-                           wish.force ? "; name display.connector to light one that cannot say that it is "
-                                        "there"
-                                      : "");
+                           request.connector.empty() ? "" : " to ", request.connector,
+                           request.force ? "; name display.connector to light one that cannot say that it is "
+                                           "there"
+                                         : "");
 }
 
-Sentence why_refused(const ConnectorSeen& connector, const OutputWish& wish, std::string_view reason) {
+Sentence why_refused(const ConnectorSeen& connector, const OutputRequest& request, std::string_view reason) {
     const std::string_view before = reason.empty() ? "" : ": ";
-    if (is_lit_blindly(connector, wish)) {
+    if (is_lit_blindly(connector, request)) {
         return format_sentence(
             "the graphics card does not light {}, which says that nothing is connected{}{}; "
             "start the kernel with {}",
             connector.name, before, reason,
-            kernel_argument(connector.name, wish.width, wish.height, wish.refresh_hz));
+            kernel_argument(connector.name, request.width, request.height, request.refresh_hz));
     }
     return format_sentence("the graphics card takes no mode of the projector at {}{}{}; the exhibit goes on "
                            "in the dark",

@@ -13,17 +13,17 @@ namespace frustumscreen {
 struct LitOutput {
     std::string_view connector;
     ModeTiming mode;
-    bool wished = true;           ///< it is the mode that the settings ask for
+    bool as_requested = true;     ///< it is the mode that the settings ask for
     bool blindly = false;         ///< the connector says that nothing is connected
     std::string_view shortcoming; ///< what may be wrong with it, as KmsDevice tells it
 };
 [[nodiscard]] Sentence sentence_of(const LitOutput& output);
 
 /// Why nothing is lit, or that it is about to be.
-[[nodiscard]] Sentence why_dark(const CardSeen& card, const OutputWish& wish);
+[[nodiscard]] Sentence why_dark(const CardSeen& card, const OutputRequest& request);
 
 /// Why the connector chosen was not lit; `reason`: a clause, or empty.
-[[nodiscard]] Sentence why_refused(const ConnectorSeen& connector, const OutputWish& wish,
+[[nodiscard]] Sentence why_refused(const ConnectorSeen& connector, const OutputRequest& request,
                                    std::string_view reason);
 
 } // namespace frustumscreen

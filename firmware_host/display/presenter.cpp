@@ -18,8 +18,8 @@ constexpr std::string_view projector_is_elsewhere =
 
 } // namespace
 
-Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wish)
-    : device_(device), make_scanout_(std::move(make_scanout)), wish_(std::move(wish)),
+Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request)
+    : device_(device), make_scanout_(std::move(make_scanout)), request_(std::move(request)),
       state_("the projector is being looked for") {}
 
 void Presenter::connected(CardSeen seen) {
@@ -34,7 +34,7 @@ void Presenter::connected(CardSeen seen) {
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = why_dark(seen_, wish_);
+        state_ = why_dark(seen_, request_);
     }
 }
 
@@ -49,7 +49,7 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     }
     if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
         stuck_since_.reset();
-        if (choose_connector(seen_, wish_) != nullptr) {
+        if (choose_connector(seen_, request_) != nullptr) {
             return fail(ErrorKind::DeviceLost,
                         fmt::format("display: the graphics card has taken no picture for {} s; the exhibit "
                                     "must be started anew",
@@ -137,15 +137,15 @@ bool Presenter::still_right() const {
         std::find_if(seen_.connectors.begin(), seen_.connectors.end(),
                      [this](const ConnectorSeen& seen) { return seen.id == lit_->connector; });
     if (connector == seen_.connectors.end() || connector->link_bad ||
-        lit_->blindly != is_lit_blindly(*connector, wish_) ||
+        lit_->blindly != is_lit_blindly(*connector, request_) ||
         (connector->plugged == Plugged::No && !lit_->blindly)) {
         return false;
     }
-    if (connector->plugged == Plugged::Unknown && choose_connector(seen_, wish_) != &*connector) {
+    if (connector->plugged == Plugged::Unknown && choose_connector(seen_, request_) != &*connector) {
         return false;
     }
-    const std::vector<ModeTiming> modes = modes_to_try(*connector, wish_);
-    if (!modes.empty() && fulfils(modes.front(), wish_) && !lit_->wished) {
+    const std::vector<ModeTiming> modes = modes_to_try(*connector, request_);
+    if (!modes.empty() && fulfils(modes.front(), request_) && !lit_->as_requested) {
         return false; // what is asked for can be had now
     }
     return std::find(modes.begin(), modes.end(), lit_->mode) != modes.end();
@@ -164,12 +164,12 @@ void Presenter::darken() {
     if (answer != KmsAnswer::Done && answer != KmsAnswer::Refused) {
         went_wrong(answer);
     } else {
-        state_ = why_dark(seen_, wish_);
+        state_ = why_dark(seen_, request_);
     }
 }
 
 void Presenter::light() {
-    const ConnectorSeen* connector = choose_connector(seen_, wish_);
+    const ConnectorSeen* connector = choose_connector(seen_, request_);
     if (connector == nullptr) {
         return;
     }
@@ -178,19 +178,19 @@ void Presenter::light() {
         return;
     }
     master_ = true;
-    for (const ModeTiming& mode : modes_to_try(*connector, wish_)) {
+    for (const ModeTiming& mode : modes_to_try(*connector, request_)) {
         const bool unfit = std::find(unfit_.begin(), unfit_.end(), mode) != unfit_.end();
         if (!unfit && light(*connector, mode)) {
             return;
         }
     }
     unfit_.clear();
-    state_ = why_refused(*connector, wish_, no_memory_.view());
+    state_ = why_refused(*connector, request_, no_memory_.view());
 }
 
 /// False: another mode may work.
 bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
-    const PixelSize picture{wish_.picture_width, wish_.picture_height};
+    const PixelSize picture{request_.picture_width, request_.picture_height};
     const PixelSize screen{mode.width, mode.height};
     if (card_scales_ && !(picture == screen)) {
         if (light(connector, mode, picture)) {
@@ -208,9 +208,9 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
     const PixelRectangle place = letterbox(framebuffer, {mode.width, mode.height});
     const KmsAnswer answer = device_.light(connector.id, mode, {fill(), framebuffer, place}, ++ticket_);
     if (answer == KmsAnswer::Done) {
-        const bool wished = wish_.width == 0 || fulfils(mode, wish_) ||
-                            (wish_.force && mode == modes_to_try(connector, wish_).front());
-        lit_ = Lit{connector.id, connector.name, mode, wished, is_lit_blindly(connector, wish_)};
+        const bool as_requested = request_.width == 0 || fulfils(mode, request_) ||
+                                  (request_.force && mode == modes_to_try(connector, request_).front());
+        lit_ = Lit{connector.id, connector.name, mode, as_requested, is_lit_blindly(connector, request_)};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         state_ = format_sentence("the projector at {} is about to be lit", connector.name);
@@ -254,7 +254,7 @@ bool Presenter::make_scanout(PixelSize size) {
         shown_before_ = std::move(scanout_);
     }
     scanout_ = std::move(*made);
-    stale_.fill({0, 0, wish_.picture_width, wish_.picture_height});
+    stale_.fill({0, 0, request_.picture_width, request_.picture_height});
     return true;
 }
 
@@ -297,7 +297,7 @@ void Presenter::lose(std::string_view why) {
 }
 
 void Presenter::say_lit() {
-    state_ = sentence_of({lit_->name, lit_->mode, lit_->wished, lit_->blindly, device_.shortcoming()});
+    state_ = sentence_of({lit_->name, lit_->mode, lit_->as_requested, lit_->blindly, device_.shortcoming()});
 }
 
 } // namespace frustumscreen

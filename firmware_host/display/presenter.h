@@ -32,7 +32,7 @@ inline constexpr Nanoseconds between_tries = std::chrono::seconds(1);
 
 class Presenter {
 public:
-    Presenter(KmsDevice& device, MakeScanout make_scanout, OutputWish wish);
+    Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request);
 
     /// What is connected, whenever it was looked at anew.
     void connected(CardSeen seen);
@@ -57,10 +57,10 @@ private:
         std::uint32_t connector = 0;
         std::string name;
         ModeTiming mode;
-        bool wished = true;   ///< it is the mode that the settings ask for
-        bool blindly = false; ///< the connector says that nothing is connected
-        bool shown = false;   ///< its first picture was flipped to
-        bool flips = false;   ///< it has shown more than its first picture
+        bool as_requested = true; ///< it is the mode that the settings ask for
+        bool blindly = false;     ///< the connector says that nothing is connected
+        bool shown = false;       ///< its first picture was flipped to
+        bool flips = false;       ///< it has shown more than its first picture
     };
     struct Queued {
         MonotonicTime at;
@@ -69,7 +69,7 @@ private:
     };
 
     [[nodiscard]] bool about_to_light() const {
-        return !try_again_ && choose_connector(seen_, wish_) != nullptr;
+        return !try_again_ && choose_connector(seen_, request_) != nullptr;
     }
     void wait_for_flip();
     void take(const Flipped& flipped);
@@ -90,7 +90,7 @@ private:
 
     KmsDevice& device_;
     MakeScanout make_scanout_;
-    OutputWish wish_;
+    OutputRequest request_;
     CardSeen seen_;
     std::unique_ptr<ScanoutPair> scanout_;
     std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown

@@ -30,11 +30,11 @@ class Lamps {
 public:
     explicit Lamps(std::size_t count) : count_(count), lit_(std::make_unique<bool[]>(count)) {}
 
-    /// Lit where the button is wished for and not broken.
-    [[nodiscard]] Result<void> follow(std::uint32_t wished, const Buttons& buttons, ButtonLines& lines) {
+    /// Lit where the button is asked for and not broken.
+    [[nodiscard]] Result<void> follow(std::uint32_t asked, const Buttons& buttons, ButtonLines& lines) {
         bool changed = false;
         for (std::size_t k = 0; k < count_; ++k) {
-            const bool lit = ((wished >> k) & 1U) != 0 && !buttons.ignored(k);
+            const bool lit = ((asked >> k) & 1U) != 0 && !buttons.ignored(k);
             changed = changed || lit != lit_[k];
             lit_[k] = lit;
         }

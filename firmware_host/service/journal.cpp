@@ -57,14 +57,14 @@ Journal::Journal(std::string_view program) : program_(program), in_journal_(fals
     in_journal_ = ::fstat(STDERR_FILENO, &file) == 0 && is_journal(std::getenv("JOURNAL_STREAM"), file);
 }
 
-void Journal::note(Weight weight, std::string_view message,
+void Journal::note(LogPriority priority, std::string_view message,
                    std::initializer_list<JournalField> fields) const {
     if (!in_journal_) {
         say_line(program_, message);
         return;
     }
     Entry entry;
-    entry.add("PRIORITY", std::to_string(static_cast<int>(weight)));
+    entry.add("PRIORITY", std::to_string(static_cast<int>(priority)));
     entry.add("SYSLOG_IDENTIFIER", program_);
     for (const JournalField& field : fields) {
         entry.add(field.name, field.value.substr(0, longest_value));

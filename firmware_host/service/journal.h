@@ -15,7 +15,7 @@ struct stat;
 namespace frustumscreen {
 
 /// Of syslog(3).
-enum class Weight { Error = 3, Warning = 4, Notice = 5, Info = 6 };
+enum class LogPriority { Error = 3, Warning = 4, Notice = 5, Info = 6 };
 
 struct JournalField {
     std::string_view name; ///< capitals, digits, underscores
@@ -27,7 +27,8 @@ public:
     /// `program` begins each line on standard error, and is the line's SYSLOG_IDENTIFIER in the journal.
     explicit Journal(std::string_view program);
 
-    void note(Weight weight, std::string_view message, std::initializer_list<JournalField> fields = {}) const;
+    void note(LogPriority priority, std::string_view message,
+              std::initializer_list<JournalField> fields = {}) const;
 
 private:
     std::string program_;

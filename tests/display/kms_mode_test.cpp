@@ -6,8 +6,8 @@
 namespace frustumscreen {
 namespace {
 
-OutputWish wish(int width = 0, int height = 0, double hz = 0.0) {
-    OutputWish made;
+OutputRequest request(int width = 0, int height = 0, double hz = 0.0) {
+    OutputRequest made;
     made.width = width;
     made.height = height;
     made.refresh_hz = hz;
@@ -33,19 +33,19 @@ TEST(KmsMode, RefreshIsThatOfThePicture) {
 
 TEST(KmsMode, WhereNothingIsAskedForThePicturesOwnSizeGoesBeforeThePreferredMode) {
     const auto modes = modes_to_try(
-        with({a_mode(3840, 2160, 30.0, true), a_mode(1280, 800, 60.0), a_mode(640, 480, 60.0)}), wish());
+        with({a_mode(3840, 2160, 30.0, true), a_mode(1280, 800, 60.0), a_mode(640, 480, 60.0)}), request());
     ASSERT_EQ(modes.size(), 3U);
     EXPECT_EQ(modes[0].width, 1280);
     EXPECT_EQ(modes[1].width, 3840) << "then the preferred one";
     EXPECT_EQ(modes[2].width, 640);
     const auto without = modes_to_try(
-        with({a_mode(1024, 768, 60.0), a_mode(1920, 1080, 60.0, true), a_mode(640, 480, 60.0)}), wish());
+        with({a_mode(1024, 768, 60.0), a_mode(1920, 1080, 60.0, true), a_mode(640, 480, 60.0)}), request());
     EXPECT_EQ(without[0].width, 1920) << "no mode of the picture's size";
     EXPECT_EQ(without[1].width, 1024) << "then by nearness to the picture";
 }
 
 TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) {
-    const auto first = [](std::vector<ModeTiming> modes, const OutputWish& asked = wish()) {
+    const auto first = [](std::vector<ModeTiming> modes, const OutputRequest& asked = request()) {
         return modes_to_try(with(std::move(modes)), asked)[0];
     };
     EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 75.0), a_mode(1280, 800, 60.0)})), 60.0, 0.1);
@@ -56,7 +56,7 @@ TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) 
     const ModeTiming halved = a_mode(1280, 800, 60.0, true, mode_interlaced);
     EXPECT_EQ(first({halved, a_mode(1024, 768, 60.0)}), halved) << "preferred, but not for its size";
     EXPECT_EQ(first({halved, a_mode(1280, 800, 75.0)}).flags, 0U);
-    OutputWish slower = wish();
+    OutputRequest slower = request();
     slower.picture_hz = 50.0;
     EXPECT_NEAR(refresh_hz(first({a_mode(1280, 800, 60.0, true), a_mode(1280, 800, 50.0)}, slower)), 50.0,
                 0.1);
@@ -65,23 +65,23 @@ TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) 
 TEST(KmsMode, TheOneAskedForGoesBeforeThePreferredOne) {
     const auto list =
         with({a_mode(1920, 1080, 60.0, true), a_mode(1280, 800, 59.81), a_mode(1280, 800, 74.93)});
-    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800, 60.0))[0]), 59.81, 0.01);
-    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800, 75.0))[0]), 74.93, 0.01);
-    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1280, 800))[0]), 59.81, 0.01) << "60 Hz is usual";
-    EXPECT_EQ(modes_to_try(list, wish(1280, 800, 50.0))[0].width, 1920) << "not there: the preferred one";
-    EXPECT_EQ(modes_to_try(list, wish(1280, 800, 50.0))[1].width, 1280) << "then the nearest";
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1280, 800, 60.0))[0]), 59.81, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1280, 800, 75.0))[0]), 74.93, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1280, 800))[0]), 59.81, 0.01) << "60 Hz is usual";
+    EXPECT_EQ(modes_to_try(list, request(1280, 800, 50.0))[0].width, 1920) << "not there: the preferred one";
+    EXPECT_EQ(modes_to_try(list, request(1280, 800, 50.0))[1].width, 1280) << "then the nearest";
 }
 
 TEST(KmsMode, OfTwoThatDifferByAThousandthTheNearerOneIsTaken) {
     const auto list = with({a_mode(1920, 1080, 59.94), a_mode(1920, 1080, 60.0)});
-    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1920, 1080, 60.0))[0]), 60.0, 0.01);
-    EXPECT_NEAR(refresh_hz(modes_to_try(list, wish(1920, 1080, 59.94))[0]), 59.94, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1920, 1080, 60.0))[0]), 60.0, 0.01);
+    EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1920, 1080, 59.94))[0]), 59.94, 0.01);
 }
 
 TEST(KmsMode, HalvesOfPicturesAreTheLastResort) {
     const auto list = with({a_mode(1920, 1080, 60.0, false, mode_interlaced), a_mode(720, 576, 50.0)});
-    EXPECT_EQ(modes_to_try(list, wish(1920, 1080))[0].width, 720);
-    EXPECT_EQ(modes_to_try(with({list.modes[0]}), wish(1920, 1080))[0].width, 1920);
+    EXPECT_EQ(modes_to_try(list, request(1920, 1080))[0].width, 720);
+    EXPECT_EQ(modes_to_try(with({list.modes[0]}), request(1920, 1080))[0].width, 1920);
 }
 
 TEST(KmsMode, NonsenseInAListIsLeftOut) {
@@ -89,13 +89,13 @@ TEST(KmsMode, NonsenseInAListIsLeftOut) {
     ModeTiming no_clock = a_mode(1280, 800, 60.0);
     no_clock.clock_khz = 0;
     const ModeTiming stereo = a_mode(1920, 1080, 60.0, true, 1U << 14U);
-    EXPECT_TRUE(modes_to_try(with({empty, no_clock, stereo}), wish()).empty());
-    EXPECT_TRUE(modes_to_try(with({}), wish()).empty());
-    EXPECT_TRUE(modes_to_try(with({}), wish(1280, 800)).empty());
+    EXPECT_TRUE(modes_to_try(with({empty, no_clock, stereo}), request()).empty());
+    EXPECT_TRUE(modes_to_try(with({}), request()).empty());
+    EXPECT_TRUE(modes_to_try(with({}), request(1280, 800)).empty());
 }
 
 TEST(KmsMode, AForcedModeComesFromTheListIfItIsThereAndElseFromUs) {
-    OutputWish forced = wish(1280, 800, 60.0);
+    OutputRequest forced = request(1280, 800, 60.0);
     forced.force = true;
     const auto bad_edid = with({a_mode(1024, 768, 60.0), a_mode(800, 600, 60.0)});
     const auto made = modes_to_try(bad_edid, forced);
@@ -142,22 +142,22 @@ TEST(KmsMode, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) 
     ConnectorSeen mute = a_projector(4, "DP-1");
     mute.modes.clear();
     const ConnectorSeen there = a_projector(5, "DP-2");
-    const auto chosen = [](std::vector<ConnectorSeen> all, const OutputWish& asked) {
+    const auto chosen = [](std::vector<ConnectorSeen> all, const OutputRequest& asked) {
         const CardSeen card = a_card(std::move(all));
         const ConnectorSeen* connector = choose_connector(card, asked);
         return connector != nullptr ? connector->name : std::string("none");
     };
-    EXPECT_EQ(chosen({panel, off, unsure, mute, there}, wish()), "DP-2");
-    EXPECT_EQ(chosen({unsure, panel, off, mute}, wish()), "eDP-1");
-    EXPECT_EQ(chosen({off, unsure, mute}, wish()), "VGA-1");
-    EXPECT_EQ(chosen({off, mute}, wish()), "none");
-    EXPECT_EQ(chosen({}, wish()), "none");
-    OutputWish named = wish();
+    EXPECT_EQ(chosen({panel, off, unsure, mute, there}, request()), "DP-2");
+    EXPECT_EQ(chosen({unsure, panel, off, mute}, request()), "eDP-1");
+    EXPECT_EQ(chosen({off, unsure, mute}, request()), "VGA-1");
+    EXPECT_EQ(chosen({off, mute}, request()), "none");
+    EXPECT_EQ(chosen({}, request()), "none");
+    OutputRequest named = request();
     named.connector = "eDP-1";
     EXPECT_EQ(chosen({there, panel}, named), "eDP-1");
     named.connector = "HDMI-A-1";
     EXPECT_EQ(chosen({there, off}, named), "none") << "the one that was named, or none";
-    OutputWish forced = wish(1280, 800);
+    OutputRequest forced = request(1280, 800);
     forced.force = true;
     EXPECT_EQ(chosen({off, mute}, forced), "DP-1");
     forced.connector = "HDMI-A-1";
@@ -175,13 +175,13 @@ TEST(KmsMode, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
     unsure.plugged = Plugged::Unknown;
     ConnectorSeen mute = a_projector(4, "DP-1");
     mute.modes.clear();
-    EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), wish()), CardRank::Projector);
-    EXPECT_EQ(rank_of(a_card({off, panel}), wish()), CardRank::Panel);
+    EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), request()), CardRank::Projector);
+    EXPECT_EQ(rank_of(a_card({off, panel}), request()), CardRank::Panel);
     for (const ConnectorSeen& nothing_certain : {off, unsure, mute}) {
-        EXPECT_EQ(rank_of(a_card({nothing_certain}), wish()), CardRank::NothingCertain);
+        EXPECT_EQ(rank_of(a_card({nothing_certain}), request()), CardRank::NothingCertain);
     }
-    EXPECT_EQ(rank_of(a_card({}), wish()), CardRank::NothingCertain);
-    OutputWish named = wish();
+    EXPECT_EQ(rank_of(a_card({}), request()), CardRank::NothingCertain);
+    OutputRequest named = request();
     named.connector = "HDMI-A-1";
     EXPECT_EQ(rank_of(a_card({off, a_projector(5, "DP-2")}), named), CardRank::NothingCertain);
     EXPECT_EQ(rank_of(a_card({a_projector(5, "DP-2")}), named), CardRank::WithoutTheConnectorNamed);

@@ -11,17 +11,17 @@
 
 namespace frustumscreen {
 
-inline OutputWish wish_for_the_preferred() {
-    OutputWish wish;
-    wish.picture_width = 1280;
-    wish.picture_height = 800;
-    return wish;
+inline OutputRequest wish_for_the_preferred() {
+    OutputRequest request;
+    request.picture_width = 1280;
+    request.picture_height = 800;
+    return request;
 }
 
 class Exhibit {
 public:
-    explicit Exhibit(const OutputWish& wish = wish_for_the_preferred())
-        : presenter(kms, memory.maker(), wish) {}
+    explicit Exhibit(const OutputRequest& request = wish_for_the_preferred())
+        : presenter(kms, memory.maker(), request) {}
 
     /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.
     MonotonicTime frame(const PixelRectangle& changed = {0, 0, 1280, 800}) {

@@ -54,14 +54,14 @@ TEST(PresenterOutput, ScalesByItselfWhereTheCardTakesOnlyOnePictureToScale) {
     EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
 }
 
-OutputWish forced_on_hdmi() {
-    OutputWish wish = wish_for_the_preferred();
-    wish.connector = "HDMI-A-1";
-    wish.width = 1280;
-    wish.height = 800;
-    wish.refresh_hz = 60.0;
-    wish.force = true;
-    return wish;
+OutputRequest forced_on_hdmi() {
+    OutputRequest request = wish_for_the_preferred();
+    request.connector = "HDMI-A-1";
+    request.width = 1280;
+    request.height = 800;
+    request.refresh_hz = 60.0;
+    request.force = true;
+    return request;
 }
 
 ConnectorSeen unseen_projector() {
@@ -154,9 +154,9 @@ TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
 }
 
 TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
-    OutputWish wish = wish_for_the_preferred();
-    wish.connector = "DP-3";
-    Exhibit exhibit(wish);
+    OutputRequest request = wish_for_the_preferred();
+    request.connector = "DP-3";
+    Exhibit exhibit(request);
     exhibit.presenter.connected(a_card({a_projector(), a_projector(2, "VGA-1")}));
     EXPECT_TRUE(exhibit.says("no connector DP-3; it has HDMI-A-1, VGA-1")) << exhibit.presenter.state();
     ConnectorSeen mute = a_projector(3, "DP-3");
@@ -164,10 +164,10 @@ TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
     exhibit.presenter.connected(a_card({mute}));
     EXPECT_TRUE(exhibit.says("names no mode; set display.mode and display.force"))
         << exhibit.presenter.state();
-    wish = wish_for_the_preferred();
-    wish.width = 1024;
-    wish.height = 768;
-    Exhibit other(wish);
+    request = wish_for_the_preferred();
+    request.width = 1024;
+    request.height = 768;
+    Exhibit other(request);
     other.presenter.connected(a_card({a_projector()}));
     other.frames(2);
     EXPECT_TRUE(other.says("because it cannot do the mode in the settings")) << other.presenter.state();

@@ -32,7 +32,7 @@ TEST(Journal, IsKnownByDeviceAndInode) {
 TEST(Journal, GoesToStandardErrorAsOneLineWhereThereIsNone) {
     ::unsetenv("JOURNAL_STREAM");
     ::testing::internal::CaptureStderr();
-    Journal("frustumscreen").note(Weight::Info, "tracker: it runs", {{"DEVICE", "tracker"}});
+    Journal("frustumscreen").note(LogPriority::Info, "tracker: it runs", {{"DEVICE", "tracker"}});
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "frustumscreen: tracker: it runs\n");
 }
 
@@ -42,7 +42,7 @@ TEST(Journal, OutlivesAStandardErrorThatTakesNothing) {
     const int full = ::open("/dev/full", O_WRONLY);
     ASSERT_GE(full, 0);
     ::dup2(full, STDERR_FILENO);
-    EXPECT_NO_THROW(Journal("frustumscreen").note(Weight::Info, "nobody reads this"));
+    EXPECT_NO_THROW(Journal("frustumscreen").note(LogPriority::Info, "nobody reads this"));
     ::dup2(before, STDERR_FILENO);
     ::close(full);
     ::close(before);
@@ -94,14 +94,15 @@ TEST(Journal, GetsFieldsWhereStandardErrorIsTheJournal) {
     ::setenv("JOURNAL_STREAM", (std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino)).c_str(), 1);
     const Journal journal("frustumscreen");
     ::unsetenv("JOURNAL_STREAM");
-    journal.note(Weight::Warning, "tracker: it is gone", {{"DEVICE", "tracker"}, {"STATE", "it is gone"}});
+    journal.note(LogPriority::Warning, "tracker: it is gone",
+                 {{"DEVICE", "tracker"}, {"STATE", "it is gone"}});
     const std::string entry = socket.receive();
     for (const char* line : {"MESSAGE=tracker: it is gone\n", "PRIORITY=4\n",
                              "SYSLOG_IDENTIFIER=frustumscreen\n", "DEVICE=tracker\n", "STATE=it is gone\n"}) {
         EXPECT_NE(entry.find(line), std::string::npos) << line << " not in:\n" << entry;
     }
     EXPECT_EQ(entry.find("CODE_FILE"), std::string::npos);
-    journal.note(Weight::Info, std::string(10'000, 'x'), {{"ARTIFACT", "cat"}}); // is cut, does no harm
+    journal.note(LogPriority::Info, std::string(10'000, 'x'), {{"ARTIFACT", "cat"}}); // is cut, does no harm
     EXPECT_NE(socket.receive().find("ARTIFACT=cat\nMESSAGE=xxx"), std::string::npos);
 }
 

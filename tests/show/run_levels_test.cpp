@@ -84,7 +84,7 @@ struct Show {
         for (int k = 0; k < frames; ++k) {
             stage.table_from_prop.translation.x = 1e-4 * (frame % 2);
             draw(levels);
-            levels.took(now(), ms);
+            levels.record_time(now(), ms);
         }
     }
 };
@@ -133,7 +133,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
         }
         EXPECT_GE(coming, last_coming) << k;
         last_coming = coming;
-        levels.took(show.now(), 9.0); // a frame of two levels teaches nothing
+        levels.record_time(show.now(), 9.0); // a frame of two levels teaches nothing
     }
     EXPECT_EQ(show.picture(levels).texels, to.texels);
     EXPECT_EQ(levels.state().level, "level0");

@@ -84,7 +84,7 @@ TEST(PoseEstimator, PredictsSteadyMotionUpToItsCautionWithAllModels) {
 TEST(PoseEstimator, AnswersExactInterpolatedPredictedAndStale) {
     PoseEstimator estimator = glide_estimator();
     EXPECT_EQ(estimator.at(at_us(0)).status, PoseStatus::Stale);
-    EXPECT_EQ(estimator.at(at_us(0)).uptakes, 0U);
+    EXPECT_EQ(estimator.at(at_us(0)).reinitialisations, 0U);
     SteadyMotion motion;
     for (int k = 0; k < 60; ++k) {
         estimator.take(at_us(k * 10'000), motion.pose(0.01L * k));
@@ -197,7 +197,7 @@ TEST(PoseEstimator, RefusesWhatIsNoPose) {
         EXPECT_EQ(estimator.take(at_us(t_us), {glm::dquat(nan, 0.0, 0.0, 1.0), {}}), Taken::NoPose);
     };
     refused(0);
-    EXPECT_EQ(estimator.at(at_us(0)).uptakes, 0U);
+    EXPECT_EQ(estimator.at(at_us(0)).reinitialisations, 0U);
     estimator.take(at_us(0), at_x(0.1));
     refused(10'000);
     EXPECT_EQ(estimator.at(at_us(0)).pose.translation.x, 0.1);
@@ -210,11 +210,11 @@ TEST(PoseEstimator, LeavesOutliersOutAndBelievesThreeThatAgree) {
                   k % 10 == 9 ? Taken::Outlier : Taken::Used);
     }
     EXPECT_LT(std::abs(estimator.at(at_us(60 * 16'000)).pose.translation.x - 0.001), 1e-5);
-    EXPECT_EQ(estimator.at(at_us(60 * 16'000)).uptakes, 1U);
+    EXPECT_EQ(estimator.at(at_us(60 * 16'000)).reinitialisations, 1U);
     EXPECT_EQ(estimator.take(at_us(60 * 16'000), at_x(0.5)), Taken::Outlier);
     EXPECT_EQ(estimator.take(at_us(61 * 16'000), at_x(0.5)), Taken::Outlier);
     EXPECT_EQ(estimator.take(at_us(62 * 16'000), at_x(0.5)), Taken::Used);
-    EXPECT_EQ(estimator.at(at_us(62 * 16'000)).uptakes, 2U);
+    EXPECT_EQ(estimator.at(at_us(62 * 16'000)).reinitialisations, 2U);
     EXPECT_EQ(estimator.at(at_us(62 * 16'000)).pose.translation.x, 0.5);
 }
 

@@ -65,7 +65,7 @@ std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMo
             estimator.take(time_at(samples[next].t_s), samples[next].pose);
         }
         const PoseEstimate estimate = estimator.at(time_at(lit_s));
-        if (estimate.uptakes > 0) {
+        if (estimate.reinitialisations > 0) {
             pictures.push_back({lit_s,
                                 contestant.shown ? shown.follow(estimate, time_at(lit_s)) : estimate.pose,
                                 truth(lit_s)});

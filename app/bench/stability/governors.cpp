@@ -72,7 +72,7 @@ StabilityResult relief(const StabilityOptions&) {
         late = std::fmax(late, after < 0.0 ? 1e9 : (after - exact_relief()) / step);
         early = std::fmax(early, exact_relief() - after - 1e-9);
     }
-    // One step until the wish is seen, one until its delay is over, one for a step that counts as 0.1 s.
+    // One step until the request is seen, one until its delay is over, one for a step that counts as 0.1 s.
     return {{{"relief later than with endless frames, in steps", 3.0, late}, {"earlier, s", 0.0, early}}};
 }
 

@@ -123,7 +123,7 @@ Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const 
         const Sentence why(display.error().message);
         if (why != noted) {
             noted = why;
-            journal.note(Weight::Warning, why.view(), {{"DEVICE", "display"}});
+            journal.note(LogPriority::Warning, why.view(), {{"DEVICE", "display"}});
         }
         manager.status(why);
         manager.still_starting(10 * between_looks_for_card);
@@ -179,7 +179,7 @@ Result<Inputs> open_inputs(const Request& request, const Settings& settings, con
 /// On the table for the staff, where a person would read standard error.
 Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
                                           const Error& why) {
-    journal.note(Weight::Error, why.message, {{"DEVICE", "exhibit"}});
+    journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
     Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
     if (!pattern) {
         return tl::unexpected<Error>(why);

@@ -138,17 +138,17 @@ static_assert(probe_pixels == code_pixels, "the display shows the probe as it is
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
     const DisplaySettings& display = settings.display;
     if (!headless && display.kind == DisplayKind::Kms) {
-        OutputWish wish;
+        OutputRequest request;
         const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
-        wish.connector = named(display.connector);
-        wish.width = display.mode.width;
-        wish.height = display.mode.height;
-        wish.refresh_hz = display.mode.refresh_hz;
-        wish.force = display.force;
-        wish.picture_width = settings.projector.pinhole.width;
-        wish.picture_height = settings.projector.pinhole.height;
-        wish.picture_hz = settings.projector.refresh_hz;
-        return KmsDisplay::create(named(display.card), wish);
+        request.connector = named(display.connector);
+        request.width = display.mode.width;
+        request.height = display.mode.height;
+        request.refresh_hz = display.mode.refresh_hz;
+        request.force = display.force;
+        request.picture_width = settings.projector.pinhole.width;
+        request.picture_height = settings.projector.pinhole.height;
+        request.picture_hz = settings.projector.refresh_hz;
+        return KmsDisplay::create(named(display.card), request);
     }
     return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
 }
