@@ -1,37 +1,48 @@
 #!/usr/bin/env bash
-# Installs what is missing of the Debian 12 packages that FrustumScreen is built from, and says which.
-# ./run and ./test call it; with everything there it takes a fraction of a second.
+# Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
+# everything there it takes a fraction of a second.
 #
-#   ./setup.sh [hil]    hil: also what an emulated machine is made of
+#   ./setup.sh [window|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
+#                                            window: frustumscreen-window; tests: ./test, with window; fuzz: ./test fuzz;
+#                                            hil: ./test hil
 set -euo pipefail
 
 packages=(
     # tools
-    build-essential cmake ninja-build pkg-config shellcheck clang-format python3 pyflakes3
-    systemd # its tools check the units
-    # fuzzing
-    clang-14 libclang-rt-14-dev llvm-14
+    build-essential cmake ninja-build pkg-config
     # small libraries
     libglm-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev
-    libminizip-dev zlib1g-dev libgtest-dev
+    libminizip-dev zlib1g-dev
     # meshes and ray casting
     libembree-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev
     # pictures and letters
     libpng-dev libturbojpeg0-dev libwebp-dev libfreetype-dev fonts-dejavu-core
     # devices
-    libgpiod-dev libusb-1.0-0-dev libhidapi-dev umockdev libumockdev-dev libevdev-dev libsystemd-dev
+    libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
     # projectors
     libdrm-dev libgbm-dev libudev-dev libxcvt-dev
-    # a window on a desktop
-    libsdl2-dev
-    # the bench's plots
-    python3-matplotlib
     # OpenGL ES without a screen
     libegl-dev libgles-dev libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )
-if [[ ${1-} == hil ]]; then
-    packages+=(python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static)
-fi
+for part; do
+    case "$part" in
+        window) packages+=(libsdl2-dev) ;;
+        tests)
+            packages+=(
+                libgtest-dev umockdev libumockdev-dev python3
+                systemd                           # its tools check the units
+                python3-matplotlib                # the bench's plots
+                shellcheck clang-format pyflakes3 # how it is written
+            )
+            ;;
+        fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
+        hil) packages+=(python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static) ;;
+        *)
+            echo "usage: ./setup.sh [window|tests|fuzz|hil]..." >&2
+            exit 2
+            ;;
+    esac
+done
 
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)$'\n'

@@ -1,15 +1,33 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz [TARGET...]. On a
-# terminal ninja says how far it is; elsewhere one line does every 20 s, and the whole log only if something fails.
+# Configures a preset where needed, and builds it or some of its targets. On a terminal ninja says how far it is;
+# elsewhere one line does every 20 s, and the whole log only if something fails.
+#
+#   build.sh release|debug|asan|tsan|fuzz [--without tests|window]... [TARGET...]
+#
+# A new build folder leaves out a part that is not wanted, and needs none of its packages. A folder that has the part keeps
+# it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
 shift
+declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON)
+while [[ ${1-} == --without ]]; do
+    case "$2" in
+        tests) wanted[BUILD_TESTING]=OFF ;;
+        window) wanted[FRUSTUMSCREEN_WINDOW]=OFF ;;
+        *)
+            echo "build.sh: there is no part '$2'; the parts are tests and window" >&2
+            exit 2
+            ;;
+    esac
+    shift 2
+done
 targets=()
 if (($# > 0)); then
     targets=(--target "$@")
 fi
 
+folder=build/$preset
 log=build/$preset.log
 mkdir -p build
 # Ends with the process that it was started from.
@@ -22,16 +40,31 @@ say_progress() {
 }
 quietly() {
     say_progress &
-    local progress=$!
-    if ! "$@" >"$log" 2>&1; then
-        kill "$progress"
+    local progress=$! status=0
+    "$@" >"$log" 2>&1 || status=$?
+    kill "$progress"
+    if ((status != 0)); then
         cat "$log" >&2
+    fi
+    return "$status"
+}
+
+options=()
+for option in "${!wanted[@]}"; do
+    if [[ ! -f $folder/build.ninja || ! -f $folder/CMakeCache.txt ]]; then
+        options+=("-D$option=${wanted[$option]}")
+    elif [[ ${wanted[$option]} == ON ]] && ! grep -q "^$option:BOOL=ON$" "$folder/CMakeCache.txt"; then
+        options+=("-D$option=ON")
+    fi
+done
+if ((${#options[@]} > 0)) || [[ CMakePresets.json -nt $folder/build.ninja ]]; then
+    if ! quietly cmake --preset "$preset" "${options[@]}"; then
+        if ((${#options[@]} > 0)); then
+            rm -f "$folder/CMakeCache.txt" # else the next command would ask for the same parts, wanted or not
+        fi
+        echo "build.sh: './setup.sh window tests' installs the packages of all parts; for the preset fuzz, './setup.sh fuzz'" >&2
         exit 1
     fi
-    kill "$progress"
-}
-if [[ ! -f build/$preset/build.ninja || CMakePresets.json -nt build/$preset/build.ninja ]]; then
-    quietly cmake --preset "$preset"
 fi
 if [[ -t 1 ]]; then
     cmake --build --preset "$preset" "${targets[@]}"

@@ -1,7 +1,7 @@
 # Headers that most files include, parsed once for the rooms and programs and once for the tests: half of the processor
 # time of a build. Every file names what it needs all the same: the presets debug and fuzz build without them.
 function(frustumscreen_precompile name header)
-    file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp "")
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "") # keeps its time where it is there
     add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
     target_link_libraries(${name} PRIVATE frustumscreen_options fmt::fmt glm::glm tl::expected ${ARGN})
     target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/${header})
@@ -21,6 +21,8 @@ endfunction()
 
 if(FRUSTUMSCREEN_PRECOMPILED)
     frustumscreen_precompile(precompiled_house precompiled_house.h)
-    frustumscreen_precompile(precompiled_tests precompiled_tests.h GTest::gtest)
-    target_compile_options(precompiled_tests PRIVATE ${test_options})
+    if(BUILD_TESTING)
+        frustumscreen_precompile(precompiled_tests precompiled_tests.h GTest::gtest)
+        target_compile_options(precompiled_tests PRIVATE ${test_options})
+    endif()
 endif()

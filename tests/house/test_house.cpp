@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,21 @@ std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
     return files;
 }
 
+/// Every page, relative to the root; not those of builds.
+std::vector<fs::path> pages() {
+    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    std::vector<fs::path> pages;
+    for (auto entry = fs::recursive_directory_iterator(root); entry != fs::end(entry); ++entry) {
+        const fs::path path = fs::relative(entry->path(), root);
+        if (path == "build" || path == "out" || path == ".git") {
+            entry.disable_recursion_pending();
+        } else if (path.extension() == ".md") {
+            pages.push_back(path);
+        }
+    }
+    return pages;
+}
+
 std::vector<std::string> lines_of(const fs::path& file) {
     std::ifstream stream(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / file);
     std::vector<std::string> lines;
@@ -40,6 +57,21 @@ std::vector<std::string> lines_of(const fs::path& file) {
         lines.push_back(line);
     }
     return lines;
+}
+
+/// The files and folders that a page links to, relative to the root; links into the web are left out.
+std::set<fs::path> linked_from(const fs::path& page) {
+    static const std::regex link(R"(\]\(([^)#\s]+)[^)]*\))"); // [text](target#heading "title")
+    std::set<fs::path> targets;
+    for (const std::string& line : lines_of(page)) {
+        for (std::sregex_iterator match(line.begin(), line.end(), link), end; match != end; ++match) {
+            const std::string target = (*match)[1];
+            if (target.find("://") == std::string::npos && target.rfind("mailto:", 0) != 0) {
+                targets.insert((page.parent_path() / target).lexically_normal());
+            }
+        }
+    }
+    return targets;
 }
 
 } // namespace
@@ -85,4 +117,23 @@ TEST(House, EveryFileIsFormatted) {
         command += " '" + file.string() + "'";
     }
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
+}
+
+TEST(House, EveryLinkLeadsToAFile) {
+    std::size_t links = 0;
+    for (const fs::path& page : pages()) {
+        for (const fs::path& target : linked_from(page)) {
+            ++links;
+            EXPECT_TRUE(fs::exists(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / target)) << page << ": " << target;
+        }
+    }
+    EXPECT_GT(links, 0U);
+}
+
+TEST(House, TheIndexNamesEveryPage) {
+    const fs::path index = "docs/README.md";
+    const std::set<fs::path> named = linked_from(index);
+    for (const fs::path& page : pages()) {
+        EXPECT_TRUE(page == index || named.count(page) == 1) << page << " is not in " << index;
+    }
 }
