@@ -111,4 +111,21 @@ template <typename Measure, typename Table, typename Csv>
     return write_all(place.out, files);
 }
 
+/// Every level of a pack and its peers against a ray cast.
+[[nodiscard]] BenchCommand error_time_command(CLI::App& app);
+/// Cost against the source's size, built-in amphora.
+[[nodiscard]] BenchCommand scaling_command(CLI::App& app);
+/// The visitor's view against an ordinary ray cast.
+[[nodiscard]] BenchCommand projection_command(CLI::App& app);
+/// The prop moved by 0.1 pixel steps, against the ray cast.
+[[nodiscard]] BenchCommand shimmer_command(CLI::App& app);
+/// Numerical stability on stiff and extreme cases.
+[[nodiscard]] BenchCommand stability_command(CLI::App& app);
+/// The results of several artifacts on one sheet.
+[[nodiscard]] BenchCommand plot_command(CLI::App& app);
+/// What a frame takes, in numbers that do not depend on the machine.
+[[nodiscard]] BenchCommand counts_command(CLI::App& app);
+/// How far the picture slips on a prop that moves, with and without prediction.
+[[nodiscard]] BenchCommand latency_command(CLI::App& app);
+
 } // namespace frustumscreen

@@ -1,6 +1,5 @@
-#include "app/programs/bench/bench_counts.h"
-
 #include "app/bench/measures/counts.h"
+#include "app/programs/bench/bench_command.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

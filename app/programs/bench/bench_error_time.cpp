@@ -1,8 +1,7 @@
-#include "app/programs/bench/bench_error_time.h"
-
 #include "app/bench/measures/error_time.h"
 #include "app/bench/measures/figures.h"
 #include "app/bench/measures/report.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "app/programs/bench/bench_latency.h"
-
 #include "app/bench/latency/latency_report.h"
+#include "app/programs/bench/bench_command.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/convert_recording.h"
 

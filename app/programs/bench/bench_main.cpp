@@ -1,12 +1,5 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
-#include "app/programs/bench/bench_counts.h"
-#include "app/programs/bench/bench_error_time.h"
-#include "app/programs/bench/bench_latency.h"
-#include "app/programs/bench/bench_plot.h"
-#include "app/programs/bench/bench_projection.h"
-#include "app/programs/bench/bench_scaling.h"
-#include "app/programs/bench/bench_shimmer.h"
-#include "app/programs/bench/bench_stability.h"
+#include "app/programs/bench/bench_command.h"
 #include "app/programs/common/guarded_main.h"
 
 #include <fmt/format.h>

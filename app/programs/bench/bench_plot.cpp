@@ -1,6 +1,5 @@
-#include "app/programs/bench/bench_plot.h"
-
 #include "app/bench/plots/draw_tables.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <memory>
 

@@ -1,6 +1,5 @@
-#include "app/programs/bench/bench_projection.h"
-
 #include "app/bench/measures/projection.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <memory>
 

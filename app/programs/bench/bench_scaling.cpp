@@ -1,8 +1,7 @@
-#include "app/programs/bench/bench_scaling.h"
-
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/scaling.h"
 #include "app/bench/measures/verdicts.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "app/programs/bench/bench_shimmer.h"
-
 #include "app/bench/measures/shimmer.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <memory>
 

@@ -1,7 +1,6 @@
-#include "app/programs/bench/bench_stability.h"
-
 #include "app/bench/stability/report.h"
 #include "app/bench/stability/stability.h"
+#include "app/programs/bench/bench_command.h"
 
 #include <fmt/format.h>
 
