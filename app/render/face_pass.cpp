@@ -36,7 +36,7 @@ void set_draw(const Shader& shader, const Draw& draw) {
 }
 
 /// The uploaded level that ::mip_level asks for, one for the whole draw: a software or small GPU spends more
-/// on finding and mixing two for each pixel than on the rest of it.
+/// on finding and mixing two levels for each pixel than on the rest of the pixel.
 float mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
     const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
     return static_cast<float>(
@@ -85,7 +85,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
 }
 
 void FacePass::upload_indices(const FramePlan& plan) const {
-    glBindVertexArray(no_attributes_.get()); // a vertex array keeps the buffer that is bound while it is
+    glBindVertexArray(no_attributes_.get()); // a bound vertex array stores the next binding
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(plan.indices.size() * sizeof(std::uint32_t)), plan.indices.data(),

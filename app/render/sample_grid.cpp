@@ -112,7 +112,7 @@ Raster SampleGrid::raster(const LitTiles& tiles, int samples) const {
     while (samples > most && !fits(of(samples))) {
         samples /= 2;
     }
-    // Where there is room for all, the picture stays where it is: fragments that move round differently.
+    // If there is room for all, the picture stays in its place: fragments elsewhere round differently.
     return {of(samples), samples > most ? glm::ivec2(part.x, part.y) : glm::ivec2(0)};
 }
 
