@@ -38,7 +38,9 @@ public:
     [[nodiscard]] static Result<Shader> compile(const ShaderKey& key);
     void use() const { glUseProgram(program_.get()); }
     /// -1, which OpenGL ignores, for one that the shader does not have.
-    [[nodiscard]] GLint at(Uniform uniform) const { return locations_[static_cast<std::size_t>(uniform)]; }
+    [[nodiscard]] GLint location(Uniform uniform) const {
+        return locations_[static_cast<std::size_t>(uniform)];
+    }
 
 private:
     GlProgram program_;

@@ -17,7 +17,7 @@ TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
     }
 }
 
-std::optional<double> TimeLeft::at(const std::string& name, double done, double now_s) {
+std::optional<double> TimeLeft::update(const std::string& name, double done, double now_s) {
     const auto found = std::find_if(steps_.begin(), steps_.end(),
                                     [&name](const Known& known) { return known.step.name == name; });
     const auto index = static_cast<std::size_t>(found - steps_.begin());

@@ -28,7 +28,7 @@ public:
     /// Takes the share (0..1) of step `name` that is done; returns the seconds left of the run, or of this
     /// step alone if it was not planned. A step begins when it is named after another one; the steps before
     /// it count as done. Returns nothing while nothing is known.
-    [[nodiscard]] std::optional<double> at(const std::string& name, double done, double now_s);
+    [[nodiscard]] std::optional<double> update(const std::string& name, double done, double now_s);
 
 private:
     struct Known {
