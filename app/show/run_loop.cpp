@@ -114,7 +114,7 @@ private:
             result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
         }
         const double ms = milliseconds_since(begin);
-        watch_.enters("tells how it is");
+        watch_.enters("reports its status");
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }

@@ -124,7 +124,7 @@ Result<std::vector<CountedPack>> read_counts(std::string_view text) {
         }
     } catch (const nlohmann::json::exception& error) {
         return bad_input(
-            fmt::format("these are no counts that frustumscreen-bench counts wrote: {}", error.what()));
+            fmt::format("this is not a file that frustumscreen-bench counts wrote: {}", error.what()));
     }
     return counted;
 }

@@ -95,8 +95,8 @@ Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropSh
         if (tries > static_cast<std::int64_t>(count) * most_tries_each) {
             return fail(
                 ErrorKind::BadConfiguration,
-                "hardly any place on the table has the prop inside the picture with every face that is "
-                "seen lit; move the projector higher or make the prop smaller");
+                "hardly any place on the table has the prop inside the picture and light on every face that "
+                "is seen; move the projector higher or make the prop smaller");
         }
         const BenchPose pose = draw_one(settings, prop, draw);
         if (in_zone(settings, prop, pose)) {

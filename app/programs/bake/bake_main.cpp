@@ -149,7 +149,7 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     app.add_flag("--unlit", arguments.options.unlit,
-                 "base colour alone, no museum light: for colours that have their light in them");
+                 "base colour alone, no museum light: for colours that already contain light");
     app.add_option("--prop", arguments.prop, "prop whose directions the relief is made for")
         ->check(CLI::IsMember({"frustum", "cube"}))
         ->capture_default_str();

@@ -48,7 +48,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
         ->check(seconds_between(0.01, longest_s));
     app.add_flag("--raw", request.raw,
-                 "the packets with their times of arrival, in a new file that is good up to any cut; "
+                 "the packets with their times of arrival, in a new file, readable also if it is cut off; "
                  "frustumscreen-poses convert makes poses of it");
     try {
         app.parse(argc, argv);

@@ -75,7 +75,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(CLI::Range(1, 1000000))
         ->needs(seconds);
     app.add_flag("--everything", everything,
-                 "leave nothing out that this scene does not need, to compare with; see frustumscreen plan");
+                 "load also what this scene does not need, to compare; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
     try {
         app.parse(argc, argv);
