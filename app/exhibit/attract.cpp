@@ -19,7 +19,8 @@ Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTra
     if (known && fade_.goal() == Turning) {
         fade_.turn_to(Prop, now);
     } else if (!known && (never || age >= held) && fade_.goal() == Prop) {
-        // As if a frame had been there at just that time; not before the fade that may be going on.
+        // The fade begins as if a frame had come at exactly that time, but not before a fade that still goes
+        // on.
         const MonotonicTime due = never ? now : now - (age - held);
         turns_since_ = fade_.at(now).which == Prop ? due : turns_since_;
         fade_.turn_to(Turning, due);

@@ -1,9 +1,10 @@
-/// Where the artifact is shown while nobody knows where the prop is: it is held where it was, then fades, and
-/// turns slowly at a place of its own until the prop is known again; put there, the prop shows it too.
+/// Where the artifact is shown while nobody knows where the prop is. It stays where it was for a while, then
+/// fades, and turns slowly at a place of its own until the prop is known again. A prop put there shows it
+/// too.
 ///
 /// Frames   table T.
-/// Time     a closed form of the pose's age and of when it came back: the rhythm of frames does not matter.
-///          `now` never goes back.
+/// Time     a closed form of the pose's age and of the time when it came back: the rhythm of frames does not
+///          matter. `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -13,9 +14,9 @@
 namespace frustumscreen {
 
 struct Stand {
-    RigidTransform table_from_prop; ///< what to draw for
+    RigidTransform table_from_prop; ///< the pose to draw for
     double brightness = 1.0;        ///< 0..1, a factor on linear light
-    bool changing = false;          ///< brightness moves
+    bool changing = false;          ///< brightness changes
     bool attracts = false;          ///< the prop's own pose is not what is drawn
 };
 
@@ -25,10 +26,10 @@ public:
     static constexpr Nanoseconds each_way = std::chrono::milliseconds(600); ///< of the fade
     static constexpr Nanoseconds turn = std::chrono::seconds(40);
 
-    /// Turns at `place_m`, on the table. `known`: begins with the prop, else without it.
+    /// Turns at `place_m`, on the table. `known`: it begins at the prop, else at `place_m`.
     Attract(const glm::dvec2& place_m, bool known, MonotonicTime now);
 
-    /// `known`: the prop's pose is good; else its age counts, 0 = there was none yet.
+    /// `known`: the prop's pose is good; else its age counts; 0 = there was no pose yet.
     [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
                            const RigidTransform& table_from_prop);
 

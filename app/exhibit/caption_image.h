@@ -19,8 +19,7 @@ struct CaptionImage {
 };
 
 /// The title, larger and bold, over the text, wrapped to `width_m`. `em_m` is the text's type size; less than
-/// 24 pt
-/// (`least_caption_em_m`) becomes 24 pt.
+/// 24 pt (`least_caption_em_m`) becomes 24 pt.
 [[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
                                         const std::string& text, double em_m, double width_m,
                                         double texels_per_m);

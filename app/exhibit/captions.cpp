@@ -61,7 +61,7 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
     return glm::distance(p, a + t * along);
 }
 
-/// True if a line along one of `a`'s edges has all of `b` on its outer side.
+/// True if all of `b` lies on the outer side of a line along one of `a`'s edges.
 bool separated_by_edge_of(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     for (std::size_t k = 0; k < a.size(); ++k) {
         const glm::dvec2 edge = a[(k + 1) % a.size()] - a[k];

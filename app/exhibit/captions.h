@@ -1,10 +1,9 @@
 /// Where a caption lies on the table: beside the prop, never on it, and still while the prop moves.
 ///
-/// A caption lies flat on the table top, its baseline towards the visitor's edge (-Y). Where the projector's
-/// rays to the table meet the prop first, nothing of the caption may be: the prop's shadow, which holds its
-/// footprint, is what is kept clear. A caption dims as the shadow comes near and is gone when they touch, so
-/// it is never on the prop however fast that moves; one that has the prop near it moves to a free place by
-/// fading out there and in here.
+/// A caption lies flat on the table top, its baseline towards the visitor's edge (-Y). The prop's shadow,
+/// where the projector's rays meet the prop before the table, is kept clear; it covers the prop's footprint.
+/// A caption dims as the shadow comes near and is gone when they touch, so it is never on the prop, however
+/// fast the prop moves. A caption near the prop moves to a free place: it fades out, then fades in there.
 ///
 /// Frames   table T, the plane z = 0; metres.
 /// Time     `now` never goes back; fades are closed forms of it.
@@ -42,8 +41,8 @@ struct TableRectangle {
     [[nodiscard]] std::array<glm::dvec2, 4> corners() const; ///< counter-clockwise from low x, low y
 };
 
-/// The part of the table that a convex prop hides from a point: from the lens, its shadow. Nothing returned
-/// if the point is not above the whole prop: then it may hide anything.
+/// The part of the table that a convex prop hides from a point; for the lens this is the prop's shadow.
+/// Returns nothing if the point is not above the whole prop: then the prop may hide anything.
 [[nodiscard]] std::optional<TablePolygon>
 hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop, const glm::dvec3& from_m);
 
@@ -61,8 +60,8 @@ public:
     /// `room`: the convex part of the table that the picture covers; captions stay `border_m` inside.
     explicit CaptionPlacer(std::span<const glm::dvec2> room, double border_m = 0.008);
 
-    /// Another caption, in shapes (widths it was wrapped to) of falling preference; at most four. It appears
-    /// at the best place at the next update.
+    /// Sets another caption; its shapes (one for each width it was wrapped to) are in falling preference, at
+    /// most four. It appears at the best place at the next update.
     void set_shapes(std::span<const glm::dvec2> sizes_m);
 
     /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye.
@@ -85,8 +84,8 @@ private:
     std::size_t size_count_ = 0;
 
     std::optional<Choice> place_;
-    MonotonicTime appears_;                  ///< since when it fades in
-    std::optional<MonotonicTime> leaves_;    ///< since when it fades out
+    MonotonicTime appears_;                  ///< when it begins to fade in
+    std::optional<MonotonicTime> leaves_;    ///< when it begins to fade out
     std::optional<MonotonicTime> next_look_; ///< a search that found nothing waits until then
     double clearance_m_ = 0.0;               ///< of the caption from the shadow, at the last update
 };

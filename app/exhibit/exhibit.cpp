@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// In the order of their first appearance, which is the order the button goes through.
+/// The languages in the order of their first appearance; the button goes through them in this order.
 std::vector<std::string> languages_of(const Catalogue& catalogue) {
     std::vector<std::string> languages;
     for (const CatalogueEntry& entry : catalogue) {
@@ -73,7 +73,8 @@ void Exhibit::take(Command command, MonotonicTime now) {
     }
 }
 
-/// The chord began with a press of the first and a press of the last button.
+/// Undoes the presses of the first and the last button, with which the chord began, and switches the staff's
+/// mode.
 void Exhibit::take_chord(MonotonicTime now) {
     for (const std::size_t button : {std::size_t{0}, place_.buttons - 1}) {
         if (button < selected_.size() && std::exchange(selected_[button], false)) {
@@ -106,7 +107,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
 }
 
-/// Of the artifact's caption; without captions the chosen one.
+/// The language of the artifact's caption; without captions the chosen one.
 std::string_view Exhibit::language_of(std::size_t artifact) const {
     if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
         return selection_.language();

@@ -1,21 +1,15 @@
-/// The exhibit's decisions, all of them: from what was pressed and what is the case on the table to what is
-/// shown.
+/// Decides what the exhibit shows, from what was pressed and from where the prop and the eye are.
 ///
 ///     commands, situation -> step -> Presentation
 ///
-/// A Presentation is plain values: whoever draws, lights lamps or reports does as it says and asks nothing
-/// else.
+/// A Presentation is plain values: the code that draws, lights lamps or reports needs nothing else.
 ///
-/// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed, which
-///          then means nothing else. Presses reach the exhibit at once, since a visitor's must; those that
-///          turn out to have begun the staff's chord are undone, so that after the pattern all is as it was
-///          before.
+/// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed; that
+///          press does nothing else. Presses take effect at once, since a visitor's must. If they turn out to
+///          be the beginning of the staff's chord they are undone, so the pattern leaves no trace.
 /// Frames   table T, metres.
-///
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
-///
 /// Threads  values; one caller. `step` allocates nothing.
-///
 /// Errors   none. A catalogue without artifacts shows nothing.
 #pragma once
 
@@ -37,7 +31,7 @@
 
 namespace frustumscreen {
 
-/// An artifact that there is to show.
+/// An artifact that can be shown.
 struct CatalogueEntry {
     std::vector<std::string> languages; ///< of its captions, BCP 47
     /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
@@ -46,7 +40,7 @@ struct CatalogueEntry {
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
-/// Where it all happens.
+/// The exhibit's place: prop, projector and table.
 struct ExhibitPlace {
     PropShape prop;
     glm::dvec3 lens_m{0.0};            ///< the projector's
@@ -65,9 +59,9 @@ struct PresentedCaption {
 struct Presentation {
     std::size_t artifact = 0;  ///< index into the catalogue
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
-    std::string_view language; ///< of the caption, shown or not; stands as long as the exhibit
+    std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    RigidTransform table_from_prop; ///< to draw for
+    RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
     bool settled = true;            ///< nothing fades: a good moment for a picture
     bool staff = false;             ///< the alignment pattern is shown instead
@@ -78,13 +72,13 @@ class Exhibit {
 public:
     static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
 
-    /// Begins with the first artifact, and with the caption for `language` or the one that stands for it.
+    /// Begins with the first artifact, and with the caption that `caption_for` chooses for `language`.
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
 
-    /// `commands`: since the step before, in their order.
+    /// `commands`: those since the step before, in their order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
                                     const Situation& situation);
-    /// There is no pattern to show.
+    /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { staff_until_.reset(); }
 
 private:
@@ -101,8 +95,8 @@ private:
     std::optional<Attract> attract_; ///< from the first step on
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
-    std::array<bool, button_commands.size()>
-        selected_{}; ///< by button: its latest press reached the selection
+    /// By button: its latest press reached the selection.
+    std::array<bool, button_commands.size()> selected_{};
     std::optional<MonotonicTime> staff_until_;
 };
 

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 void Fade::change_to(std::size_t which, MonotonicTime now, MonotonicTime begin) {
     if (now < out_ && which == from_) {
-        to_ = from_; // it had not begun: what comes in stays
+        to_ = from_; // the change had not begun: what fades in stays
         out_ = in_ - each_way_;
     } else if (now < dark()) {
         to_ = which;
@@ -27,10 +27,10 @@ void Fade::turn_to(std::size_t which, MonotonicTime now) {
         // A fade-in that is not over turns round at the brightness it has reached.
         out_ = now < ends() ? now - (ends() - now) : now;
     } else if (which == from_ && to_ != from_) {
-        to_ = from_; // still fading out, and wanted again: in from here
+        to_ = from_; // still fading out, and wanted again: fade in from here
         out_ = now - (ends() - now);
     } else {
-        to_ = which; // still fading out: only the goal is another
+        to_ = which; // still fading out: only the goal changes
     }
 }
 

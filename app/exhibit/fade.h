@@ -1,7 +1,7 @@
-/// From one thing to another by way of darkness: the old one fades out, the new one in.
+/// Changes from one thing to another through darkness: the old one fades out, the new one in.
 ///
 /// Brightness is a closed form of time: nothing is integrated, so a late frame shows what an early one would
-/// have. It never jumps, whatever is asked for in the middle.
+/// have. It never jumps, even if a change is asked for in the middle of another.
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` is pure.
@@ -16,27 +16,27 @@ namespace frustumscreen {
 struct Faded {
     std::size_t which = 0;
     double brightness = 0.0; ///< 0..1, a factor on linear light
-    bool changing = false;   ///< brightness moves, or is about to
+    bool changing = false;   ///< brightness changes, or is about to
 };
 
 class Fade {
 public:
-    /// `each_way`: how long it takes out, and again in. `which` begins to fade in at `now`.
+    /// `each_way`: the time to fade out, and again to fade in. `which` begins to fade in at `now`.
     Fade(std::size_t which, Nanoseconds each_way, MonotonicTime now)
         : each_way_(each_way), from_(which), to_(which), in_(now), out_(now - each_way) {}
 
-    /// Begins at `begin`, or later: what fades in comes in wholly first, so however often it is asked,
-    /// changes are at least twice `each_way` apart. What is on its way to darkness only gets another goal. A
-    /// `begin` before `now` is as if it had been asked for then.
+    /// Begins at `begin`, or later: a fade-in is finished first, so changes are at least twice `each_way`
+    /// apart, however often they are asked for. During a fade-out only the goal changes. A `begin` before
+    /// `now` acts as if the change had been asked for then.
     void change_to(std::size_t which, MonotonicTime now, MonotonicTime begin);
-    /// Begins at once: a fade that is not over turns round at the brightness that it has reached. For what
-    /// does not change its mind often.
+    /// Begins at once: a fade that is not over turns round at the brightness that it has reached. Use it for
+    /// changes that are rare.
     void turn_to(std::size_t which, MonotonicTime now);
     [[nodiscard]] Faded at(MonotonicTime now) const;
-    /// What it fades to, or has.
+    /// What it fades to, or already shows.
     [[nodiscard]] std::size_t goal() const { return to_; }
 
-    /// Of the latest change, which may be still to come.
+    /// When the latest change begins; it may lie in the future.
     [[nodiscard]] MonotonicTime begins() const { return out_; }
     [[nodiscard]] MonotonicTime dark() const { return out_ + each_way_; }
     [[nodiscard]] MonotonicTime ends() const { return out_ + 2 * each_way_; }

@@ -1,4 +1,4 @@
-/// Which of some languages, named by BCP 47 tags, stands for the one that is asked for.
+/// Chooses the language that is nearest to the one asked for. Languages are named by BCP 47 tags.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -16,7 +16,7 @@ namespace frustumscreen {
 [[nodiscard]] std::size_t caption_for(std::string_view language, std::span<const std::string> languages);
 /// Appends a language that is not there yet.
 void add_language(std::vector<std::string>& languages, const std::string& language);
-/// One of them is this language, with this region and script or others.
+/// True if one of them is this language, with any region and script.
 [[nodiscard]] bool has_language(std::span<const std::string> languages, std::string_view language);
 
 } // namespace frustumscreen

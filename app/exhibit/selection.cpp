@@ -33,15 +33,15 @@ void Selection::take(Command command, MonotonicTime now) {
         change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
         return;
     }
-    // With a language that is still to fade, after one that does already.
+    // It begins together with a language change that has not begun yet, and after one that has.
     const MonotonicTime begin =
         language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
     artifact_.change_to((artifact_.goal() + (command == Command::NextArtifact ? 1 : count_ - 1)) % count_,
                         now, begin);
 }
 
-/// With an artifact that is still to be dark, after one that fades in. Where they fade together, the caption
-/// has one brightness by either.
+/// It begins together with an artifact's change that is not dark yet, and after one that fades in. Where both
+/// fade together, they give the caption the same brightness.
 void Selection::change_language(std::size_t which, MonotonicTime now) {
     if (which != language_.goal()) {
         language_.change_to(which, now,

@@ -1,10 +1,10 @@
-/// Which artifact is chosen, in which language, and how bright both are on their way there.
+/// Which artifact and which language are chosen, and how bright both are while they change.
 ///
 /// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h), a change of language
-/// only the caption. What is asked for while something fades in begins when that is done, and artifact and
-/// caption never fade one between the other: changes are at least 0.5 s apart, whatever is pressed. So the
-/// picture flashes at most twice a second, which leaves room for the staff's pattern to come and go. Three
-/// times is the limit of WCAG 2.3.1 and ITU-R BT.1702 for the sake of photosensitive people. A press still
+/// only the caption. A change that is asked for during a fade-in begins after it, and a caption never fades
+/// in the middle of an artifact's fade or the other way round: changes are at least 0.5 s apart, whatever is
+/// pressed. So the picture flashes at most twice a second, which leaves room for the staff's pattern to come
+/// and go. WCAG 2.3.1 and ITU-R BT.1702 allow three times, to protect photosensitive people. A press still
 /// shows at once: either the picture dims, or it is changing anyway.
 ///
 /// Time     `now` never goes back.
@@ -23,19 +23,20 @@
 
 namespace frustumscreen {
 
-inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< out, and again in
+inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< to fade out, and to fade in
 
 struct Shown {
     std::size_t artifact = 0;
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
-    std::string_view language; ///< of the caption; stands as long as the selection
+    std::string_view language; ///< of the caption; valid as long as the selection
     double caption_brightness = 0.0;
-    bool changing = false; ///< a brightness moves, or is about to
+    bool changing = false; ///< a brightness changes, or is about to
 };
 
 class Selection {
 public:
-    /// `languages` (BCP 47): those that some artifact has a caption in, in the order the button goes through.
+    /// `languages` (BCP 47): those that some artifact has a caption in, in the order in which the button goes
+    /// through them.
     Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
               MonotonicTime now);
 
@@ -43,10 +44,10 @@ public:
     void take(Command command, MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
-    /// There is something to change to.
+    /// Whether the command has something to change to.
     [[nodiscard]] bool accepts(Command command) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
-    /// The chosen one; its caption may be still to come.
+    /// The chosen language; its caption may not be visible yet.
     [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
 
 private:
@@ -55,7 +56,7 @@ private:
     std::size_t count_;
     std::vector<std::string> languages_; ///< and one more, where it begins in none of them
     std::size_t language_count_;
-    std::size_t language_before_; ///< before the latest command for another
+    std::size_t language_before_; ///< the language before the latest command for another
     Fade artifact_;
     Fade language_; ///< indices into `languages_`
 };

@@ -96,7 +96,7 @@ double width_of(FT_Face face, std::u32string_view text) {
     return width;
 }
 
-/// How many characters of `text` go on one line, and how many (a space more) are used up.
+/// How many characters of `text` go on one line, and how many (with the space after them) are used up.
 struct Cut {
     std::size_t shown = 0;
     std::size_t used = 0;
@@ -230,7 +230,7 @@ Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, doubl
         widest = std::max(widest, lines[k].width_px);
     }
     const double em = lines.back().paragraph->em_px;
-    const int side = static_cast<int>(std::ceil(0.06 * paragraphs.front().em_px)); // letters that lean over
+    const int side = static_cast<int>(std::ceil(0.06 * paragraphs.front().em_px)); // letters may lean over
     Image<std::uint8_t> image(static_cast<int>(std::ceil(widest)) + 2 * side,
                               static_cast<int>(std::ceil(y + descent_em * em)));
     for (std::size_t k = 0; k < lines.size(); ++k) {

@@ -1,11 +1,12 @@
 /// Sets text as a picture of its coverage: captions on the table, labels on sheets and patterns.
 ///
 /// Text     UTF-8, composed characters (NFC), left to right; what is not UTF-8 shows as U+FFFD. Scripts that
-///          run from right to left or join their letters need shaping and come with a later issue.
+///          run from right to left or join their letters need shaping, which is not there yet.
 /// Units    pixels; `em_px` is the type size. Coverage 0..255, row 0 at the top.
 /// Threads  one at a time (FreeType's faces are not shared). Offline or once for each caption, never in the
-/// frame. Errors   the typeface's files are missing or unreadable. Library  FreeType 2, grey coverage without
-/// hinting, pen positions to 1/64 pixel.
+///          frame.
+/// Errors   the typeface's files are missing or unreadable.
+/// Library  FreeType 2, grey coverage without hinting, pen positions to 1/64 pixel.
 #pragma once
 
 #include "app/image/image.h"

@@ -13,8 +13,8 @@
 ///
 /// Frames   all arguments in one frame (the prop's). Metres.
 /// Threads  pure; any.
-/// Source   derived here; a plane-induced homology followed by a pinhole (Hartley & Zisserman, ch. 2.4 and
-/// 6).
+/// Source   derived here; a plane-induced homology followed by a pinhole (Hartley & Zisserman, ch. 2.4
+///          and 6).
 #pragma once
 
 #include "app/geometry/prop_shape.h"
@@ -35,10 +35,10 @@ struct Box {
 };
 
 /// Sine of the elevation above a face, of the eye or of the projector, below which the face is left dark:
-/// 0.057 degrees. Seen so, a face 0.16 m wide is 1.6 minutes of arc across from 0.35 m, what good eyes just
-/// resolve; lit so, one pixel of 0.6 mm is smeared over 0.6 m. And the picture's condition is 1 / sine: at
-/// this limit clip w spans three decades of the 32-bit matrix's seven, below it the GPU's rounding would
-/// show.
+/// 0.057 degrees. At this angle a face 0.16 m wide, seen from 0.35 m, is 1.6 minutes of arc across, which
+/// good eyes just resolve; and the light smears one pixel of 0.6 mm over 0.6 m. The picture's condition
+/// number is 1 / sine: at this limit clip w spans three decades of the 32-bit matrix's seven; below it the
+/// GPU's rounding would show.
 inline constexpr double least_sine = 1e-3;
 
 /// Clip coordinates (OpenGL) of points X as they must be drawn on `plane` for the eye; the depth row is

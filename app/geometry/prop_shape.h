@@ -35,7 +35,7 @@ struct PropShape {
     glm::dvec3 middle{0.0};
 };
 
-/// Of squares that look along +-X and +-Y.
+/// A frustum between two squares; its sides look along +-X and +-Y.
 struct FrustumSize {
     double base_m = 0.16; ///< side of the bottom square
     double top_m = 0.09;  ///< side of the top square
@@ -44,18 +44,18 @@ struct FrustumSize {
 
 /// Five faces; the bottom stands on the table and is never lit.
 [[nodiscard]] PropShape make_frustum(FrustumSize size);
-/// Six faces: it is held in the hand, turned anyhow.
+/// Six faces: it is held in the hand and turned in any way.
 [[nodiscard]] PropShape make_cube(double edge_m);
 
 /// Where a ray enters the prop.
 struct PropHit {
     double t = 0.0; ///< point = origin + t * direction
-    int face = 0;   ///< index into `bounds`; those that can be lit are first: into `faces`
+    int face = 0;   ///< index into `bounds`; for a face that can be lit, also into `faces`
 };
 /// Where a ray whose origin is outside enters the solid; false if it misses.
 [[nodiscard]] bool enter(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
                          PropHit& hit);
-/// The same through one of `faces`; false also if it enters by what is never lit.
+/// The same, but only through one of `faces`; false also if the ray enters through a plane that is never lit.
 [[nodiscard]] bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
                              PropHit& hit);
 

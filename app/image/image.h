@@ -46,7 +46,7 @@ using ImageFloat = Image<glm::vec3>;
 [[nodiscard]] std::uint8_t srgb8_from_linear(double linear01);
 
 /// The next coarser mip level: half as wide and high (rounded down, at least 1), colour averaged by area in
-/// linear light. The same on every machine, which drivers' own are not.
+/// linear light. It is the same on every machine, unlike the drivers' own.
 [[nodiscard]] Image8 half_size(const Image8& image);
 
 /// Errors: not a PNG, damaged, larger than `limit_texels`.
@@ -60,7 +60,7 @@ using ImageFloat = Image<glm::vec3>;
 /// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
 [[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
 
-/// Whether alpha below one half, which a picture leaves out, occurs.
+/// Whether some texel has alpha below one half: pictures leave such texels out.
 [[nodiscard]] inline bool has_cut_texels(const Image8& image) {
     return std::any_of(image.texels.begin(), image.texels.end(),
                        [](const glm::u8vec4& texel) { return texel.a < 128; });

@@ -30,7 +30,8 @@ std::vector<Covered> coverage(int size, int half) {
     return covered;
 }
 
-/// Nearest sRGB code of linear light by table: finer than a hundredth of a code where codes lie closest.
+/// A table of the nearest sRGB code of linear light; its steps are finer than a hundredth of a code where
+/// codes lie closest.
 std::vector<std::uint8_t> code_table(std::size_t entries) {
     std::vector<std::uint8_t> codes(entries);
     for (std::size_t k = 0; k < entries; ++k) {

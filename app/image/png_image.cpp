@@ -28,7 +28,7 @@ tl::unexpected<Error> damaged(const png_image& png) {
     return bad_input("the PNG picture is damaged (" + std::string(png.message) + ")");
 }
 
-/// Reads the header and holds its size against the limit, before anything of that size is allocated.
+/// Reads the header and checks its size against the limit, before anything of that size is allocated.
 Result<PngImage> begin_decode(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     PngImage png = new_png();
     if (bytes.empty() || png_image_begin_read_from_memory(png.get(), bytes.data(), bytes.size()) == 0) {

@@ -12,11 +12,11 @@
 
 namespace frustumscreen::pack_format {
 
-/// Vertices, indices and clusters. A relief level's vertices are stored as texels of `relief`; refused is a
-/// vertex that is not at the centre of a filled texel of a chart, or not where the relief puts it.
+/// Vertices, indices and clusters. A relief level's vertices are stored as texels of `relief`; a vertex that
+/// is not at the centre of a filled texel of a chart, or not where the relief puts it, is refused.
 [[nodiscard]] Result<Bytes> encode_level(const PackLevel& level, const ReliefAtlas& relief,
                                          const glm::dvec3& box_size);
-/// Technique, vertices, indices, clusters. `relief` and `box_size` are checked before.
+/// Technique, vertices, indices, clusters. `relief` and `box_size` must have been checked.
 [[nodiscard]] Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
                                              const glm::dvec3& box_size);
 

@@ -58,7 +58,7 @@ Result<void> check_errors(const LevelError& error) {
 
 Result<void> check_level(const Pack& pack, const PackLevel& level) {
     if (level.texture >= pack.textures.size()) {
-        return bad_input(fmt::format("it wears texture {}, the pack has {} textures", level.texture,
+        return bad_input(fmt::format("its texture is number {}, the pack has {} textures", level.texture,
                                      pack.textures.size()));
     }
     const Image8& texture = pack.textures[level.texture];

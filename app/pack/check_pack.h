@@ -1,5 +1,5 @@
-/// What must hold of a pack besides its syntax. The writer and the reader ask the same questions, so nothing
-/// is written that would be refused.
+/// Checks of a pack beyond its syntax. The writer and the reader ask the same questions, so nothing is
+/// written that would be refused.
 ///
 /// Errors   one line: which thing, what it is, what is allowed.
 /// Threads  pure; any.
@@ -14,12 +14,12 @@ namespace frustumscreen::pack_format {
 [[nodiscard]] Result<void> check_texts(const Pack& pack);
 /// box_size, box_from_file, extremes.
 [[nodiscard]] Result<void> check_placement(const Pack& pack);
-/// The number of levels, and that the default is one of them; needs nothing else of them.
+/// The number of levels, and that the default is one of them; the levels themselves are not needed.
 [[nodiscard]] Result<void> check_level_count(const Pack& pack, std::size_t levels);
-/// Textures, relief and its charts; needs nothing of the levels. `Chosen`: an empty texture was not read.
+/// Textures, relief and its charts; the levels are not needed. `Chosen`: an empty texture was not read.
 enum class Read { All, Chosen };
 [[nodiscard]] Result<void> check_pictures(const Pack& pack, Read read = Read::All);
-/// Levels; the pictures are right. `Chosen`: an empty level was not read.
+/// Levels; the pictures must have been checked. `Chosen`: an empty level was not read.
 [[nodiscard]] Result<void> check_levels(const Pack& pack, Read read = Read::All);
 /// One level's own vertices, indices and clusters.
 [[nodiscard]] Result<void> check_mesh(const PackLevel& level);

@@ -42,7 +42,7 @@ Result<void> check_textures(const Pack& pack, Read read) {
     return {};
 }
 
-/// Every chart inside the atlas and on texels of its own.
+/// Every chart must lie inside the atlas and on texels of its own.
 Result<void> check_charts(const ReliefAtlas& atlas) {
     std::vector<bool> taken(atlas.relief.texels.size());
     for (std::size_t k = 0; k < atlas.charts.size(); ++k) {

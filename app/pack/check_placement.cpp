@@ -62,7 +62,7 @@ Result<void> check_extremes(const Pack& pack) {
     const glm::dvec3 off = glm::max(low_off, high_off);
     if (std::max({off.x, off.y, off.z}) > extremes_tolerance) {
         return bad_input(
-            "the placement's extremes do not reach just to the sides of its box; bake the pack again");
+            "the placement's extremes do not reach exactly to the sides of its box; bake the pack again");
     }
     return {};
 }

@@ -201,7 +201,7 @@ Json parse_json(Refusal& refusal, std::string_view text) {
             open_objects.pop_back();
         } else if (event == Json::parse_event_t::key &&
                    !open_objects.back().insert(parsed.get<std::string>()).second) {
-            refusal.refuse(printable(parsed.get<std::string>(), 40), "stands twice in one object");
+            refusal.refuse(printable(parsed.get<std::string>(), 40), "occurs twice in one object");
         }
         return true;
     };
@@ -210,7 +210,7 @@ Json parse_json(Refusal& refusal, std::string_view text) {
     } catch (const Json::parse_error& error) {
         refusal.refuse("the manifest", fmt::format("is not JSON in UTF-8 (at byte {})", error.byte));
     } catch (const Json::exception&) {
-        refusal.refuse("the manifest", "holds a number beyond all bounds");
+        refusal.refuse("the manifest", "holds a number that is too large");
     }
     return {};
 }

@@ -1,7 +1,7 @@
 /// Reads one JSON object field by field: what is asked for is consumed, what is left over is refused.
 ///
 /// Errors   the first one is kept in `Refusal`, as one line: the field's place, what was found, what is
-///          allowed. After it every call returns without effect, so callers read on without asking.
+///          allowed. After it every call does nothing, so callers need not check each call.
 /// Threads  one caller.
 #pragma once
 
@@ -28,7 +28,7 @@ public:
     /// `object` may be null or no object: that is refused.
     JsonReader(Refusal& refusal, const nlohmann::json* object, std::string place);
 
-    /// A field whose value was looked at before.
+    /// A field whose value was checked before.
     void fixed(const char* key, const auto& /*value*/) { static_cast<void>(take(key)); }
     void text(const char* key, std::string& value);
     void texts(const char* key, std::vector<std::string>& values, std::size_t most);
@@ -41,7 +41,7 @@ public:
     void numbers(const char* key, std::span<double> values);
     /// Lists of exactly three numbers each.
     void triples(const char* key, std::vector<glm::dvec3>& values, std::size_t most);
-    /// The value whose number is that of the word found.
+    /// The value whose number is the index of the word found.
     template <typename Choice>
     void choice(const char* key, Choice& value, std::span<const std::string_view> words) {
         value = static_cast<Choice>(word_of(key, words));
@@ -91,7 +91,7 @@ private:
     std::set<std::string> known_;
 };
 
-/// The document. Refused: what is not JSON (with the byte where that shows), a field that stands twice.
+/// Parses the document. It refuses what is not JSON (and says at which byte) and a field that occurs twice.
 [[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text);
 
 } // namespace frustumscreen::pack_format

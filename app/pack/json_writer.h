@@ -1,6 +1,6 @@
-/// Writes one JSON object field by field: the counterpart of JsonReader, walked with the same description.
+/// Writes one JSON object field by field: the counterpart of JsonReader, driven by the same description.
 ///
-/// Limits are the reader's to hold; here they are taken and passed over.
+/// The reader checks the limits; the writer ignores them.
 /// Threads  values; any.
 #pragma once
 

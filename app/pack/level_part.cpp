@@ -48,7 +48,7 @@ Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
     return owner;
 }
 
-/// Whether two positions are one, but for rounding: of their codes, and of 32-bit arithmetic on the way.
+/// Whether two positions are equal, except for the rounding of their codes and of 32-bit arithmetic.
 bool same_place(const PackVertex& a, const PackVertex& b, const glm::dvec3& box_size) {
     constexpr double codes = 2.0;
     constexpr double rounding_box = 1e-6;
@@ -148,7 +148,7 @@ struct Header {
     std::uint32_t vertices = 0, indices = 0, clusters = 0;
 };
 
-/// The counts fit the limits and exactly fill the part.
+/// Checks that the counts fit the limits and exactly fill the part.
 Result<Header> read_header(std::span<const std::byte> bytes) {
     if (bytes.size() < header_bytes ||
         std::memcmp(bytes.data(), level_magic.data(), level_magic.size()) != 0) {

@@ -1,5 +1,5 @@
-/// How large each thing in a pack may be. A pack is outside data: everything that it sizes is held against
-/// these before memory is taken for it.
+/// How large each thing in a pack may be. A pack is outside data: every size in it is checked against these
+/// before memory is allocated for it.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace frustumscreen::pack_format {
 
-inline constexpr std::uint64_t most_pack_bytes = std::uint64_t{2}
-                                                 << 30; ///< the whole file; ZIP without ZIP64
+/// The whole file; ZIP without ZIP64.
+inline constexpr std::uint64_t most_pack_bytes = std::uint64_t{2} << 30;
 inline constexpr std::uint64_t most_manifest_bytes = 16U << 20;
 inline constexpr std::uint64_t most_part_bytes = std::uint64_t{1} << 29;  ///< one part, unpacked
 inline constexpr std::uint64_t most_parts_bytes = std::uint64_t{1} << 30; ///< all of them, unpacked

@@ -57,7 +57,7 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
                                               printable(part.name, 40)));
         }
         if (!names.insert(part.name).second) {
-            refusal.refuse(place, fmt::format("is {}, which stands there twice", part.name));
+            refusal.refuse(place, fmt::format("is {}, which occurs twice", part.name));
         }
         together += part.bytes;
     }

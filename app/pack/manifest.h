@@ -30,7 +30,7 @@ struct ReliefRecord {
     std::string charts; ///< part
 };
 
-/// Its texture stands in the file by its part's name.
+/// The file names its texture by the texture's part.
 struct LevelRecord : LevelOutline {
     std::string mesh; ///< part
 };
@@ -43,7 +43,7 @@ struct Manifest {
     std::vector<PartRecord> parts;
 };
 
-/// Syntax, types and names; of the values, only those that size something or refer to something.
+/// Checks syntax, types and names, and only those values that size something or refer to something.
 [[nodiscard]] Result<Manifest> parse_manifest(std::string_view text);
 [[nodiscard]] std::string write_manifest(const Manifest& manifest);
 

@@ -1,7 +1,7 @@
 /// The pack as a file: one ZIP container with a manifest and hashed binary parts. FORMAT.md has the bytes.
 ///
 /// Errors   one line: what is wrong, where inside the pack, what to do. Every length, offset, count and
-///          dimension is checked before use; nothing of a pack is used before its hash was right.
+///          dimension is checked before use; no part is used before its hash was checked.
 /// Threads  pure; any.
 #pragma once
 
@@ -18,8 +18,8 @@ namespace frustumscreen {
 
 inline constexpr int pack_format_version = 1;
 
-/// A pack of which all that was read was checked; only `verify_pack` makes one. Levels and textures that were
-/// not chosen are there and empty, so that numbers mean what they mean in the file.
+/// A pack in which everything that was read was checked; only `verify_pack` makes one. Levels and textures
+/// that were not chosen are empty but keep their places, so that indices are those of the file.
 class VerifiedPack {
 public:
     [[nodiscard]] const Pack& operator*() const { return pack_; }
@@ -33,7 +33,7 @@ private:
 
 /// Deterministic: the same pack gives the same bytes.
 [[nodiscard]] Result<Bytes> write_pack(const Pack& pack);
-/// Without `choose`: all of it. Parts of levels that are not chosen are neither unpacked nor hashed.
+/// Without `choose`, all of it is read. Parts of levels that are not chosen are neither unpacked nor hashed.
 [[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes,
                                                const ChooseLevels& choose = {});
 /// Reads and verifies; messages begin with the file's name.

@@ -1,8 +1,8 @@
-/// What a pack offers, from its manifest alone: enough to choose what of it is read.
+/// What a pack offers, from its manifest alone: enough to choose what is read.
 ///
 /// Units    errors in box units, as LevelError.
 /// Threads  values; any.
-/// Errors   those of the choice: a level that the pack has not.
+/// Errors   those of the choice: a level that the pack does not have.
 #pragma once
 
 #include "app/pack/pack.h"

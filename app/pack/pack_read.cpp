@@ -124,7 +124,7 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
         if (!level) {
             return tl::unexpected(level.error());
         }
-        if (level->indices.empty()) { // would count as one that was not read
+        if (level->indices.empty()) { // it would count as a level that was not read
             return at(record.mesh, check_mesh(*level).error());
         }
         pack.levels.push_back(std::move(*level));

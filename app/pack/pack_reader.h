@@ -1,4 +1,4 @@
-/// The container of a pack, opened: its manifest, and its parts one at a time, each held against its hash.
+/// The container of a pack, opened: its manifest, and its parts one at a time, each checked against its hash.
 ///
 /// Errors   one line naming the part.
 /// Threads  one caller.
@@ -15,15 +15,15 @@ namespace frustumscreen::pack_format {
 
 class PackReader {
 public:
-    /// The manifest is read, and the parts are those that it lists, at the sizes that it lists, no more and
-    /// no less. `bytes` must outlive the reader.
+    /// Reads the manifest, and checks that the parts are exactly those that it lists, with the sizes that it
+    /// lists. `bytes` must outlive the reader.
     [[nodiscard]] static Result<PackReader> open(std::span<const std::byte> bytes);
 
     [[nodiscard]] const Manifest& manifest() const { return manifest_; }
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
     /// A part's bytes; each part can be taken once.
     [[nodiscard]] Result<Bytes> take(const std::string& name);
-    /// Counts a part as used without a look at its bytes; each part can be taken or passed over once.
+    /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
     [[nodiscard]] Result<void> pass_over(const std::string& name);
     /// Refuses parts that nothing refers to.
     [[nodiscard]] Result<void> finish() const;

@@ -7,7 +7,8 @@
 namespace frustumscreen {
 
 Placement place(const PackDescription& pack, const PropShape& prop) {
-    // The box stands on z = 0 by definition; an extreme that rounding put below must not scale it to nothing.
+    // The box stands on z = 0 by definition. Rounding may put an extreme below; this must not scale it to
+    // nothing.
     std::vector<glm::dvec3> extremes = pack.extremes;
     for (glm::dvec3& extreme : extremes) {
         extreme.z = std::fmax(extreme.z, 0.0);

@@ -1,6 +1,6 @@
-/// What a person may not have meant: a pack that was baked for another kind of prop than the settings have.
+/// A note for a person: a pack was baked for another kind of prop than the settings have. The pack is still
+/// shown; its relief and the choice of its levels are the other prop's.
 ///
-/// It is shown all the same; its relief and the choice of its levels are the other prop's.
 /// Threads  pure; any.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// `wanted`: the kind that the settings name. Nothing if they agree.
+/// `wanted`: the kind that the settings name. Returns nothing if they agree.
 [[nodiscard]] inline std::optional<std::string> note_other_prop(const std::string& file, const Pack& pack,
                                                                 std::string_view wanted) {
     if (pack.prop_kind == wanted) {

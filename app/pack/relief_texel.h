@@ -1,7 +1,8 @@
 /// A relief level's vertices are texels of the relief atlas; this is where such a texel lies.
 ///
 /// Frame    box. Codes are those of PackVertex: 0..65535 over the box's extent on each axis, over the
-/// texture. Threads  pure; any. 64-bit, so that every machine reconstructs the same codes.
+///          texture.
+/// Threads  pure; any. 64-bit, so that every machine reconstructs the same codes.
 #pragma once
 
 #include "app/pack/pack.h"

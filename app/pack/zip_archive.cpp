@@ -28,7 +28,8 @@ namespace {
 constexpr int deflate_level = 1; ///< Z_BEST_SPEED: a part is packed once and unpacked at every start
 constexpr uLong first_of_1980 = (1U << 21) | (1U << 16); ///< MS-DOS date, midnight: the earliest there is
 constexpr uLong encrypted_flag = 1;
-/// Deflate never packs tighter than 1032 to 1 (zlib's technical details); an archive that claims more lies.
+/// Deflate never packs tighter than 1032 to 1 (zlib's technical details); an archive that claims more is
+/// wrong.
 constexpr std::uint64_t most_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
 
@@ -257,7 +258,8 @@ Result<Bytes> ZipReader::read(const ZipEntry& entry) {
             count = unzReadCurrentFile(zip_, bytes.data() + filled, static_cast<unsigned>(step));
             filled += count > 0 ? static_cast<std::size_t>(count) : 0;
         }
-        // One byte more must not come; closing compares the checksum, but only of a wholly read entry.
+        // There must not be one byte more. Closing compares the checksum, but only if the entry was read to
+        // its end.
         std::byte beyond{};
         good = filled == bytes.size() && unzReadCurrentFile(zip_, &beyond, 1) == 0;
         good = unzCloseCurrentFile(zip_) == UNZ_OK && good;

@@ -58,7 +58,7 @@ public:
     [[nodiscard]] const std::vector<ZipEntry>& entries() const { return entries_; }
     /// Null if there is none of that name.
     [[nodiscard]] const ZipEntry* find(std::string_view name) const;
-    /// Unpacks an entry; the caller has held entry.bytes against a limit.
+    /// Unpacks an entry; the caller must have checked entry.bytes against a limit.
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
 
 private:

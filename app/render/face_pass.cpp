@@ -16,27 +16,29 @@ GLuint stencil_value(std::size_t face) {
 
 void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster) {
     const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
-    glUniform4f(shader.at(Uniform::PixelFromFragment), scale.x, scale.y, static_cast<float>(raster.corner.x),
-                static_cast<float>(raster.corner.y));
-    glUniform4f(shader.at(Uniform::Pinhole), static_cast<float>(pinhole.cx), static_cast<float>(pinhole.cy),
-                static_cast<float>(1.0 / pinhole.fx), static_cast<float>(1.0 / pinhole.fy));
+    glUniform4f(shader.location(Uniform::PixelFromFragment), scale.x, scale.y,
+                static_cast<float>(raster.corner.x), static_cast<float>(raster.corner.y));
+    glUniform4f(shader.location(Uniform::Pinhole), static_cast<float>(pinhole.cx),
+                static_cast<float>(pinhole.cy), static_cast<float>(1.0 / pinhole.fx),
+                static_cast<float>(1.0 / pinhole.fy));
 }
 
 void set_face(const Shader& shader, const FacePlan& face) {
-    glUniform3fv(shader.at(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
-    glUniform2f(shader.at(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre);
+    glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
+    glUniform2f(shader.location(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre);
 }
 
 void set_draw(const Shader& shader, const Draw& draw) {
     constexpr float code_power = 1.0F / 2.4F;
-    glUniform2f(shader.at(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
-    glUniform2f(shader.at(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
-    glUniform3fv(shader.at(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
-    glUniformMatrix4fv(shader.at(Uniform::ClipFromUnit), 1, GL_FALSE, glm::value_ptr(draw.clip_from_unit));
+    glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
+    glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
+    glUniform3fv(shader.location(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
+    glUniformMatrix4fv(shader.location(Uniform::ClipFromUnit), 1, GL_FALSE,
+                       glm::value_ptr(draw.clip_from_unit));
 }
 
 /// The uploaded level that ::mip_level asks for, one for the whole draw: a software or small GPU spends more
-/// on finding and mixing two for each pixel than on the rest of it.
+/// on finding and mixing two levels for each pixel than on the rest of the pixel.
 float mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
     const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
     return static_cast<float>(
@@ -85,7 +87,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
 }
 
 void FacePass::upload_indices(const FramePlan& plan) const {
-    glBindVertexArray(no_attributes_.get()); // a vertex array keeps the buffer that is bound while it is
+    glBindVertexArray(no_attributes_.get()); // a bound vertex array stores the next binding
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(plan.indices.size() * sizeof(std::uint32_t)), plan.indices.data(),
@@ -106,7 +108,7 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
         // The prop is convex: faces that the projector sees do not hide each other.
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
         set_scissor(plan.faces[k].bounds, raster);
-        glUniform4fv(outline.at(Uniform::Corners), 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
+        glUniform4fv(outline.location(Uniform::Corners), 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
         glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
     }
     glDepthMask(GL_TRUE);
@@ -122,7 +124,7 @@ void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuSt
     set_view(shader, plan.projector, raster);
     set_face(shader, plan.faces[face]);
     set_draw(shader, draw);
-    glUniform1f(shader.at(Uniform::MipLevel), mip_of(draw, texture, raster));
+    glUniform1f(shader.location(Uniform::MipLevel), mip_of(draw, texture, raster));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture.texels.get());
     glBindVertexArray(mesh.vertex_array.get());

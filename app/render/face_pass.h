@@ -1,7 +1,7 @@
-/// What stands in the prop: the plan's faces into the stencil, then its draws on them, in order.
+/// Draws what stands in the prop: the plan's faces into the stencil, then its draws on them, in order.
 ///
-/// Draws into the framebuffer that is bound; the caller clears. Sets every piece of state that it needs, the
-/// scissor to each draw's bounds, and leaves stencil test, depth test and culling off.
+/// It draws into the framebuffer that is bound; the caller clears. It sets every piece of state that it
+/// needs, the scissor to each draw's bounds, and leaves stencil test, depth test and culling off.
 ///
 /// Colour   sRGB codes in and out: the framebuffer must take them as they are (GL_FRAMEBUFFER_SRGB_EXT off).
 ///          Decoding and encoding every sample costs a software GPU more than the rest of it.
@@ -22,8 +22,8 @@ public:
         Colours,
         Places ///< prop coordinates, metres; alpha 1
     };
-    /// Number of draw calls made. Left out is what needs a shader that was not prepared, or a mesh or texture
-    /// that is not in the store.
+    /// Returns the number of draw calls. It leaves out draws whose shader was not prepared, or whose mesh or
+    /// texture is not in the store.
     int draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours) const;
 

@@ -1,5 +1,5 @@
-/// How much memory the driver gave an object, as it says itself: sizes and bits are asked for, not computed
-/// from what was ordered.
+/// How much memory the driver gave an object, as the driver says: sizes and bits are queried, not computed
+/// from what was asked for.
 ///
 /// Units    bytes; what a driver adds for its own purposes (alignment, tiling) is not in it.
 /// Threads  the render thread.

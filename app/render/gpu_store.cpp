@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of a texture's side, as the driver allows.
+/// The most texels along a texture's side that the driver allows.
 int most_texels() {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);

@@ -1,8 +1,8 @@
 /// Meshes and pictures in the GPU's memory, by the numbers that plans name them with.
 ///
 /// Colour   an artifact's texture gives sRGB codes as they are stored; its mip levels are averaged in linear
-///          light, here and not by the driver: the same everywhere, and the finest need not go to the GPU to
-///          make the rest. A caption is coverage 0..255, white light.
+///          light, here and not by the driver: so they are the same everywhere, and the finest need not be on
+///          the GPU to make the others. A caption is coverage 0..255, white light.
 /// Threads  the render thread; `find` allocates nothing.
 /// Errors   the driver has no memory, or a texture is larger than it allows.
 #pragma once
@@ -21,13 +21,13 @@ namespace frustumscreen {
 
 class GpuStore {
 public:
-    /// What a scene needs of a level; `texture` is the level's, whole.
+    /// Uploads what a scene needs of a level; `texture` is the level's whole texture.
     [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
-    /// All of a level.
+    /// Uploads all of a level.
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
-    /// A caption's coverage, row 0 at the text's top.
+    /// Uploads a caption's coverage, row 0 at the text's top.
     [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
-    /// Draws of it show nothing from now on.
+    /// Draws that name it show nothing from now on.
     void release(const Drawable& drawable);
     void release(TextureId texture);
 
@@ -37,13 +37,13 @@ public:
     };
     struct Texture {
         GlTexture texels;
-        int finest_mip = 0; ///< of the whole texture: what the uploaded level 0 is
+        int finest_mip = 0; ///< the whole texture's mip level that is uploaded as level 0
     };
     /// Null if it was not uploaded, or released.
     [[nodiscard]] const Mesh* find(MeshId mesh) const;
     [[nodiscard]] const Texture* find(TextureId texture) const;
 
-    /// Of GPU memory, as the driver says.
+    /// Bytes of GPU memory, as the driver says.
     [[nodiscard]] std::uint64_t bytes() const;
     [[nodiscard]] std::uint64_t bytes(const Drawable& drawable) const;
     [[nodiscard]] std::uint64_t bytes(TextureId texture) const;
@@ -53,7 +53,7 @@ private:
 
     std::map<MeshId, Mesh> meshes_;
     std::map<TextureId, Texture> textures_;
-    std::uint32_t last_ = 0; ///< number given out
+    std::uint32_t last_ = 0; ///< last number given out
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// The second picture of a plan: not the colour but the place that each pixel shows. For measuring.
+/// The second picture of a plan: it holds the place that each pixel shows and not the colour. For measuring.
 ///
 /// One sample at the pixel's centre. Never in the exhibit's frame.
 #pragma once
@@ -15,9 +15,9 @@ namespace frustumscreen {
 
 class HitPointRenderer {
 public:
-    /// Errors: the driver cannot draw into float pictures. For what the renderer can draw by then.
+    /// Errors: the driver cannot draw into float pictures. It draws what the renderer can draw at this time.
     [[nodiscard]] static Result<HitPointRenderer> create(const Renderer& renderer);
-    /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top. `store`: that
+    /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top. `store`: the same
     /// renderer's.
     [[nodiscard]] ImageFloat draw(const FramePlan& plan, const GpuStore& store);
 

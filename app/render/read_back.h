@@ -1,4 +1,4 @@
-/// Pictures back from the GPU. For tests and the offline renderer; never in the exhibit's frame.
+/// Reads pictures back from the GPU. For tests and the offline renderer; never in the exhibit's frame.
 #pragma once
 
 #include "app/image/image.h"
@@ -10,7 +10,7 @@ namespace frustumscreen {
 /// The same into an image of the framebuffer's size.
 void read_colour_into(unsigned framebuffer, Image8& image);
 
-/// Returns when everything that was asked of the GPU is done. For measuring.
+/// Waits until the GPU has done everything it was asked to do. For measuring.
 void wait_until_drawn();
 
 } // namespace frustumscreen

@@ -97,8 +97,8 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
 }
 
 /// The larger picture comes first, so that a tiling GPU goes to the display's framebuffer once. Codes are
-/// written as they are throughout; what is computed in linear light (captions, averages) turns the encoding
-/// on for itself.
+/// written as they are throughout; passes that compute in linear light (captions, averages) turn the encoding
+/// on themselves.
 void Renderer::paint(const FramePlan& plan, const RenderTarget& target, DrawResult& result) const {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
     const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty();

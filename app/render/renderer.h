@@ -4,7 +4,7 @@
 /// Colour   the framebuffer is sRGB (display.h); shaders work in linear light.
 /// Threads  the render thread; `draw` allocates nothing and makes no GL object.
 /// Errors   when something is created, prepared or uploaded: shaders, buffers or textures that the driver
-/// refuses.
+///          refuses.
 #pragma once
 
 #include "app/render/face_pass.h"
@@ -26,9 +26,9 @@ namespace frustumscreen {
 /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on llvmpipe
 /// that takes half the time of the driver's own multisampling.
 ///
-/// What a pack may ask for: the live exhibit has room for it.
+/// The live exhibit has room for this many: a pack may ask for no more.
 inline constexpr int default_samples = 8;
-/// For those who do not count the cost: the finest level.
+/// For the finest level, where the cost does not matter.
 inline constexpr int finest_samples = 16;
 
 /// Display::framebuffer and Display::buffer_age.
@@ -46,19 +46,19 @@ struct DrawResult {
 
 enum class Redraw {
     Changes,
-    Again,      ///< to present it once more: as Changes, but `drawn` even if nothing had to be
+    Again,      ///< to present it once more: as Changes, but `drawn` is true in any case
     Everything, ///< the whole picture, whether it changed or not
 };
 
 class Renderer {
 public:
-    /// Of pictures of that size.
+    /// Makes a renderer for pictures of that size.
     [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs = {});
-    /// Compiles and allocates what these needs take beyond those before: no frame compiles anything.
+    /// Compiles and allocates what these needs add to the earlier ones, so that no frame compiles anything.
     [[nodiscard]] Result<void> prepare(const RenderNeeds& needs);
 
-    /// What plans name. A picture is the same until its plan names something else: what is released is gone
-    /// from the next picture that is drawn.
+    /// The meshes and textures that plans name. A picture counts as unchanged until its plan names something
+    /// else; what is released is missing from the next picture that is drawn.
     [[nodiscard]] GpuStore& store() { return store_; }
     [[nodiscard]] const GpuStore& store() const { return store_; }
 
@@ -67,9 +67,9 @@ public:
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// Those that were compiled.
+    /// The shaders that were compiled.
     [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
-    /// Of GPU memory, as the driver says, but for the indices that come with each picture.
+    /// Bytes of GPU memory, as the driver says, without the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
@@ -83,8 +83,8 @@ private:
                                            Redraw redraw) const;
 
     int width_, height_;
-    RenderNeeds needs_; ///< there is room for so many samples; a plan may ask for fewer, and for more of a
-                        ///< smaller part
+    /// There is room for so many samples; a plan may ask for fewer, and for more in a smaller part.
+    RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;
     FacePass faces_;

@@ -89,13 +89,13 @@ std::uint64_t SampleGrid::bytes() const {
 }
 
 void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
-    glUniform2f(shader.at(Uniform::Picture), static_cast<float>(width_), static_cast<float>(height_));
+    glUniform2f(shader.location(Uniform::Picture), static_cast<float>(width_), static_cast<float>(height_));
     std::array<glm::vec4, LitTiles::most_rectangles> corners{};
     std::size_t count = 0;
     for (const PixelRectangle& r : tiles.rectangles()) {
         corners[count++] = glm::vec4(r.x, r.y, r.width, r.height);
     }
-    glUniform4fv(shader.at(Uniform::Rectangles), static_cast<GLsizei>(count), &corners[0].x);
+    glUniform4fv(shader.location(Uniform::Rectangles), static_cast<GLsizei>(count), &corners[0].x);
     glBindVertexArray(no_attributes_.get());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_per_rectangle * count));
     glBindVertexArray(0);
@@ -112,7 +112,7 @@ Raster SampleGrid::raster(const LitTiles& tiles, int samples) const {
     while (samples > most && !fits(of(samples))) {
         samples /= 2;
     }
-    // Where there is room for all, the picture stays where it is: fragments that move round differently.
+    // If there is room for all, the picture stays in its place: fragments elsewhere round differently.
     return {of(samples), samples > most ? glm::ivec2(part.x, part.y) : glm::ivec2(0)};
 }
 
@@ -144,7 +144,7 @@ void SampleGrid::average(const LitTiles& tiles, const Raster& raster, const Shad
         return;
     }
     average->use();
-    glUniform4i(average->at(Uniform::Raster), raster.fragments.x, raster.fragments.y, raster.corner.x,
+    glUniform4i(average->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, raster.corner.x,
                 raster.corner.y);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, colour_.get());

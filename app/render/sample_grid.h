@@ -1,4 +1,4 @@
-/// Several samples a pixel: the artifact's part of the picture drawn larger, then averaged.
+/// Makes several samples a pixel: it draws the artifact's part of the picture larger, then averages.
 ///
 /// On a software GPU that takes half the time of the driver's own multisampling, and it smooths the texture
 /// as well as the outlines.
@@ -20,21 +20,21 @@ namespace frustumscreen {
 
 class SampleGrid {
 public:
-    /// Room for `most_samples` a pixel, 2, 4, 8 or 16, of the whole picture: a smaller part of it may have
-    /// more.
+    /// Has room for `most_samples` a pixel, 2, 4, 8 or 16, in the whole picture; a smaller part of it may
+    /// have more.
     [[nodiscard]] static Result<SampleGrid> create(int width, int height, int most_samples);
 
     /// Samples along a pixel's sides; zero for a number that has no grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
-    /// How the tiles lie in the larger picture: `samples` a pixel, or as many as it has room for.
+    /// How the tiles lie in the larger picture, with `samples` a pixel or as many as there is room for.
     [[nodiscard]] Raster raster(const LitTiles& tiles, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
     void begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
     /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
     void average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
 
-    /// Of GPU memory, as the driver says.
+    /// Bytes of GPU memory, as the driver says.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// Of all shaders; each has some of them.
+/// The uniforms of all shaders; each shader has some of them.
 enum class Uniform : std::size_t {
     Corners,
     ClipFromUnit,
@@ -37,8 +37,10 @@ class Shader {
 public:
     [[nodiscard]] static Result<Shader> compile(const ShaderKey& key);
     void use() const { glUseProgram(program_.get()); }
-    /// -1, which OpenGL ignores, for one that the shader has not.
-    [[nodiscard]] GLint at(Uniform uniform) const { return locations_[static_cast<std::size_t>(uniform)]; }
+    /// -1, which OpenGL ignores, for one that the shader does not have.
+    [[nodiscard]] GLint location(Uniform uniform) const {
+        return locations_[static_cast<std::size_t>(uniform)];
+    }
 
 private:
     GlProgram program_;
@@ -47,7 +49,7 @@ private:
 
 class ShaderCache {
 public:
-    /// Compiles those that are not there yet.
+    /// Compiles the shaders that are not there yet.
     [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys);
     /// Null if it was not prepared.
     [[nodiscard]] const Shader* find(const ShaderKey& key) const;

@@ -30,8 +30,8 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
             glBindTexture(GL_TEXTURE_2D, texture->texels.get());
         }
         set_scissor(part, raster);
-        glUniform1f(shader->at(Uniform::Brightness), draw.brightness);
-        glUniform4fv(shader->at(Uniform::Corners), 4, glm::value_ptr(draw.clip_from_unit));
+        glUniform1f(shader->location(Uniform::Brightness), draw.brightness);
+        glUniform4fv(shader->location(Uniform::Corners), 4, glm::value_ptr(draw.clip_from_unit));
         glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
         ++calls;
     }

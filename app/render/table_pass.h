@@ -1,7 +1,7 @@
-/// What lies flat on the table: the plan's quadrilaterals, in order. A caption is a picture, and the prop's
-/// faces in black, on which it never lies.
+/// Draws what lies flat on the table: the plan's quadrilaterals, in order. A caption is a picture, then the
+/// prop's faces in black, because it never lies on the prop.
 ///
-/// Draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
+/// It draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
 ///
 /// Colour   coverage in linear light, which the framebuffer encodes.
 /// Threads  the render thread; allocates nothing in `draw`.
@@ -17,8 +17,8 @@ namespace frustumscreen {
 
 class TablePass {
 public:
-    /// `within`: nothing outside it is drawn. Number of draw calls made. Left out is what needs a shader that
-    /// was not prepared, or a texture that is not in the store.
+    /// Returns the number of draw calls. `within`: nothing outside it is drawn. It leaves out draws whose
+    /// shader was not prepared, or whose texture is not in the store.
     int draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
              const ShaderCache& shaders, const Raster& raster = {}) const;
 

@@ -7,7 +7,7 @@
 
 namespace frustumscreen {
 
-/// Of one renderer, which never gives a number out twice.
+/// Numbers of one renderer, which never gives a number out twice.
 enum class MeshId : std::uint32_t { None };
 enum class TextureId : std::uint32_t { None };
 

@@ -3,8 +3,7 @@
 ///
 /// Frames   as named; clip coordinates as `Pinhole::clip_from_point`.
 /// Threads  pure; any. Allocates nothing.
-/// Errors   none: points that are not in front of the projector may be anywhere
-/// in the picture.
+/// Errors   none: points that are not in front of the projector may be anywhere in the picture.
 #pragma once
 
 #include "app/geometry/collineation.h"
@@ -26,11 +25,11 @@ struct FaceView {
     PixelRectangle bounds;          ///< of what may show on it
 };
 
-/// Pixels around points in clip coordinates; the whole picture if one is not in front. A pixel to spare each
-/// way.
+/// Pixels around points in clip coordinates, with one pixel to spare on each side; the whole picture if a
+/// point is not in front.
 [[nodiscard]] PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole);
 
-/// Where a box can show on a face: the box seen through the face, and the face itself.
+/// Where a box can show on a face: the common part of the box seen through the face and of the face itself.
 [[nodiscard]] PixelRectangle face_bounds(const PropFace& face, const Box& box,
                                          const glm::dmat4& clip_from_prop,
                                          const glm::dmat4& clip_through_face, const Pinhole& pinhole);

@@ -91,12 +91,12 @@ std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
     return corners;
 }
 
-/// Lights what the triangles may light on a face: their box's part of it, or each triangle's where there are
-/// few in a large box. Returns the pixels around it all.
+/// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
+/// there are few in a large box. Returns the pixels around them all.
 PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
                            std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
                            const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
-    constexpr int pixels_per_triangle = 100; // fewer cost less than looking closer
+    constexpr int pixels_per_triangle = 100; // a closer look costs more than fewer pixels
     const PixelRectangle box =
         intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
     const std::size_t triangles = visible.size() / 3;
@@ -133,7 +133,7 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
     return bounds;
 }
 
-/// What a face shows of a part; nothing if that is nothing.
+/// The draw of what a face shows of a part; nothing if it shows nothing.
 std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
                               const Shared& shared, FramePlan& plan) {
     const PlacedLevel& level = part.level;
@@ -167,7 +167,8 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     return draw;
 }
 
-/// Part by part: what looks towards the eye is found once for all faces that share it.
+/// Goes part by part: the triangles that look towards the eye are found once for all faces that share the
+/// eye.
 void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
     const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
     std::array<std::optional<FaceView>, most_faces> through{};
@@ -200,8 +201,8 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
     }
 }
 
-/// Pixels along a metre at the artifact's middle, as a share of those that a surface there would have which
-/// faces the projector; a mean over the faces, by area.
+/// Pixels along a metre at the artifact's middle, as a share of those on a surface there that faces the
+/// projector; a mean over the faces, by area.
 double pixel_density(const Shared& shared, const FramePlan& plan) {
     double pixels = 0.0;
     double area = 0.0;
@@ -215,7 +216,7 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
     return area > 0.0 ? pixels / area * distance_m / shared.view.projector.fx : 1.0;
 }
 
-/// Samples are counted by the bake for pictures of half that density and more.
+/// The bake chooses the samples for pictures of at least half that density.
 int samples_at(double density, int samples) {
     constexpr double least_density = 0.5;
     constexpr int most = 16;
@@ -226,7 +227,7 @@ int samples_at(double density, int samples) {
     return samples;
 }
 
-/// The picture, and then the prop's faces, which it never lights, in black.
+/// Draws the picture, and then the prop's faces in black: the picture never lights them.
 void plan_caption(const TablePicture& picture, const Shared& shared, FramePlan& plan) {
     const glm::dmat4 clip_from_table =
         shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
@@ -292,7 +293,7 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     const std::size_t faces = prop.faces.size();
     plan.faces.reserve(faces);
     plan.draws.reserve(parts * faces + 1 + faces);
-    // A triangle may show on every face; memory that is never written is never taken.
+    // A triangle may show on every face. Memory that is never written is never used.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
     return plan;

@@ -4,11 +4,11 @@
 /// The pack meets the configuration here. A plan is a pure function of its inputs, in 64-bit until the last
 /// step.
 ///
-/// Frames   as named; clip coordinates as `Pinhole::clip_from_point`: y = -1 is
-/// the picture's top. Units    metres, pixels. Threads  pure; any. `plan_frame` allocates nothing into a plan
-/// that `make_plan` made for the same inputs.
-/// Errors   none: an eye inside the prop, a prop off the picture or a face
-/// without light give an emptier picture.
+/// Frames   as named; clip coordinates as `Pinhole::clip_from_point`: y = -1 is the picture's top.
+/// Units    metres, pixels.
+/// Threads  pure; any. `plan_frame` allocates nothing into a plan that `make_plan` made for the same inputs.
+/// Errors   none: an eye inside the prop, a prop off the picture or a face without light give an emptier
+///          picture.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -44,9 +44,9 @@ struct PlacedLevel {
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  const Drawable& drawable = {});
 
-/// Which of the picture's pixels a draw takes, with all their samples: an ordered pattern. Two draws of one
-/// share, one of them the complement, take each pixel exactly once between them: no pixel is a mixture and
-/// none is left out.
+/// Which of the picture's pixels a draw takes, with all their samples: an ordered pattern. A draw with a
+/// share and one with its complement take each pixel exactly once together: no pixel is a mixture and none is
+/// left out.
 struct Dither {
     float share = 1.0F;      ///< 0..1
     bool complement = false; ///< the pixels that the share leaves
@@ -67,14 +67,14 @@ struct TablePicture {
     TextureId texture = TextureId::None;
 };
 
-/// Where everything stands.
+/// Where the projector, the prop and the eyes are.
 struct PlanView {
     Pinhole projector;
     RigidTransform table_from_projector;
     RigidTransform table_from_prop;
     /// Table frame. One eye for all faces, or one for each.
     std::span<const glm::dvec3> eyes_m;
-    /// Nothing = colours leave as they are in the texture.
+    /// Nothing = colours stay as they are in the texture.
     std::optional<LightCompensation> light = LightCompensation{};
     double brightness = 1.0; ///< of the artifact, 0..1, linear light: fades; 0 leaves the prop dark
     std::optional<TablePicture> caption = std::nullopt;
@@ -91,9 +91,9 @@ struct FacePlan {
     int face = 0;                            ///< index into PropShape::faces
     std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
-    PixelRectangle bounds;     ///< around those of its draws
-    double pixels_per_m = 0.0; ///< at the artifact's middle, across the eye's
-                               ///< ray; the mean of two directions, by area
+    PixelRectangle bounds; ///< around those of its draws
+    /// At the artifact's middle, across the eye's ray; the mean of two directions, by area.
+    double pixels_per_m = 0.0;
 };
 
 /// A mesh seen through one face of the prop, or a quadrilateral beside the prop.
@@ -109,32 +109,32 @@ struct Draw {
     std::array<glm::vec3, 2> prop_from_unit{}; ///< metres: prop point = [0] * (position / 65535) + [1]
     IndexRange range;
     PixelRectangle bounds;       ///< holds every pixel that it can light
-    double pixels_per_box = 0.0; ///< FacePlan::pixels_per_m for the mesh's box units, at its own middle
+    double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< 0..1, linear light
     Dither dither;               ///< if the shader dithers
 };
 
 struct FramePlan {
     Pinhole projector;
-    /// A pixel, of what the prop shows; 0 = as many as the renderer takes. Where a face is seen or lit so
-    /// slantingly that few pixels show much of the artifact, each takes more samples than the level asked
-    /// for: a place of the artifact keeps its samples, and the fewer pixels pay for them.
+    /// Samples a pixel in the prop; 0 = as many as the renderer takes. Where a face is seen or lit so
+    /// slantingly that few pixels show much of the artifact, each pixel takes more samples than the level
+    /// asked for, so that each place of the artifact keeps its samples.
     int samples = 0;
     std::vector<FacePlan> faces;
     std::vector<Draw> draws; ///< in the order of drawing: on the table, then part by part in the prop
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
     LitTiles lit;                       ///< hold every pixel that the draws in the prop can light
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
-    FrontTriangles front;               ///< of the part and the eye planned for last: nothing to draw
+    FrontTriangles front;               ///< of the part and the eye planned for last; not drawn
 };
 
-/// A plan with room for every face of so many parts that have so many indices together.
+/// A plan with room for every face of `parts` parts that have `indices` indices together.
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
 /// The first part says how many samples a pixel takes.
 void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
-/// Of one part; without triangles the prop stays dark.
+/// The same for one part; without triangles the prop stays dark.
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);
 
 /// Every pixel that the plan can light.

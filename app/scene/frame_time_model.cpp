@@ -12,14 +12,15 @@ namespace frustumscreen {
 
 namespace {
 
-/// No GPU is further from its start than this: keeps a run of garbage from ending in infinity.
+/// No GPU is further from its start than this; the limit keeps a run of bad values from ending in infinity.
 constexpr double most_log = 7.0;
 
 double bounded(double logarithm) {
     return std::clamp(logarithm, -most_log, most_log);
 }
 
-/// A frame that draws hardly anything says little about the others: relative work within a factor of 20.
+/// A frame that draws hardly anything says little about the others, so relative work is held within a factor
+/// of 20.
 double relative(double work, double at_start) {
     constexpr double most = 20.0;
     return std::isfinite(work) && work > 0.0 && at_start > 0.0 ? std::clamp(work / at_start, 1.0 / most, most)
@@ -43,7 +44,7 @@ FrameTimeModel::FrameTimeModel(const std::vector<RungTime>& rungs) {
 }
 
 /// Least squares ms = fixed + a * triangles + b * samples over the rungs, each weighed by 1 / ms^2, with a
-/// touch of ridge where the rungs do not tell the terms apart.
+/// small ridge term where the rungs cannot separate the terms.
 void FrameTimeModel::fit_shares() {
     glm::dvec3 most(1.0, 0.0, 0.0);
     const auto terms = [](const RungTime& start) {

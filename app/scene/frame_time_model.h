@@ -6,20 +6,21 @@
 /// with the numbers relative to those at the start: on the shipped set-up triangles and pixels explain half
 /// of the spread that poses make (17 -> 8 % of the mean, four scans on llvmpipe). `load` is common: a GPU
 /// that is throttled or shared is slow for every rung, also for those that are not being drawn. Right after a
-/// change of rung a surprise is put down to the new rung alone (`own`): its proportion was measured wrong.
-/// If it was the load that had changed in that moment, the mistake wears off: `own` of the rung that is drawn
-/// flows into `load` within some `forgetting_s`, and the proportions return to those of the start.
-/// Both are kept as logarithms and follow log(measured / expected) by
+/// change of rung an unexpected time changes only the new rung's `own`: its proportion was measured wrong. If
+/// in fact the load changed at that moment, the mistake wears off: `own` of the rung that is drawn flows into
+/// `load` within some `forgetting_s`, and the proportions return to those of the start. Both are kept as
+/// logarithms and follow log(measured / expected) by
 ///   x += (1 - exp(-dt / time_constant)) * log(measured / expected),
 /// the exact solution over a frame: stable for every dt, and split frames give what one frame gives. A single
-/// outlier counts by its logarithm: at 60 Hz a hiccup of ten times the usual moves the estimate by a fifth,
-/// and that is forgotten in some tenths of a second.
+/// outlier counts by its logarithm: at 60 Hz one frame of ten times the usual time moves the estimate by a
+/// fifth, and that is forgotten in some tenths of a second.
 ///
 /// Units    milliseconds of wall time.
 /// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame: after
-///          an hour of rest the next frame's time is not the whole truth.
+///          an hour of rest the next frame's time must not decide alone.
 /// Threads  values; one caller. `observe` allocates nothing.
-/// Errors   none: what is no time (NaN, infinite, zero, negative, above `longest_ms`) is refused by a false.
+/// Errors   none: a value that is not a time (NaN, infinite, zero, negative, above `longest_ms`) is refused,
+///          and `observe` returns false.
 #pragma once
 
 #include "firmware_host/base/time.h"
@@ -40,26 +41,26 @@ struct FrameWork {
 struct RungTime {
     int samples = 1; ///< a pixel
     FrameWork work;
-    double ms = 0.0; ///< median of some frames; no time = never measured: endless until it is observed
+    double ms = 0.0; ///< median of some frames; not a time = never measured: infinite until it is observed
 };
 
 class FrameTimeModel {
 public:
     static constexpr double time_constant_s = 0.2;
     static constexpr double most_dt_s = 0.1;
-    static constexpr double longest_ms = 10e3; ///< a frame of more than this is a fault, not a time
-    static constexpr double learning_s = 0.5;  ///< of frames after a change of rung
+    static constexpr double longest_ms = 10e3; ///< a longer time is a fault, not a frame time
+    static constexpr double learning_s = 0.5;  ///< of frames after a change of rung, which change `own`
     static constexpr double forgetting_s = 10.0;
 
     explicit FrameTimeModel(const std::vector<RungTime>& rungs);
 
-    /// A frame drawn at `rung`; false: `ms` is no time and changed nothing.
+    /// Takes the time of a frame drawn at `rung`. Returns false if `ms` is not a time; then nothing changes.
     bool observe(std::size_t rung, const FrameWork& work, double ms, MonotonicTime now);
 
-    /// Of the next frames, at the latest frames' work.
+    /// The time of the next frames, if their work is that of the latest ones.
     [[nodiscard]] double expected_ms(std::size_t rung) const;
 
-    /// Common to all artifacts of one GPU: hand it on when another is shown.
+    /// Common to all artifacts of one GPU: pass it on when another is shown.
     [[nodiscard]] double load() const;
     void set_load(double load);
 

@@ -87,7 +87,7 @@ std::size_t Governor::wanted() const {
 void Governor::change_to(std::size_t rung, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
-        // What was entered for quality and did not last is tried again later and later.
+        // A rung that was entered for quality and did not last is tried again later and later.
         const bool lasted = now - changed_ >= 4 * patience_;
         patience_ = lasted ? least_patience : std::min(2 * patience_, most_patience);
     }

@@ -1,19 +1,19 @@
 /// Picks how an artifact is drawn: the level, and the samples a pixel, that keep both the error tolerance and
 /// the deadline.
 ///
-/// Of the rungs that are good enough (their level's error within the tolerance, with the samples that the
-/// artifact wants) the one that takes least time, if it meets the deadline; failing that, the finest level
-/// that meets it, with as many samples as fit; failing that, the quickest.
+/// First choice: of the rungs that are good enough (their level's error is within the tolerance, with the
+/// samples that the artifact wants), the quickest, if it meets the deadline. Second: the finest level that
+/// meets it, with as many samples as fit. Third: the quickest rung.
 ///
 /// Tolerance  half a projector pixel as that pixel lands on the face (docs/conventions.md): nearly all
 ///          of a level's surface (p95) is off by no more, and all of it (max) by no more than two pixels.
 ///          The mean would hide a spout that is off by pixels, where a visitor looks; p95 alone hides a
 ///          strap of 3 % of the surface that a level has lost.
-/// Levers   fewer samples before a coarser level: samples leave the tolerance alone. Measured on six scans
-///          (RMSE in codes against the finest level at 16 samples, llvmpipe): past the tolerance a coarser
-///          level cost 2 to 200 codes for each millisecond saved, half the samples 4 to 14: about equal at
-///          best, and far cheaper where a level thins a blade or loses a part.
-/// Steady   a rung is left for a quicker one when it takes more than 90 % of the deadline and entered for
+/// Levers   fewer samples come before a coarser level, because samples do not affect the tolerance. Measured
+///          on six scans (RMSE in codes against the finest level at 16 samples, llvmpipe): past the tolerance
+///          a coarser level cost 2 to 200 codes for each millisecond saved, half the samples 4 to 14: about
+///          equal at best, and far cheaper where a level thins a blade or loses a part.
+/// Steady   a rung is left for a quicker one when it takes more than 90 % of the deadline, and entered for
 ///          quality when it takes less than 70 %; a rung that proves too slow soon after it was entered is
 ///          tried again after twice the time; nothing changes within `dwell` of a change. So at most one
 ///          change a `dwell`, and a rung that never fits is tried O(log t) times.
@@ -27,7 +27,7 @@
 /// Units    millimetres on the configured prop; milliseconds.
 /// Time     `now` is a parameter and may stand still or go back.
 /// Threads  values; one caller. `observe` allocates nothing.
-/// Errors   none: garbage times are counted and ignored.
+/// Errors   none: values that are not times are counted and ignored.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -54,7 +54,7 @@ struct Rung {
     bool enough = false;     ///< within the tolerance, with the samples that the artifact wants
 };
 
-/// The rungs that a governor may ever pick, best first; nothing else need be loaded. The level that meets the
+/// The rungs that a governor may pick, best first; nothing else must be loaded. The level that meets the
 /// tolerance with fewest triangles (the finest if none does), coarser ones that save at least a quarter of
 /// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
 [[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box,
@@ -65,7 +65,8 @@ public:
     static constexpr double enter_share = 0.70; ///< of the deadline
     static constexpr double leave_share = 0.90;
     static constexpr Nanoseconds dwell = std::chrono::seconds(1);
-    /// Too slow for so long: until then a hiccup is forgotten and a step is known by its full height.
+    /// A rung is left when it was too slow for this long: by then a single slow frame is forgotten, and a
+    /// lasting change is fully known.
     static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
     static constexpr Nanoseconds least_patience = std::chrono::seconds(2);
     static constexpr Nanoseconds most_patience = std::chrono::seconds(512);
@@ -80,12 +81,13 @@ public:
     /// A frame of `rung()` took `ms`; afterwards `rung()` may be another.
     void observe(MonotonicTime now, const FrameWork& work, double ms);
 
-    /// The artifact comes on: the rung that fits the GPU's load now, unseen, so without waiting.
+    /// The artifact comes on: takes the rung that fits the GPU's load now. Nobody sees this change, so it
+    /// does not wait.
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return model_.load(); }
 
     [[nodiscard]] std::uint64_t switches() const { return switches_; }
-    [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< garbage times
+    [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< values that are not times
 
 private:
     [[nodiscard]] std::size_t wanted() const;

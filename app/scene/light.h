@@ -1,16 +1,16 @@
-/// The projector's light on the prop, and what takes its unevenness away.
+/// The projector's light on the prop, and how the picture is dimmed to make it even.
 ///
 /// A small surface at distance d whose normal makes the angle theta with the light gets cos(theta) / d^2. On
 /// a plane with the projector h above it cos(theta) = h / d: the light is h / d^3, a steep face gets a
 /// quarter of the top's. The picture is dimmed, in linear light, by reference / light, where the reference is
-/// the light of the dimmest place that the visitor sees: every place then sends back the same, and nothing is
-/// ever asked to be brighter than the projector can. Within a face only d changes, so the gain of a pixel is
+/// the light of the dimmest place that the visitor sees: every place then sends back the same, and no place
+/// must be brighter than the projector can make it. Within a face only d changes, so the gain of a pixel is
 /// scale * d^3, exact.
 ///
 /// Two limits keep the picture bright. A face that gets less than `least_gain` of the brightest counts as if
 /// it got that much: it stays a little dim and does not take all the others down. A face that the eye or the
-/// projector has in sight only at a grazing angle counts by degrees, so that no brightness jumps when the
-/// prop is turned and a face comes in sight.
+/// projector sees only at a grazing angle counts only in part, so that no brightness jumps when the prop is
+/// turned and a face comes in sight.
 ///
 /// Frames   prop P, metres. Light in units of a surface square to the projector at 1 m.
 /// Threads  pure; any.
@@ -29,19 +29,19 @@ namespace frustumscreen {
 struct LightCompensation {
     /// 0 = none, 1 = even light; between: a mixture of the two pictures, brighter and less even.
     double strength = 1.0;
-    /// Of the brightest place's light: what the dimmest one counts as at least.
+    /// The dimmest place counts as getting at least this share of the brightest place's light.
     double least_gain = 0.1;
 };
 
 /// cos(theta) / d^2 at a point of a face; 0 or less where the projector is not above the face.
 [[nodiscard]] double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector);
 
-/// The light that the faces are dimmed to: `seen` pairs each face that carries a picture with the eye it is
-/// for.
+/// A face that carries a picture, and the eye that the picture is for.
 struct SeenFace {
     const PropFace* face = nullptr;
     glm::dvec3 eye{0.0};
 };
+/// The light that the faces are dimmed to.
 [[nodiscard]] double reference_light(std::span<const SeenFace> seen, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 

@@ -1,7 +1,7 @@
 /// The part of the picture that an artifact may light, as rectangles of whole tiles.
 ///
-/// What a picture costs beside its triangles is clearing and averaging; a thin artifact lights a small part
-/// of the rectangle around it.
+/// Besides its triangles a picture costs clearing and averaging; a thin artifact lights only a small part of
+/// the rectangle around it.
 ///
 /// Units    pixels, row 0 at the top.
 /// Threads  values; any. Allocates nothing.
@@ -21,7 +21,7 @@ class LitTiles {
 public:
     static constexpr std::size_t most_rectangles = 96;
 
-    /// Nothing lit yet.
+    /// Begins a picture in which nothing is lit yet.
     void begin(int picture_width, int picture_height);
     void light(const PixelRectangle& part);
     /// Makes the rectangles from what was lit: disjoint, inside the picture.
@@ -30,9 +30,9 @@ public:
     [[nodiscard]] std::span<const PixelRectangle> rectangles() const {
         return std::span(rectangles_).first(count_);
     }
-    /// Of the rectangles.
+    /// The number of pixels in the rectangles.
     [[nodiscard]] std::int64_t pixels() const;
-    /// Around everything lit.
+    /// The rectangle around everything lit.
     [[nodiscard]] PixelRectangle bounds() const { return bounds_; }
 
 private:

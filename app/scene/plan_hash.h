@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// Equal for equal pictures of one renderer; FramePlan::hash.
+/// The number is equal for equal pictures of one renderer; it is FramePlan::hash.
 [[nodiscard]] std::uint64_t hash_of(const FramePlan& plan);
 
 } // namespace frustumscreen

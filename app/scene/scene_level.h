@@ -1,9 +1,9 @@
 /// A level as one scene needs it: without what no pose of the plan can show. The second half of the scene's
 /// plan, made when the level has been read.
 ///
-/// Triangles  one looks away from every eye of the zone if the zone does not reach over its plane, with the
-///            same slack that each frame's own culling has: what is left out here would have been left out in
-///            every frame. Order stays, so depth ties fall as they did.
+/// Triangles  a triangle is left out if the zone of the eyes does not reach over its plane, with the same
+///            slack as in each frame's own culling: it would have been left out in every frame. The order
+///            stays, so that equal depths are resolved as before.
 /// Detail     where all views are known, each is planned, and the finest mip level and the most samples that
 ///            any of them takes are known exactly. A prop that may be turned always has faces that are nearly
 ///            edge-on to the eye and stretched by the projector without bound: then all detail stays.
@@ -27,7 +27,7 @@ namespace frustumscreen {
 /// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
 /// `samples_per_box` as Draw::pixels_per_box, times the samples along a pixel's side.
 [[nodiscard]] int mip_level(double texels_per_box, double samples_per_box);
-/// Coarser ones mix charts that lie side by side in the atlas.
+/// Coarser levels mix charts that lie side by side in the atlas.
 inline constexpr int coarsest_mip_level = 4;
 
 struct SceneLevel {
@@ -41,7 +41,7 @@ struct SceneLevel {
     std::size_t unseen_clusters = 0;
     std::size_t unseen_vertices = 0;
 };
-/// All of it, for every pose.
+/// The whole level, for every pose.
 [[nodiscard]] SceneLevel whole_level(const Pack& pack, std::uint32_t level);
 [[nodiscard]] SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
 
@@ -49,8 +49,8 @@ struct SceneLevel {
 [[nodiscard]] std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
                                                const Image8& texture);
 
-/// The plan's, with no more room for samples than the level takes. A view that takes more than there is room
-/// for is drawn elsewhere in it, and rounds differently, so the room is never made larger.
+/// The plan's needs, with no more room for samples than the level takes. The room is never made larger: a
+/// view that takes more samples than fit is drawn elsewhere in the larger picture and rounds differently.
 [[nodiscard]] RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
 
 /// Bytes of GPU memory: vertices and mip levels of a level; the larger picture of several samples a pixel; a

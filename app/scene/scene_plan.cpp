@@ -15,8 +15,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// The buttons of the panel: panel.h.
-
 bool in(std::span<const std::uint32_t> levels, std::uint32_t level) {
     return std::find(levels.begin(), levels.end(), level) != levels.end();
 }
@@ -163,7 +161,7 @@ void choose_faces(ScenePlan& plan) {
     }
 }
 
-/// Of "level0", "level1", ...
+/// The level of "level0", "level1", ...
 std::optional<std::uint32_t> numbered_level(std::string_view technique) {
     constexpr std::string_view prefix = "level";
     if (technique.substr(0, prefix.size()) != prefix) {

@@ -1,14 +1,14 @@
 /// What a scene needs, decided before anything of it is loaded: a pure function of the settings, a pack's
 /// outline and what can be seen. Nothing outside the plan is read, compiled, allocated or opened.
 ///
-/// The plan leaves out by kinds (Economy), each with its reason. A scene without one of them draws the same
-/// picture, pixel for pixel, at every pose that the plan was made for: that is what tests hold it to, and
+/// The plan leaves things out by kinds (Economy), each with its reason. A scene with or without them draws
+/// the same picture, pixel for pixel, at every pose that the plan was made for: the tests check this, and
 /// `frustumscreen plan` measures what each kind saves by drawing with and without it.
 ///
-/// What needs a level's own triangles is decided level by level as they are read: scene_level.h.
+/// Decisions that need a level's own triangles are made level by level as they are read: scene_level.h.
 ///
 /// Threads  pure; any.
-/// Errors   a technique that the pack has not.
+/// Errors   a technique that the pack does not have.
 #pragma once
 
 #include "app/pack/pack_outline.h"
@@ -66,10 +66,11 @@ struct ScenePlan {
     std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `rungs` first
     std::vector<std::size_t> captions; ///< of the pack
     std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
-    RenderNeeds needs;                 ///< of opaque textures: which leave texels out, no outline says
+    /// As if all textures were opaque: an outline does not say which leave texels out.
+    RenderNeeds needs;
     unsigned economies = AllEconomies;
     std::vector<LeftOut> left_out;
-    // What the rest of the plan is made with: scene_level.h.
+    // Inputs for the rest of the plan: scene_level.h.
     Pinhole projector;
     RigidTransform table_from_projector;
     PropShape prop;
@@ -80,7 +81,7 @@ struct ScenePlan {
 [[nodiscard]] Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack,
                                            const SceneRequest& request);
 
-/// What the exhibit opens beside its packs.
+/// What the exhibit opens besides its packs.
 struct DevicePlan {
     TrackerKind tracker = TrackerKind::None;
     bool head = false;        ///< the tracker's head samples are used
@@ -90,7 +91,7 @@ struct DevicePlan {
     std::vector<std::string> threads;
     std::vector<std::string> left_out; ///< sentences
 };
-/// `pressed`: something beside the panel presses 'next artifact'. `status_file`: a status is written.
+/// `pressed`: something other than the panel presses 'next artifact'. `status_file`: a status is written.
 [[nodiscard]] DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file);
 
 } // namespace frustumscreen

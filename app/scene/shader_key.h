@@ -29,7 +29,7 @@ struct ShaderKey {
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };
 [[nodiscard]] std::string name_of(const ShaderKey& key);
-/// Equal for equal keys alone.
+/// The bits are equal only for equal keys.
 [[nodiscard]] std::uint32_t bits_of(const ShaderKey& key);
 
 /// The shader that gives the places of what `key` draws.

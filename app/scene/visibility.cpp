@@ -25,7 +25,7 @@ std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_ele
     return profile;
 }
 
-/// A point of the table's frame as seen from a prop that stands somewhere on the table, turned anyhow.
+/// A point of the table's frame as seen from a prop that stands somewhere on the table, turned in any way.
 PointZone seen_from_the_table(const TableSettings& table, const glm::dvec3& point) {
     const glm::dvec2 half(table.width_m / 2.0, table.depth_m / 2.0);
     const glm::dvec2 farthest = glm::abs(glm::dvec2(point)) + half;

@@ -1,8 +1,8 @@
-/// From where the prop may be seen and lit, as the settings allow it: what proves that a face or a triangle
-/// never shows.
+/// The places from which the prop may be seen and lit, as the settings allow. They prove which faces and
+/// triangles never show.
 ///
-/// Upright on the table, a prop that may be turned sees an eye or the lens at any azimuth; so such a zone is
-/// a profile turned about the prop's axis, and the farthest that it reaches along a direction n is
+/// An upright prop that may be turned can have an eye or the lens at any azimuth. So such a zone is a profile
+/// turned about the prop's axis, and the farthest that it reaches along a direction n is
 ///     max over the profile's points of  |(n.x, n.y)| distance + n.z height,
 /// a plane test that is exact for its convex hull: nothing is sampled. A profile's arc is replaced by the
 /// tangents around it, which is farther out by 0.02 % at most, never nearer.
@@ -42,13 +42,13 @@ struct KnownView {
 
 struct Visibility {
     PointZone eyes, lens;
-    std::vector<KnownView> views; ///< if these are all there will ever be; else empty
+    std::vector<KnownView> views; ///< all views, if they are known; else empty
 };
 
-/// Of the live exhibit: the eye's zone (EyeSettings, seen from the prop's foot) or the fixed eye, the prop
+/// For the live exhibit: the eye's zone (EyeSettings, seen from the prop's foot) or the fixed eye, the prop
 /// anywhere in its zone or fixed in the table's middle.
 [[nodiscard]] Visibility visibility_of(const Settings& settings);
-/// Of a list of poses and no others.
+/// For a list of poses and no others.
 [[nodiscard]] Visibility visibility_of(const Settings& settings, std::vector<KnownView> views);
 
 } // namespace frustumscreen

@@ -115,7 +115,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
     level_ = &level;
     eye_box_ = eye_box;
     const glm::vec3 eye(eye_box);
-    // What the products' rounding may amount to, for an eye however far.
+    // The most that the products' rounding can be, for an eye at any distance.
     const float slack =
         edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
     indices_.resize(level.indices.size());
@@ -133,7 +133,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
             out[0] = level.indices[3 * t];
             out[1] = level.indices[3 * t + 1];
             out[2] = level.indices[3 * t + 2];
-            out += in_front < -slack ? 0 : 3; // no branch that would be guessed wrong every other time
+            out += in_front < -slack ? 0 : 3; // a branch would be guessed wrong every other time
         }
     }
     first_.push_back(static_cast<std::size_t>(out - indices_.data()));

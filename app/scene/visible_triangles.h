@@ -1,6 +1,6 @@
 /// Which of a level's triangles may show on one face of the prop: clusters first, then triangle by triangle.
 ///
-/// A software or small GPU spends more on a triangle that it throws away than this spends on finding it:
+/// A software or small GPU spends more on a triangle that it throws away than this code spends on finding it:
 /// about half of a level looks away from the eye, and each face of the prop shows its own part of the rest.
 ///
 /// Frames   box (pack.h).
@@ -18,7 +18,8 @@
 
 namespace frustumscreen {
 
-/// Single-precision planes and the quantised positions under them; a triangle this near to edge-on is kept.
+/// A triangle this near to edge-on is kept, because the planes are single precision and the positions
+/// quantised.
 inline constexpr float edge_on_box = 1e-5F;
 
 /// A level's triangles as culling needs them; made once, when the level is loaded.
@@ -30,11 +31,11 @@ struct LevelTriangles {
     std::vector<Extent> extents; ///< of the clusters
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positions; ///< of the vertices
-    /// Of each triangle: n.X = d, n a unit vector outward, as four arrays. A triangle without area faces
-    /// everywhere.
+    /// Of each triangle: n.X = d, n a unit vector outward, as four arrays. A triangle without area counts as
+    /// facing everywhere.
     std::vector<float> normal_x, normal_y, normal_z, distance;
 };
-/// The planes, from indices and positions.
+/// Computes the planes from indices and positions.
 void find_planes(LevelTriangles& level);
 [[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
 
@@ -51,11 +52,12 @@ struct FaceVolume {
 /// A level's triangles that look towards one eye, cluster by cluster: found once for all faces that share it.
 class FrontTriangles {
 public:
-    /// For levels of up to so many indices.
+    /// Makes room for levels of up to `indices` indices.
     void reserve(std::size_t indices);
-    /// Nothing found before counts.
+    /// Forgets what was found before.
     void forget() { level_ = nullptr; }
-    /// Finds them again if the eye or the level is another one. A triangle within rounding of edge-on counts.
+    /// Finds them again if the eye or the level is another one. A triangle within rounding of edge-on counts
+    /// as looking towards the eye.
     void update(const LevelTriangles& level, const glm::dvec3& eye_box);
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t cluster) const {
         return std::span(indices_).subspan(first_[cluster], first_[cluster + 1] - first_[cluster]);

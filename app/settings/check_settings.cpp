@@ -18,8 +18,8 @@ namespace {
 constexpr double least_clearance_m = 0.1;
 /// The projector looks down: the sine of its axis below the horizon is at least this (30 degrees).
 constexpr double least_downward = 0.5;
-/// A script that repeats faster presses more often than anybody could, and a microsecond's would press
-/// without end.
+/// A script that repeats faster than this presses more often than anybody could; one of a microsecond would
+/// press without end.
 constexpr double least_repeat_s = 0.05;
 
 bool inside(const PropShape& prop, const glm::dvec3& p) {
@@ -108,7 +108,8 @@ std::string_view used_twice(const std::vector<std::string>& lines,
     return {};
 }
 
-/// The kernel would say that a line is busy, as if another program held it; a key twice would be two buttons.
+/// A line used twice would be reported by the kernel as busy, as if another program held it; a key used twice
+/// would be two buttons.
 void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
     const auto require_once = [&](std::string_view again, std::string_view key, std::string_view remedy) {
         fitness.require(again.empty(), key,

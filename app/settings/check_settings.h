@@ -1,4 +1,4 @@
-/// Fitness of settings that are right by themselves: do they make an exhibit together?
+/// Checks whether settings that are right one by one also fit together.
 ///
 /// Errors   one line, with the line of the key where the file names it; nothing if all is well.
 /// Threads  pure; any.

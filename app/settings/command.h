@@ -1,4 +1,4 @@
-/// What the panel's buttons ask for. Nobody else knows which button means what.
+/// What the panel's buttons ask for. Only this file knows which button means what.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@ enum class Command : std::uint8_t {
     StaffMode, ///< the chord: the first and the last button were held together
 };
 
-/// Of button 0, 1 and 2; a panel may have fewer.
+/// The commands of buttons 0, 1 and 2; a panel may have fewer buttons.
 inline constexpr std::array button_commands{Command::PreviousArtifact, Command::NextArtifact,
                                             Command::NextLanguage};
 
-/// Nothing: there is no such button.
+/// Returns nothing if there is no such button.
 [[nodiscard]] constexpr std::optional<Command> command_of_button(int button) {
     const auto index = static_cast<std::size_t>(button);
     return button >= 0 && index < button_commands.size() ? std::optional(button_commands[index])

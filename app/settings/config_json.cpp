@@ -43,7 +43,7 @@ public:
     void vector(const char* key, const glm::dvec3& value, const Range&, std::string_view) {
         json_[key] = list_of(value);
     }
-    /// What it was worked out into is reported.
+    /// An input is not reported: the settings that were computed from it are.
     void input(const char*, const auto&, const Range&, std::string_view) {}
     void rigid(const char* key, const RigidTransform& value, const Range&, std::string_view) {
         json_[key] = list_of(value.matrix());
@@ -120,7 +120,7 @@ Json lit_zone_json(const Settings& settings) {
         {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}}};
 }
 
-/// The eye's settings under the names that outside checks know them by.
+/// Adds the eye's settings under the names that outside checks use.
 void add_eye(const Json& eye, Json& json) {
     json["eye_default_m"] = eye.at("default_m");
     json["eye_tracked"] = eye.at("tracked");

@@ -1,9 +1,10 @@
-/// Every setting, once: its name, its range, what it is for. Its default is that of its struct. What reads
-/// the file (TableReader), what reports it (config_json.cpp) and what writes its page (settings_page.cpp)
-/// walk this description, in this order.
+/// Every setting, once: its name, its range, what it is for. Its default is that of its struct. The reader of
+/// the file (TableReader), its report (config_json.cpp) and its page (settings_page.cpp) walk this
+/// description, in this order.
 ///
-/// A walker's `reads` is true if it fills in what it walks. An `input` is read and worked out into other
-/// settings; it is not kept.
+/// A walker's `reads` is true if it fills in what it walks. An `input` is read and other settings are
+/// computed from it; it is not kept.
+///
 /// Threads  pure; any.
 #pragma once
 
@@ -25,7 +26,7 @@ inline constexpr std::size_t most_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
 inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
-/// Each by its enumeration.
+/// Each list is in the order of its enumeration.
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
 inline constexpr std::array<std::string_view, 2> prop_names{"frustum", "cube"};
 inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};

@@ -16,7 +16,7 @@ struct DisplayMode {
     double refresh_hz = 0.0; ///< 0 = any
 };
 
-/// Nothing: it is none of the three, or beyond 64 to 8192 pixels and 10 to 480 hertz.
+/// Returns nothing if it is none of the three, or beyond 64 to 8192 pixels and 10 to 480 hertz.
 [[nodiscard]] std::optional<DisplayMode> parse_display_mode(std::string_view text);
 [[nodiscard]] std::string text_of(const DisplayMode& mode);
 

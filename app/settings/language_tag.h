@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// Nothing: it has not the shape of a BCP 47 tag, letters, then subtags of letters and digits.
+/// Returns nothing if `tag` does not look like a BCP 47 tag: letters, then subtags of letters and digits.
 [[nodiscard]] std::optional<std::string> parse_language_tag(std::string_view tag);
 
 } // namespace frustumscreen

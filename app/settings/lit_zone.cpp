@@ -73,7 +73,7 @@ Polygon table_within(const TableSettings& table, double rim) {
     return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// A place of the prop that goes round its axis as the prop is turned.
+/// A point of the prop, which goes round the axis as the prop is turned.
 struct Round {
     double radius = 0.0;
     double z = 0.0;
@@ -124,7 +124,7 @@ struct Scene {
         }
     }
 
-    /// Sine of the light onto a face that looks into `arc`, the least of it.
+    /// The least sine of the light on a face that looks into `arc`.
     [[nodiscard]] double least_sine_on(const TurnedFace& face, const glm::dvec2& place,
                                        const Arc& arc) const {
         const glm::dvec2 to_lens = glm::dvec2(lens) - place;
@@ -143,7 +143,7 @@ struct Scene {
 
     std::array<glm::dvec3, 4> edges;
     glm::dvec3 lens;
-    std::vector<TurnedFace> faces; ///< but for one that lies on the table
+    std::vector<TurnedFace> faces; ///< without one that lies on the table
     std::vector<Round> corners;    ///< of the solid
     double reach = 0.0;            ///< from the axis
     double middle_reach = 0.0;     ///< from the prop's middle
@@ -172,7 +172,8 @@ bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec
     });
 }
 
-/// How far from the lens's foot every face is turned to the light at every yaw; negative if nowhere.
+/// The distance from the lens's foot up to which every face is turned to the light at every yaw; negative if
+/// there is none.
 double lit_radius(const Scene& scene) {
     const auto lit = [&](double radius) {
         const glm::dvec2 place = glm::dvec2(scene.lens) + glm::dvec2(radius, 0.0);
@@ -192,7 +193,7 @@ double lit_radius(const Scene& scene) {
     return near;
 }
 
-/// What lies in the picture at height z of places with a circle, and of places with a ball, about them.
+/// The places of `polygon` that lie in the picture at height z with a circle, and with a ball, around them.
 Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double circle, double ball = 0.0) {
     for (const glm::dvec3& edge : scene.edges) {
         const glm::dvec2 inward(edge);
@@ -202,7 +203,7 @@ Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double
     return polygon;
 }
 
-/// Where the prop in the hand, its middle just high enough to turn it anyhow, lies in the picture.
+/// Where the prop in the hand lies in the picture, its middle just high enough to turn it in any way.
 Polygon hand_zone(const Settings& settings, const Scene& scene) {
     const double ball = scene.middle_reach;
     return clipped_to_picture(table_within(settings.table, ball), scene, ball, 0.0, ball);
@@ -265,7 +266,7 @@ Rectangle rectangle_inside(const Polygon& polygon) {
     return best;
 }
 
-/// Every degree, and the corners of the zone for any eye, which is a part of the zone sought.
+/// Every degree, and the corners of the zone for any eye, which is a part of the zone that is searched for.
 std::vector<double> azimuths_from(const glm::dvec2& middle, const Polygon& any_eye) {
     std::vector<double> azimuths;
     for (int degree = -179; degree <= 180; ++degree) {

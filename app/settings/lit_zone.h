@@ -5,8 +5,8 @@
 /// prop is convex, so no face shades another.
 ///
 /// On the table (PropZone) the prop stands upright with its whole bottom on the table top. In the hand it may
-/// be turned so that a face the visitor sees looks away from the lens, wherever it is: there the zone is
-/// where the whole prop lies in the picture, however it is turned.
+/// be turned, at any place, so that a face the visitor sees looks away from the lens. There the zone is where
+/// the whole prop lies in the picture, however it is turned.
 ///
 /// Frames   table T, metres; polygons are counter-clockwise, empty if there is no such place.
 /// Threads  pure; any.
@@ -33,22 +33,23 @@ struct Rectangle {
 
 struct LitZone {
     /// Places of the prop's axis at which every face is lit at every yaw, for eyes anywhere above the table;
-    /// in the hand: places of its middle over the table, as high as its own reach. Convex.
+    /// in the hand: places of the prop's middle, as high over the table as the prop reaches from there.
+    /// Convex.
     std::vector<glm::dvec2> any_eye;
     /// The largest rectangle along the axes in it about its centroid: where a simulated visitor may slide the
     /// prop.
     Rectangle any_eye_rectangle;
-    /// Places at which every face that the default eye sees is lit at every yaw: the outline as seen from its
-    /// middle, at every degree at least. In the hand: the same as for any eye.
+    /// Places at which every face that the default eye sees is lit at every yaw: the zone's outline has a
+    /// point at every degree around its middle, at least. In the hand: the same as for any eye.
     std::vector<glm::dvec2> default_eye;
 };
 
 [[nodiscard]] LitZone lit_zone(const Settings& settings);
 
-/// For one pose, upright or not.
+/// Tests one pose, upright or not.
 [[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
                                           const glm::dvec3& eye);
-/// For the prop standing upright at `place`, at every yaw.
+/// Tests the prop standing upright at `place`, at every yaw.
 [[nodiscard]] bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
                                                      const glm::dvec3& eye);
 

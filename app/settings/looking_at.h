@@ -1,4 +1,4 @@
-/// The pose of a projector that is said by what it looks at.
+/// The pose of a projector, from its place and the point that it looks at.
 ///
 /// Frames   table T, metres; the roll in degrees.
 /// Threads  pure; any.
@@ -11,8 +11,8 @@
 namespace frustumscreen {
 
 /// The projector at `position` looking at `aim`, its picture's top towards the table's far side (+Y), turned
-/// by `roll_deg` about its axis, clockwise as the projector sees it. Nothing if it looks along +-Y or
-/// nowhere.
+/// by `roll_deg` about its axis, clockwise as the projector sees it. Returns nothing if it looks along +-Y or
+/// has no direction.
 [[nodiscard]] std::optional<RigidTransform> looking_at(const glm::dvec3& position, const glm::dvec3& aim,
                                                        double roll_deg);
 

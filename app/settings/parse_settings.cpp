@@ -13,7 +13,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{1} << 20;
-/// Each dot of a key nests a table, and toml++ takes tables apart by recursion: this bounds its depth.
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
 constexpr std::ptrdiff_t most_dots = 5000;
 
 } // namespace

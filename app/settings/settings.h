@@ -1,5 +1,5 @@
-/// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units. What
-/// each is for, and its range, stands in describe_settings.h.
+/// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units.
+/// describe_settings.h says what each is for, and its range.
 ///
 /// Defaults config/kiosk.toml, the set-up as shipped, but for the panel's script and the list of packs.
 ///
@@ -46,7 +46,7 @@ struct DisplaySettings {
 /// Frustum: it stands on the table. Cube: all its edges are `base_m`.
 enum class PropKind { Frustum, Cube };
 [[nodiscard]] std::string_view name_of(PropKind kind);
-/// Table: upright, slid and turned about its axis. Hand: lifted, turned anyhow.
+/// Table: upright, slid and turned about its axis. Hand: lifted, turned in any way.
 enum class PropZone { Table, Hand };
 [[nodiscard]] std::string_view name_of(PropZone zone);
 struct PropSettings {

@@ -1,8 +1,9 @@
 /// Reads one TOML table key by key: every key that is asked for is consumed, what is left over is refused.
-/// Walks describe_settings.h, whose sentences it passes over.
+/// Walks describe_settings.h and ignores its sentences.
 ///
 /// Errors   the first one of a file is kept in `ReadState`, as one line: file, line, key, what was found,
-///          what is allowed. After it every call leaves its value alone, so callers read on without asking.
+///          what is allowed. After it every call leaves its value unchanged, so callers need not check each
+///          call.
 /// Threads  one caller.
 #pragma once
 
@@ -67,13 +68,13 @@ public:
     void path(std::string_view key, std::filesystem::path& value, std::string_view sentence);
     void paths(std::string_view key, std::vector<std::filesystem::path>& values, std::size_t most,
                std::string_view sentence);
-    /// The value whose number is that of the word found.
+    /// The value whose number is the index of the word found.
     template <typename Choice>
     void choice(std::string_view key, Choice& value, std::span<const std::string_view> words,
                 std::string_view /*sentence*/) {
         value = static_cast<Choice>(word_of(key, static_cast<std::size_t>(value), words));
     }
-    /// A text that is more than a text: `from_text` gives nothing of what is not `allowed`.
+    /// A text that has a meaning: `from_text` returns nothing for what is not `allowed`.
     template <typename Value>
     void parsed(std::string_view key, Value& value, const auto& to_text, const auto& from_text,
                 std::string_view allowed, std::string_view /*sentence*/) {
@@ -99,7 +100,7 @@ public:
             item.finish();
         }
     }
-    /// Else refuses `key` with `what` ("is ...; allowed ...").
+    /// Refuses `key` with `what` ("is ...; allowed ...") unless all is well.
     void require(bool well, std::string_view key, std::string_view what) {
         if (!well) {
             refuse(key, what);
@@ -108,7 +109,7 @@ public:
     /// Refuses `key` if one of `others` stands beside it.
     void one_way(std::string_view key, std::initializer_list<std::string_view> others,
                  std::string_view words);
-    /// Refuses what nobody asked for. Call once, last.
+    /// Refuses keys that nobody asked for. Call once, last.
     void finish();
 
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.

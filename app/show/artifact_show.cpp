@@ -60,7 +60,7 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
     return {pack, std::string(message)};
 }
 
-/// On its own, too, where nobody reads the lines on standard error.
+/// The message must be complete: some people do not see the lines on standard error before it.
 tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) {
     if (left_out.empty()) {
         return fail(ErrorKind::BadConfiguration,
@@ -81,8 +81,8 @@ std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
 
 } // namespace
 
-/// Brings what is needed of packs into the GPU's memory, one after the other; nothing of a pack but what
-/// culls stays in ours.
+/// Brings what is needed of packs into the GPU's memory, one after the other. Main memory keeps only what
+/// culling needs.
 struct ArtifactShow::Loader {
     const Settings& settings;
     const DevicePlan& devices;
@@ -232,7 +232,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     return show;
 }
 
-/// At the middle of the table, seen by the default eye.
+/// Measures at the middle of the table, seen by the default eye.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
     const PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
     for (Artifact& artifact : artifacts_) {
@@ -241,8 +241,8 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
     }
 }
 
-/// A whole picture and one that redraws what moved, each with a caption: drivers compile for what a frame
-/// does, and are to be done with it before the first one.
+/// Draws a whole picture and one that redraws what moved, each with a caption: drivers compile for what a
+/// frame does, and this should be done before the first frame.
 void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
     if (!artifact.captions.empty()) {
         const CaptionPicture& caption = artifact.captions.front().front();

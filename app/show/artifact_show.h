@@ -1,9 +1,9 @@
-/// The artifacts on the display: packs in the GPU's memory, their levels and captions, and the renderer. What
-/// of them is shown, a Presentation says.
+/// The artifacts on the display: packs in the GPU's memory, their levels and captions, and the renderer. A
+/// Presentation says what is shown.
 ///
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
-/// Errors   a pack that cannot be loaded is left out with a line on standard error; none left:
-/// BadConfiguration.
+/// Errors   a pack that cannot be loaded is left out with a line on standard error; if none is left,
+///          BadConfiguration.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -33,7 +33,7 @@ struct ArtifactShowOptions {
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
 };
 
-/// What a show took, planned and observed.
+/// What a show uses, planned and observed.
 struct ShowUse {
     std::set<ShaderKey> planned_shaders, shaders;
     std::uint64_t planned_gpu_bytes = 0;
@@ -45,7 +45,7 @@ struct ShowUse {
 
 class ArtifactShow final : public Stage {
 public:
-    /// Measures the levels on this GPU: `target` is drawn into, and holds nothing of use afterwards.
+    /// Measures the levels on this GPU by drawing into `target`, which holds nothing useful afterwards.
     [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
                                                                       const DevicePlan& devices,
                                                                       const ArtifactShowOptions& options,
@@ -61,9 +61,9 @@ public:
     [[nodiscard]] ShowState state(const Presentation& presentation) const override;
 
     [[nodiscard]] ShowUse use() const;
-    /// What a person may not have meant, in sentences.
+    /// Sentences about what a person may not have meant.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    /// Of the artifacts that are shown, in order.
+    /// `artifact`: the index among the artifacts that are shown.
     [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const { return artifacts_[artifact].plan; }
     [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return artifacts_[artifact].levels; }
 
@@ -79,8 +79,8 @@ private:
         ScenePlan plan;
         RunLevels levels;
         std::vector<std::string> languages;
-        std::vector<std::vector<CaptionPicture>>
-            captions; ///< one list for each of `languages`, in the catalogue's order
+        /// One list for each of `languages`, in the catalogue's order.
+        std::vector<std::vector<CaptionPicture>> captions;
     };
     struct Loader;
 

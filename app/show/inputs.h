@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 struct Inputs {
     std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
-    Sentence why_not_recorded; ///< of packets that were to be recorded; empty: none, or they are
+    Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or nobody asked for it
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
     std::unique_ptr<Panel> panel;               ///< none: nothing is pressed
 };

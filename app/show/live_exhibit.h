@@ -1,10 +1,10 @@
-/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage, or for the staff as the
-/// alignment pattern with what there is to know: every device's state, level and error, frame times,
-/// versions.
+/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage. For the staff it shows the
+/// alignment pattern with every device's state, level and error, frame times, versions.
 ///
-/// Memory   the pattern is made when it is asked for and put away afterwards: it costs no one else anything.
+/// Memory   the pattern is made when it is asked for and freed afterwards: it costs nothing the rest of the
+///          time.
 /// Threads  the render thread, with the display's context current.
-/// Errors   a typeface that is missing: the exhibit goes on, and a line on standard error says so.
+/// Errors   a typeface is missing: the exhibit goes on, and a line on standard error says so.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -42,7 +42,7 @@ private:
     Exhibit exhibit_;
     Presentation presentation_;            ///< of the latest step
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
-    std::optional<int> presents_;          ///< since the other picture was drawn last; nothing = it never was
+    std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
 };
 
 } // namespace frustumscreen

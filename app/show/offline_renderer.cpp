@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The finest level is for those who do not count the cost: it gets the smoothest outlines too.
+/// The finest level is chosen where the cost does not matter, so it gets the smoothest outlines too.
 int samples_of(const OfflineOptions& options, const PackDescription& pack) {
     const int usual = options.technique == "finest" ? finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;

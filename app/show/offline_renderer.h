@@ -29,7 +29,7 @@ struct OfflineOptions {
     bool hit_points = false;
     int samples = 0; ///< a pixel; 0 = finest_samples for "finest", else what the pack asks for
     unsigned economies = AllEconomies;
-    /// The poses that will be drawn and no others; empty: any.
+    /// All poses that will be drawn; empty: any pose may be drawn.
     std::vector<KnownView> views;
 };
 
@@ -45,8 +45,8 @@ struct OfflinePicture {
 
 class OfflineRenderer {
 public:
-    /// `plan`: made by plan_offline for the same options; the pack has its levels and need not outlive the
-    /// call.
+    /// `plan`: made by plan_offline for the same options; the pack must have its levels; it need not outlive
+    /// the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>>
     create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options);
 
@@ -54,7 +54,7 @@ public:
 
     [[nodiscard]] const Pinhole& projector() const { return projector_; }
     [[nodiscard]] const PropShape& prop() const { return prop_; }
-    /// "level0", ...: what "auto" and "finest" came to.
+    /// "level0", ...: the level that "auto" or "finest" chose.
     [[nodiscard]] const std::string& technique() const { return technique_; }
     /// The level's measured mean error on the configured prop.
     [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }

@@ -20,7 +20,7 @@ class PatternShow final : public Show {
 public:
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
-    /// Written into the pattern, below what it says itself.
+    /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
                                   Redraw redraw) override;

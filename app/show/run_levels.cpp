@@ -153,7 +153,7 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
 
 void RunLevels::record_time(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
-        return; // two levels, or nothing, were drawn: says little about one
+        return; // two levels, or nothing, were drawn: the time says little about one
     }
     governor_.observe(now, work(governor_.rung().samples), ms);
     if (const std::size_t slot = slot_of(governor_.rung().level); slot != shown_) {

@@ -7,7 +7,7 @@
 /// decides while pictures change.
 ///
 /// Threads  the render thread, with the display's context current. `draw` and `record_time` allocate nothing.
-/// Errors   a technique that the pack has not, a driver without memory.
+/// Errors   a technique that the pack does not have, a driver without memory.
 #pragma once
 
 #include "app/pack/pack_file.h"
@@ -28,7 +28,7 @@ namespace frustumscreen {
 
 inline constexpr double level_fade_s = 0.4;
 
-/// The mesh that a level had, and what the scene kept of it: for reports.
+/// The mesh of a level and what the scene kept of it, for reports.
 struct LevelUse {
     std::uint32_t level = 0;
     std::size_t triangles = 0;
@@ -45,7 +45,7 @@ struct LevelState {
     std::string_view level;     ///< "level0", ...: during a fade the one that comes in
     int samples = 0;
     double estimated_error_mm = 0.0; ///< mean; during a fade the larger of the two
-    double p95_error_mm = 0.0;       ///< what the tolerance is held against
+    double p95_error_mm = 0.0;       ///< the tolerance limits this one
     std::uint64_t switches = 0;
     std::uint64_t ignored_times = 0;
 };
@@ -66,13 +66,13 @@ public:
     [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
     /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
-    /// there is nothing to choose. `target` is left with some picture in it, to be presented by nobody.
+    /// there is nothing to choose. `target` then holds some picture, which must not be presented.
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     /// Starts the governor with times that were measured: one for each rung, finest first.
     void start(const std::vector<RungTime>& times);
 
-    /// The artifact comes on, on a GPU under `load` (see Governor).
+    /// The artifact comes on while the GPU is under `load` (see Governor).
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
@@ -93,10 +93,10 @@ private:
     };
     RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs, double deadline_ms,
               FramePlan plan);
-    /// As the governor has it drawn.
+    /// With the samples that the governor chose.
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
     [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
-    /// Of the plan, for a rung of so many samples.
+    /// The plan's work, for a rung of so many samples.
     [[nodiscard]] FrameWork work(int samples) const;
     [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
                                    Renderer& renderer, const RenderTarget& target);

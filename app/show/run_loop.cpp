@@ -114,7 +114,7 @@ private:
             result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
         }
         const double ms = milliseconds_since(begin);
-        watch_.enters("tells how it is");
+        watch_.enters("reports its status");
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }
@@ -175,7 +175,8 @@ private:
         }
     }
 
-    /// Keeps the picture at the middle of each part of the run, or soon after if a fade is going on then.
+    /// Keeps the picture at the middle of each part of the run, or soon after it if a fade goes on at that
+    /// time.
     void take_still(MonotonicTime now, const ShowState& state) {
         if (stills_taken_ >= result_.stills.size() || !options_.length) {
             return;
@@ -194,7 +195,7 @@ private:
         still.situation = shown_;
         still.time = MonotonicTime(now - start_);
         read_colour_into(display_.framebuffer(), still.picture);
-        erase_probe(still.picture); // a watchdog's, not the picture's
+        erase_probe(still.picture); // the code is for a watchdog and no part of the picture
     }
 
     void post_status(MonotonicTime now) {

@@ -1,8 +1,7 @@
 /// The live loop: poll, decide, draw what changed, present, wait for the next display time.
 ///
-/// Time     every decision is made for one `now` a frame. In real time that is the monotonic clock; fast, a
-/// clock
-///          that steps by one period, so that a run is repeatable and as quick as the machine allows.
+/// Time     every decision is made for one `now` a frame. In real time that is the monotonic clock; in a fast
+///          run it steps by one period, so that the run is repeatable and as quick as the machine allows.
 /// Threads  the render thread, with the display's context current. Allocates nothing of its own in a frame.
 /// Errors   the display stops; devices that fail are counted and asked again.
 #pragma once

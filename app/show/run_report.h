@@ -1,8 +1,9 @@
 /// What a run says about itself: frame times, the status file, the list of frames.
 ///
 /// Units    milliseconds of wall time from the tracker's poll to the picture's end; no pacing, no writing of
-/// files. Threads  the render thread, but for the status file: its own thread writes, so that a slow disk
-/// costs no frame.
+///          files.
+/// Threads  the render thread, except the status file: its own thread writes, so that a slow disk costs no
+///          frame.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -44,7 +45,7 @@ class FrameTimes {
 public:
     explicit FrameTimes(std::size_t window);
     void add(double ms);
-    /// Of the window: the value below which `share` of the frames lie; 0 if there is none.
+    /// The value below which `share` of the window's frames lie; 0 if there are no frames.
     [[nodiscard]] double quantile(double share);
 
 private:
@@ -68,13 +69,13 @@ struct PresentedPicture {
 };
 
 struct RunStatus {
-    std::chrono::system_clock::time_point written_at; ///< these four are set by who writes it: `stamp`
+    std::chrono::system_clock::time_point written_at; ///< `stamp` sets these four when the status is written
     MonotonicTime written_at_monotonic;
     Sentence boot_id;
     double resident_mib = 0.0;
     Health health = Health::Well;
     PresentedPicture presented;
-    std::optional<std::uint8_t> shown_code; ///< read back last from what the display shows
+    std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     TrackerCounts tracker_counts;
     std::span<const PackLeftOut> left_out; ///< lives as long as the show
     std::string_view artifact;
@@ -89,7 +90,7 @@ struct RunStatus {
     double p99_ms = 0.0;
     std::uint64_t missed_deadlines = 0; ///< frames drawn that took longer than one refresh
     std::uint64_t level_switches = 0;   ///< of level or samples, by the governors
-    std::uint64_t ignored_times = 0;    ///< frame times that could not be, see Governor
+    std::uint64_t ignored_times = 0;    ///< frame times that are not times, see Governor
     std::uint64_t probes = 0;           ///< pictures at rest that were presented again
     std::uint64_t frames = 0;
     std::uint64_t drawn = 0;
@@ -97,7 +98,7 @@ struct RunStatus {
     std::uint64_t late = 0;        ///< display times that passed without a new frame
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
-    Sentence display; ///< how the devices are; empty where there is nothing to say
+    Sentence display; ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
     Sentence panel;
     Sentence recording;
@@ -106,10 +107,10 @@ struct RunStatus {
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);
-/// When and where it is written, and how much memory this process has then.
+/// Sets the time, the boot and this process's memory at which the status is written.
 void stamp(RunStatus& status);
 
-/// Of this process; 0 where the system does not say.
+/// Resident memory of this process; 0 if the system does not say.
 [[nodiscard]] double resident_mib();
 
 /// Writes the latest status posted, by rename.
@@ -120,7 +121,8 @@ public:
     StatusFile(const StatusFile&) = delete;
     StatusFile& operator=(const StatusFile&) = delete;
     void post(const RunStatus& status);
-    /// The one who posts hangs, or does so no longer: the latest status is written anew. Any thread.
+    /// The thread that posts hangs, or no longer hangs: the latest status is written again. Any thread may
+    /// call.
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !file_.empty(); }
 

@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of a policy that feeds nobody.
+/// The interval of a policy without a service manager's watchdog.
 constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
 
 } // namespace
@@ -54,7 +54,7 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
     }
 }
 
-/// A driver that never gave a code back cannot read what it shows: no reason to end the exhibit.
+/// A driver that never gave a code back cannot read what it shows; that is no reason to end the exhibit.
 std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
     std::array<std::byte, probe_bytes> corner{};
     if (display.read_shown(corner)) {

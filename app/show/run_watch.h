@@ -1,7 +1,7 @@
-/// The run as its service manager and its journal see it: ready, alive, in which state.
+/// Tells the service manager and the journal about the run: ready, alive, in which state.
 ///
-/// Watched  what is presented, by a code in it (app/render/probe.h), where a service manager's watchdog or a
-///          status file wants to know; the loop itself, by a thread that tells when it is not heard of.
+/// Watched  what is presented, by a code in it (app/render/probe.h), if a service manager's watchdog or a
+///          status file needs it; the loop itself, by a thread that reports when the loop is silent.
 /// Journal  one line for each change of a device's state, of what is shown, and of the watchdog's opinion;
 ///          every line has what is shown in its fields ARTIFACT, LANGUAGE and LEVEL.
 /// Time     the loop's `now`. A run on a simulated clock is not watched.
@@ -24,24 +24,24 @@ class RunWatch {
 public:
     RunWatch(ServiceManager& manager, const Journal& journal) : manager_(manager), journal_(journal) {}
 
-    /// Of the loop: four seconds of silence are a hang.
+    /// Four seconds without a word from the loop are a hang.
     static constexpr Nanoseconds loop_patience = std::chrono::seconds(4);
 
     /// The loop begins; `status_file` is told of a hang.
     void begin(MonotonicTime now, bool simulated_time, StatusFile& status_file);
-    /// The loop goes on to this part of its work, a literal.
+    /// The loop goes on to this part of its work; `part` is a literal.
     void enters(const char* part);
-    /// A picture was presented; `has_code`: a code was written into it. What is looked at is what the
-    /// projector shows, where it can be read, else the display's framebuffer.
+    /// A picture was presented; `has_code`: a code was written into it. It looks at what the projector shows
+    /// if that can be read, else at the display's framebuffer.
     void presented(MonotonicTime now, const Display& display, bool has_code);
-    /// In every frame.
+    /// Call in every frame.
     void look(MonotonicTime now, const Display& display, const Inputs& inputs);
-    /// The service manager was told: until then every frame is presented.
+    /// The service manager was told that the run is ready; until then every frame is presented.
     [[nodiscard]] bool ready() const { return ready_; }
     [[nodiscard]] Health health() const { return health_; }
-    /// What was read back last of what the display shows.
+    /// The code last read back from what the display shows.
     [[nodiscard]] std::optional<std::uint8_t> shown_code() const { return shown_code_; }
-    /// Once a second.
+    /// Call once a second.
     void note(const RunStatus& status);
     /// The loop has ended.
     void end() { hang_watch_.reset(); }
@@ -57,7 +57,7 @@ private:
     const Journal& journal_;
     std::optional<WatchdogPolicy> watchdog_;
     bool ready_ = false;
-    bool shown_is_readable_ = false; ///< a code was read of what the projector shows
+    bool shown_is_readable_ = false; ///< a code was read from what the projector shows
     Health health_ = Health::Well;
     std::optional<std::uint8_t> shown_code_;
     Sentence display_, tracker_, panel_, recording_, artifact_, language_, level_;

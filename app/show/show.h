@@ -23,7 +23,7 @@ struct ShowState {
     std::string_view language;
     LevelState levels;
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
-    /// The prop's pose that was drawn for, where it is not the one that is known.
+    /// The prop's pose that was drawn for, if it is not the known one.
     std::optional<RigidTransform> stands = {};
     std::span<const PackLeftOut> left_out = {};
     std::uint32_t lamps = 0; ///< the buttons that do something, bit k = button k
@@ -32,15 +32,17 @@ struct ShowState {
 class Show {
 public:
     virtual ~Show() = default;
-    /// Decides what `draw` draws next. `commands`: since the step before, in their order.
+    /// Decides what `draw` draws next. `commands`: those since the step before, in their order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
                       const Situation& /*on_table*/) {}
-    /// How the run is: once a second, and when the staff ask.
+    /// Tells how the run is: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
-    /// Draws the picture for `now` where it differs from the one on show; allocates nothing after the start.
+    /// Draws the picture for `now` where it differs from the one on the display; allocates nothing after the
+    /// start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& on_table,
                                           const RenderTarget& target, Redraw redraw) = 0;
-    /// What the latest picture drawn took, from the poll until it was done; no wait for a refresh in it.
+    /// Takes the time of the latest picture drawn, from the poll until it was done, without the wait for a
+    /// refresh.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state() const = 0;
 };
@@ -53,7 +55,7 @@ public:
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                           const glm::dvec3& eye_m, const RenderTarget& target,
                                           Redraw redraw) = 0;
-    /// As Show's.
+    /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
 };

@@ -30,7 +30,7 @@ struct Place {
     bool lit = false; ///< in sight of the projector's lens
 };
 
-/// cos / d^2 of the projector's light at a place; 0 where it comes from behind.
+/// cos / d^2 of the projector's light at a place; 0 if it comes from behind.
 double received(const glm::dvec3& projector_m, const glm::dvec3& point_m, const glm::dvec3& normal) {
     const glm::dvec3 to_light = projector_m - point_m;
     const double distance = glm::length(to_light);

@@ -1,6 +1,6 @@
 /// What the visitor's eye sees: the simulated table with the prop, lit by the projector's picture.
 ///
-/// A separate path, made to judge the whole chain: it knows the projector's finished picture, the
+/// It is a separate path, to judge the whole chain: it knows the projector's finished picture, the
 /// configuration and the poses, and neither the artifact nor the collineation. A ray goes from the eye
 /// through each pixel to the prop or the table; the point it meets sends back the projector's pixel that
 /// lights it, if one does.
@@ -45,8 +45,8 @@ struct VisitorCamera {
 };
 
 /// The camera at the eye E that looks at the prop's centre C = table_from_prop (0, 0, height / 2):
-///     forward = +Z = (C - E) / |C - E|,  right = +X = normalise(forward x table Z),  down = +Y = forward x
-///     right
+///     forward = +Z = (C - E) / |C - E|,  right = +X = normalise(forward x table Z),
+///     down = +Y = forward x right
 /// (straight above: right = table X);
 ///     fx = fy = 0.62 * min(width, height) / 2 / tan(asin(r / |C - E|)),  cx = width / 2,  cy = height / 2,
 /// where r is the distance from C to the prop's farthest corner: the prop's sphere takes 0.62 of the
@@ -61,8 +61,8 @@ struct VisitorViewOptions {
     /// The projector's pixel as it is instead of a bilinear mixture of four.
     bool nearest = false;
 };
-/// For comparing with a ray cast, ray for ray: `--no-light`. The visitor's picture should not be finer than
-/// the projector's: half its width and height is right for the default prop.
+/// Options for comparing with a ray cast, ray for ray: `--no-light`. The visitor's picture should not be
+/// finer than the projector's: half its width and height is right for the default prop.
 [[nodiscard]] constexpr VisitorViewOptions exact_check() {
     return {false, 1, false};
 }
@@ -71,8 +71,8 @@ struct VisitorViewOptions {
                                   const VisitorCamera& camera, const VisitorViewOptions& options = {});
 
 /// How many projector pixels one visitor's pixel covers, by area, at the surface point that the visitor sees
-/// through `pixel`; 0 if that is not a lit face of the prop. The visitor's pixel is no finer where this is
-/// >= 1.
+/// through `pixel`; 0 if that is not a lit face of the prop. Where this is >= 1, the visitor's pixel is no
+/// finer than the projector's.
 [[nodiscard]] double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
                                               const glm::dvec2& pixel);
 
@@ -83,7 +83,7 @@ struct VisitorFrame {
     glm::dvec3 eye_m{0.0};
     VisitorCamera camera;
 };
-/// Stands beside pictures of the visitor's view, and beside no others.
+/// A file that lies only beside pictures of the visitor's view.
 inline constexpr std::string_view visitor_cameras_name = "visitor_cameras.json";
 /// {"frames": [{"frame", "t_us", "eye_m"[3], "width", "height", "fx", "fy", "cx", "cy",
 /// "table_from_camera"[16, column-major]}]}; ends with a line break.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double longest_flip_s = 0.1;
 constexpr double flip_follows = 0.1; ///< share of each new flip time
-/// The eye is a metre away: there a turn of the head says nothing, its place alone counts.
+/// The lever is 0, because only the place of the head counts and not its turn.
 constexpr double head_lever_m = 0.0;
 
 PoseEstimator estimator() {
@@ -29,7 +29,7 @@ bool LiveSituation::take(const PoseSample& sample) {
         return true;
     }
     PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
-    const RigidTransform table_from_station{sample.rotation, sample.position_m}; // of any length until taken
+    const RigidTransform table_from_station{sample.rotation, sample.position_m}; // perhaps not unit
     const Taken taken = estimator.take(sample.time, table_from_station);
     return taken == Taken::Used || taken == Taken::Late;
 }

@@ -1,4 +1,4 @@
-/// What will be the case on the table when the picture is lit: the situation of a live tracker, smoothed and
+/// Prop pose and eye at the time at which the picture is lit: a live tracker's samples, smoothed and
 /// predicted. An offline picture uses SituationTracker, which does neither.
 ///
 /// Frames   table T, metres; samples too (registered_tracker.h).
@@ -17,15 +17,15 @@ public:
     /// `lever_m`: half the prop's height.
     LiveSituation(const glm::dvec3& default_eye_m, double lever_m);
 
-    /// False: a sample that claims to be usable and is no pose, or that no hand can have brought about.
+    /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const PoseSample& sample);
-    /// A prop that is lost stays where it was, first in truth, then with `prop_known` false. The eye of a
-    /// head that is lost glides to the default eye, and from there to a head that is found. Time does not go
+    /// A lost prop stays where it was; at first it still counts as known, then `prop_known` is false. The eye
+    /// of a lost head glides to the default eye, and from there to a head that is found. Time does not go
     /// back from call to call.
     [[nodiscard]] Situation at(MonotonicTime lit);
 
 private:
-    /// The head, or the default eye in its place; a change between them is an reinitialisation.
+    /// The head, or the default eye in its place; a change between them is a reinitialisation.
     [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
 
     glm::dvec3 default_eye_m_;
@@ -34,17 +34,16 @@ private:
     ShownPose shown_prop_;
     ShownPose shown_head_;
     bool eye_is_heads_ = false;   ///< else the default eye
-    std::uint64_t eye_goals_ = 1; ///< so many until now; the default eye is the first
+    std::uint64_t eye_goals_ = 1; ///< how many until now; the default eye is the first
 };
 
-/// How long after `now`, at which a frame begins, its picture is lit: the display's own latency and what is
-/// measured from the beginning of a frame until it was flipped, which is followed slowly.
+/// The time from `now`, at which a frame begins, until its picture is lit: the display's own latency plus a
+/// slow average of the measured time from the beginning of a frame to its flip.
 class LightDelay {
 public:
     explicit LightDelay(Nanoseconds display_latency) : display_latency_(display_latency) {}
 
-    /// A frame that began at `now` was flipped at `flipped`. What cannot be a flip is held within 0 to 100
-    /// ms.
+    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms.
     void flipped(MonotonicTime now, MonotonicTime flipped);
     [[nodiscard]] Nanoseconds from_now() const;
 

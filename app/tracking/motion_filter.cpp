@@ -10,7 +10,7 @@ namespace {
 
 using Kind = MotionModel::Kind;
 
-// Glide is so loose that it is the model of a knock; a hand that moves is mostly Manoeuvre's.
+// Glide is so loose that it is the model of a knock; Manoeuvre mostly explains a hand that moves.
 constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Glide, 3.0},
                                      MotionModel{Kind::Manoeuvre, 7.4}};
 constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
@@ -18,7 +18,8 @@ constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel
 constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
 constexpr std::array turn_glide = {MotionModel{Kind::Glide, 0.3}};
 
-/// The time that a motion which fades with time constant `lasts_s` is worth.
+/// A motion that fades with time constant `lasts_s` goes as far in `ahead_s` as a steady one in the time
+/// returned.
 double faded(double ahead_s, double lasts_s) {
     return lasts_s > 0.0 ? -lasts_s * std::expm1(-ahead_s / lasts_s) : ahead_s;
 }

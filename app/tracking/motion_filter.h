@@ -1,7 +1,7 @@
 /// The exhibit's filter of poses: a MotionTrack for the place and one for the turn.
 ///
-/// Models   rest, glide and manoeuvre; the defaults are tuned by frustumscreen-bench latency, whose noise
-///          they expect. With the one model Glide it is the constant-velocity Kalman filter.
+/// Models   rest, glide and manoeuvre; the defaults were tuned with frustumscreen-bench latency and expect
+///          its noise. With the one model Glide it is the constant-velocity Kalman filter.
 /// Threads  one caller. Allocates nothing.
 /// Source   motion_track.h; the turn is the error state of Sola, Quaternion kinematics for the error-state
 ///          Kalman filter, 2017, 5, its angular velocity in the table's axes.
@@ -15,12 +15,12 @@ namespace frustumscreen {
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
     MotionTrackOptions turn;  ///< radians
-    /// While it manoeuvres, its motion fades with this time constant: a hand that changes its way may stop.
-    /// 0 = it does not fade.
+    /// While it manoeuvres, its motion fades with this time constant: a hand that changes its direction may
+    /// stop. 0 = it does not fade.
     double manoeuvre_lasts_s = 0.0;
 };
 
-/// What a tracker's poses scatter by at rest, each axis, RMS.
+/// How much a tracker's poses scatter at rest, on each axis, RMS.
 struct PoseNoise {
     double place_m = 0.0003;
     double turn_rad = 0.0026; ///< 0.15 degrees

@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// No model is ever given up: it could not come back.
+/// No model's weight goes to zero: the model could not come back.
 constexpr double least_weight = 1e-9;
 
 /// Columns as glm has them: transition[column][row].
@@ -24,8 +24,8 @@ glm::dmat3 transition(MotionModel::Kind kind, double dt) {
     return {{1.0, 0.0, 0.0}, {dt, 1.0, 0.0}, {0.5 * dt * dt, dt, 1.0}};
 }
 
-/// What a model leaves out, `velocity` and `acceleration` (variances), it knows no more of than in the
-/// beginning.
+/// A model that leaves out velocity or acceleration knows no more of it than at the beginning: the variances
+/// `velocity` and `acceleration`.
 glm::dmat3 driving_noise(const MotionModel& model, double dt, double velocity, double acceleration) {
     const double q = model.noise * model.noise;
     const double dt2 = dt * dt;
@@ -70,7 +70,7 @@ void MotionTrack::restart() {
 }
 
 void MotionTrack::mix(double dt_s) {
-    // The exponential of a generator that leaves every model alike: exact for any step.
+    // The exponential of a generator that leaves every model at the same rate: exact for any step.
     const double n = static_cast<double>(count_);
     const double other = -std::expm1(-options_.changes_per_s * dt_s) / n;
     const double same = 1.0 - (n - 1.0) * other;

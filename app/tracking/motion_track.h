@@ -1,7 +1,7 @@
-/// Where a point in three dimensions is and goes, of noisy measurements: several models of how a hand moves,
-/// each a Kalman filter, weighted by how well they foretell what is measured.
+/// Where a point in three dimensions is and goes, from noisy measurements: several models of how a hand
+/// moves, each a Kalman filter, weighted by how well they predict the measurements.
 ///
-/// The three axes share one covariance, since noise and motion prefer none: a model is three vectors
+/// The three axes share one covariance, since noise and motion prefer no axis: a model is three vectors
 /// (place, velocity, acceleration) and a 3 x 3 matrix. Places count from a reference that the caller keeps,
 /// so that the same arithmetic serves positions and, as rotation vectors, orientations.
 ///
@@ -48,14 +48,15 @@ public:
 
     explicit MotionTrack(const MotionTrackOptions& options);
 
-    /// The reference is a first measurement; all else is unknown.
+    /// Begins anew: the reference is a first measurement, and nothing else is known.
     void restart();
-    /// Time passes: the expected way of the reference, to which the caller must move it.
+    /// Time passes: returns the expected movement of the reference; the caller must move it by that.
     [[nodiscard]] glm::dvec3 advance(double dt_s);
-    /// A measurement, seen from the reference: the correction, by which the caller must move the reference.
+    /// Takes a measurement, relative to the reference; returns the correction, by which the caller must move
+    /// the reference.
     [[nodiscard]] glm::dvec3 correct(const glm::dvec3& measured);
 
-    /// Of the weighted mean of the models.
+    /// The motion of the weighted mean of the models.
     [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
     [[nodiscard]] const glm::dvec3& acceleration() const { return acceleration_; }
 

@@ -1,4 +1,4 @@
-/// The pose of one station at any time, from a tracker's samples: outliers out, smoothed, predicted.
+/// The pose of one station at any time, from a tracker's samples: without outliers, smoothed, predicted.
 ///
 /// Frames   those of the samples; metres, unit quaternions.
 /// Time     CLOCK_MONOTONIC. Normally asked for the time at which the picture is lit. Samples count from
@@ -28,8 +28,8 @@ struct PoseEstimate {
     RigidTransform pose;
     PoseStatus status = PoseStatus::Stale;
     Nanoseconds age{0}; ///< from the latest sample to the time asked for
-    std::uint64_t reinitialisations =
-        0; ///< times the pose was taken up anew: here it may jump; 0 = never seen
+    /// How often the pose began anew, perhaps with a jump; 0 = it was never seen.
+    std::uint64_t reinitialisations = 0;
 };
 
 enum class Taken {
@@ -40,19 +40,19 @@ enum class Taken {
 };
 
 struct PoseEstimatorOptions {
-    bool predicts = true; ///< no: the latest smoothed pose whatever time is asked for, to compare with
-    /// Predicted in full so long after the latest sample; then the motion comes to a stand.
+    bool predicts = true; ///< false: the latest smoothed pose, whatever time is asked for; for comparison
+    /// Predicted in full for this long after the latest sample; then the motion comes to rest.
     Nanoseconds predicted_for = std::chrono::milliseconds(80);
     Nanoseconds stand_within = std::chrono::milliseconds(30);     ///< time constant
     Nanoseconds stale_after = std::chrono::milliseconds(1000);    ///< held until then
-    Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< a longer gap: taken up anew
-    /// Of the distance from where the sample was expected: what a knock may do.
+    Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< after a longer gap it begins anew
+    /// Allowed distance from where the sample was expected: what a knock may do.
     double surprise_m = 0.015;
     double surprise_rad = 0.15;
-    double speed_m_s = 2.0; ///< and so much more a second since the latest sample
+    double speed_m_s = 2.0; ///< and this much more for each second since the latest sample
     double turn_rad_s = 15.0;
-    /// So many outliers in a row that agree with each other are where the prop is now; so many late samples
-    /// in a row are a device whose clock was set back.
+    /// This many outliers in a row that agree with each other show where the prop is now; this many late
+    /// samples in a row show that the device's clock was set back.
     int convinced_by = 3;
     int clock_set_back_by = 16;
 };
@@ -63,7 +63,7 @@ public:
 
     explicit PoseEstimator(std::unique_ptr<PoseFilter> filter, const PoseEstimatorOptions& options = {});
 
-    /// The station is the caller's matter; `ok` must have been looked at.
+    /// The caller chooses the station and must have checked `ok`.
     Taken take(MonotonicTime time, const RigidTransform& measured);
     [[nodiscard]] PoseEstimate at(MonotonicTime time) const;
 

@@ -1,4 +1,4 @@
-/// One way to smooth poses and to say where they go: what frustumscreen-bench latency compares.
+/// One way to smooth and predict poses; frustumscreen-bench latency compares them.
 ///
 /// Frames   those of the poses given; metres, radians, unit quaternions of either sign.
 /// Time     seconds since the pose before; the caller gives only steps above 0.

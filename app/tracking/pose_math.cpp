@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Below it sin(x) / x and x / tan(x) are their series' first terms to the last bit.
+/// Below this, sin(x) / x and x / tan(x) equal the first terms of their series to the last bit.
 constexpr double small_angle = 1e-8;
 
 } // namespace

@@ -15,7 +15,7 @@ namespace frustumscreen {
 /// Its inverse: the shortest such vector, no longer than pi.
 [[nodiscard]] glm::dvec3 rotation_vector(const glm::dquat& rotation);
 
-/// What a pose moves by in some time: first the turn, then the shift, both in the table's axes.
+/// A movement of a pose: first the turn, then the shift, both in the table's axes.
 struct PoseStep {
     glm::dvec3 shift_m{0.0};
     glm::dvec3 turn_rad{0.0};

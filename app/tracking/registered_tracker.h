@@ -31,7 +31,7 @@ public:
     [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 
-    /// What was applied; nothing: the device reports in table coordinates.
+    /// The registration that is applied; nothing: the device reports in table coordinates.
     [[nodiscard]] const std::optional<RigidTransform>& registration() const { return registration_; }
 
 private:

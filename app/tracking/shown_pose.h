@@ -1,9 +1,9 @@
-/// The pose that the picture is drawn for, after the estimate: at rest it rests, and where the estimate
-/// jumps, since the prop was lost and found elsewhere, it glides there.
+/// The pose that the picture is drawn for. It follows the estimate, but does not move at rest, and where the
+/// estimate jumps, because the prop was lost and found elsewhere, it glides there.
 ///
-/// Rest     while the estimate is within `slack_m` of the shown pose, at the prop, that
-///          stays bit for bit, and a picture at rest is not drawn again. Never farther off than the slack.
-/// Return   the difference to the old pose is taken away along a smooth step.
+/// Rest     while the estimate is within `slack_m` of the shown pose, measured at the prop, the shown pose
+///          stays bit for bit, and a picture at rest is not drawn again. It is never farther off than that.
+/// Return   the difference to the old pose fades along a smooth step.
 /// Time     of the pictures; time that goes back moves nothing.
 /// Threads  one caller. Allocates nothing.
 #pragma once

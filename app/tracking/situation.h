@@ -1,4 +1,4 @@
-/// What is the case on the table now: where the prop stands and where the visitor's eye is.
+/// Prop pose and eye at one time: where the prop stands and where the visitor's eye is.
 ///
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample counts from its own time on; `at(now)` asks for any later time.
@@ -33,8 +33,8 @@ public:
     explicit SituationTracker(const glm::dvec3& default_eye_m, const SituationLimits& limits = {});
 
     /// Samples with ok = false, of other stations, or older than the last one of their station change
-    /// nothing. Rotations of any length are made unit. False: a sample that claims to be usable and is no
-    /// pose (not finite, a quaternion of zero); it changes nothing either.
+    /// nothing. Rotations of any length are made unit. Returns false for a sample that claims to be usable
+    /// but is not a pose (not finite, a quaternion of zero); it changes nothing either.
     bool take(const PoseSample& sample);
     /// The latest pose, neither filtered nor predicted.
     [[nodiscard]] Situation at(MonotonicTime now) const;

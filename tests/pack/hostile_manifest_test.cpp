@@ -84,7 +84,7 @@ TEST(HostileManifest, unknown_and_repeated_fields_are_refused) {
                     {"[2J", [](Json& m) { m["\x1b[2J\n"] = 1; }}});
     std::string text = samples::take_apart(samples::bytes_of(samples::pack())).manifest.dump();
     text.insert(text.find("\"title\""), "\"title\": \"first\", ");
-    EXPECT_NE(refusal_of_text(text).find("title stands twice"), std::string::npos);
+    EXPECT_NE(refusal_of_text(text).find("title occurs twice"), std::string::npos);
 }
 
 TEST(HostileManifest, what_is_not_json_is_refused) {

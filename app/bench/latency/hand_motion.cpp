@@ -18,7 +18,7 @@ constexpr double bend_rad = 0.5; ///< off the opposite direction
 constexpr double shortest_m = 0.10;
 constexpr double longest_m = 0.25;
 
-/// From `begin_s` on with `velocity`, from `turn_s` on turning to the next stroke's.
+/// Moves with its velocity from `begin_s` on, and turns to the next stroke's from `turn_s` on.
 struct Stroke {
     double begin_s = 0.0;
     double turn_s = 0.0;

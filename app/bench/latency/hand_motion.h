@@ -1,4 +1,4 @@
-/// How a hand moves the prop, as closed forms of time: what the estimators of poses are measured on.
+/// Motions of the prop in a hand, as closed forms of time. The bench measures the pose estimators on them.
 ///
 /// Frames   table T; metres, radians, seconds since the beginning.
 /// Threads  pure once made; any. The same seed gives the same motion.
@@ -14,12 +14,12 @@ namespace frustumscreen {
 
 using HandMotion = std::function<RigidTransform(double t_s)>;
 
-/// Strokes at `speed_m_s`, each turning round into about the opposite direction after 0.10 to 0.25 m, with a
-/// turn of the prop that reverses too, at 2 rad a metre. The velocity turns along a smooth step whose
+/// Strokes at `speed_m_s`. After 0.10 to 0.25 m each turns round into about the opposite direction. The prop
+/// also turns, at 2 rad a metre, and this turn reverses too. The velocity turns along a smooth step whose
 /// acceleration is 5 m/s^2 at most.
 [[nodiscard]] HandMotion strokes(double speed_m_s, double length_s, std::uint64_t seed);
 
-/// Straight on at `speed_m_s` along X, braking at `braking_m_s2` from `brake_at_s` on, then still.
+/// Goes straight along X at `speed_m_s`, brakes at `braking_m_s2` from `brake_at_s` on, then stands still.
 [[nodiscard]] HandMotion stop(double speed_m_s, double braking_m_s2, double brake_at_s);
 
 [[nodiscard]] HandMotion rest();
@@ -29,7 +29,8 @@ struct RecordedPose {
     double t_s = 0.0;
     RigidTransform pose;
 };
-/// Straight between the poses, in ascending time; the first and the last beyond. The poses must outlive it.
+/// Goes straight from pose to pose, in ascending time; it rests before the first and after the last. The
+/// poses must outlive it.
 [[nodiscard]] HandMotion recorded(std::span<const RecordedPose> poses);
 
 } // namespace frustumscreen

@@ -201,7 +201,7 @@ RecordingResult measure_recording(const Recording& recording, const LatencyOptio
         tracker.noise = {0.0, 0.0};
     }
     for (Contestant contestant : contestants()) {
-        // The filters expect the noise that they always do, also where a recording brings its own.
+        // The filters expect their usual noise, even if a recording has its own.
         contestant.filter = [make = contestant.filter](const PoseNoise&) { return make(PoseNoise{}); };
         result.slips.emplace_back(
             contestant.name,

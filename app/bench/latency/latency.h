@@ -2,8 +2,8 @@
 /// a recording, through a tracker of a given rate, latency and noise, through an estimator of poses, to the
 /// time at which the picture is lit.
 ///
-/// Slip     at the prop: the distance of the origins plus half the prop's height times the angle between the
-///          pose drawn for and the true pose when it is lit.
+/// Slip     at the prop: the distance of the origins plus half the prop's height times the angle, between the
+///          pose that was drawn for and the true pose when the picture is lit.
 /// Time     of the simulation; the tracker's clock runs 0.03 % faster than its rate says, so that samples
 ///          come at every phase between the pictures.
 /// Threads  pure; any. The same seed gives the same numbers with the same C++ library.
@@ -34,7 +34,7 @@ struct LatencySetting {
     double lever_m = 0.06;            ///< half the prop's height
 };
 
-/// What is compared.
+/// A filter to compare.
 struct Contestant {
     std::string name;
     std::function<std::unique_ptr<PoseFilter>(const PoseNoise&)> filter;
@@ -55,8 +55,8 @@ struct LitPicture {
 [[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);
-/// The same for samples as they were recorded, with noise added where `tracker.noise` has any; the truth is
-/// what lies between them.
+/// The same for recorded samples, with noise added where `tracker.noise` has any. The truth is interpolated
+/// between the samples.
 [[nodiscard]] std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);
@@ -65,7 +65,7 @@ inline constexpr double stop_speed_m_s = 0.5;
 inline constexpr double stop_braking_m_s2 = 5.0;
 inline constexpr double latency_speed_m_s = 0.25; ///< of the strokes against latency
 
-/// In mm, over the pictures after the first second.
+/// Slip in mm, over the pictures after the first second.
 struct Slip {
     double mean = 0.0;
     double p95 = 0.0;
@@ -73,8 +73,8 @@ struct Slip {
 };
 [[nodiscard]] Slip slip_of(std::span<const LitPicture> pictures, double lever_m);
 
-/// When stopping, along X: how far the picture goes past the place where the prop comes to stand, and how far
-/// it runs ahead of the prop meanwhile; the most of each run, in mm.
+/// A stop along X: how far the picture goes past the place where the prop stops, and how far it runs ahead of
+/// the prop before that. Each run counts with its largest value, in mm.
 struct Overshoot {
     double mean = 0.0;
     double p95 = 0.0; ///< of the runs
@@ -121,7 +121,7 @@ struct LatencyOptions {
 struct Recording {
     std::string name;
     std::vector<RecordedPose> poses;
-    bool noisy = true; ///< false: of a motion capture, so that a tracker's noise is added
+    bool noisy = true; ///< false: from motion capture, so a tracker's noise is added
 };
 struct RecordingResult {
     std::string name;

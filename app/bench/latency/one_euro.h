@@ -1,9 +1,9 @@
-/// The 1 Euro filter, and no filter: what the exhibit's is compared with.
+/// The 1 Euro filter and no filter, to compare the exhibit's filter with.
 ///
 /// Threads  one caller. Allocates nothing.
 /// Source   Casiez, Roussel and Vogel, 1 Euro filter: a simple speed-based low-pass filter for noisy input in
-///          interactive systems, 2012, algorithm 1; turns as a rotation vector from the pose before. Differs
-///          in `ahead`, which the paper does not have: the filtered derivative goes on.
+///          interactive systems, 2012, algorithm 1; a turn is a rotation vector from the pose before. `ahead`
+///          is not in the paper: it continues with the filtered derivative.
 #pragma once
 
 #include "app/tracking/pose_filter.h"
@@ -30,10 +30,10 @@ private:
     OneEuroOptions options_;
     RigidTransform measured_;
     RigidTransform pose_;
-    PoseStep rate_; ///< a second
+    PoseStep rate_; ///< per second
 };
 
-/// The latest pose as it came.
+/// Returns the latest pose unchanged.
 class NoFilter final : public PoseFilter {
 public:
     void restart(const RigidTransform& measured) override { pose_ = measured; }

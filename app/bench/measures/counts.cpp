@@ -99,7 +99,7 @@ std::string counts_json(std::span<const CountedPack> counted) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const CountedPack& one : counted) {
         nlohmann::ordered_json entry{{"artifact", one.artifact}, {"set_up", one.set_up}};
-        // In hundredths: so the mean of whole counts over 50 poses is exact.
+        // Hundredths keep the mean of whole counts over 50 poses exact.
         for (const Quantity& quantity : quantities) {
             entry[quantity.name] = std::round(100.0 * (one.counts.*quantity.of)) / 100.0;
         }
@@ -124,7 +124,7 @@ Result<std::vector<CountedPack>> read_counts(std::string_view text) {
         }
     } catch (const nlohmann::json::exception& error) {
         return bad_input(
-            fmt::format("these are no counts that frustumscreen-bench counts wrote: {}", error.what()));
+            fmt::format("this is not a file that frustumscreen-bench counts wrote: {}", error.what()));
     }
     return counted;
 }

@@ -3,10 +3,10 @@
 ///
 /// Counted  from the frame's plan, a mean over seeded poses: triangles and draw calls sent, vertices that
 ///          they name (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
-///          vertices read, samples' colour and depth written and read back, the picture cleared. What the
-///          texture's cache lines and hidden fragments add is not in it.
+///          vertices read, samples' colour and depth written and read back, the picture cleared. The
+///          texture's cache lines and hidden fragments are not counted.
 /// Threads  pure; any.
-/// Errors   settings without poses; a reference that is no such file.
+/// Errors   settings without poses; a reference that `counts_json` did not write.
 #pragma once
 
 #include "app/bench/measures/technique_set.h"
@@ -45,12 +45,12 @@ inline constexpr double most_count_growth = 1.05;
 struct CountChange {
     CountedPack now;
     FrameCounts reference;
-    bool grown = false; ///< one of them beyond `most_count_growth`
+    bool grown = false; ///< a count grew by more than `most_count_growth`
 };
-/// Of those that the reference has.
+/// Only of packs that the reference has.
 [[nodiscard]] std::vector<CountChange> changes(std::span<const CountedPack> counted,
                                                std::span<const CountedPack> reference);
-/// A row each; beside each number its change in per cent, where the reference has it.
+/// One row for each pack; beside each number its change in percent, if the reference has the pack.
 [[nodiscard]] std::string counts_table(std::span<const CountedPack> counted,
                                        std::span<const CountChange> against);
 

@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// RFC 4180: a field that may hold commas.
+/// A field that may hold commas, quoted as in RFC 4180.
 [[nodiscard]] std::string quoted(const std::string& text);
 
 /// Where prop and eye are, in table coordinates; the prop's turn about the vertical as a quaternion.

@@ -16,7 +16,8 @@ bool of_one_mesh(const TechniqueResult& a, const TechniqueResult& b) {
     return a.kind == b.kind && a.triangles == b.triangles;
 }
 
-/// Whether another eye image of the same mesh errs less at about the same cost, or no more at less.
+/// Whether another eye image of the same mesh has smaller errors at about the same cost, or no larger ones at
+/// less.
 bool is_beaten(const SetUpResult& result, const TechniqueResult& one) {
     return std::any_of(result.techniques.begin(), result.techniques.end(), [&one](const auto& other) {
         return of_one_mesh(other, one) && errs_no_more(other, one) &&

@@ -1,8 +1,8 @@
 /// Is anything else cheaper and no worse? Pareto dominance over four figures: cost, and mean silhouette,
 /// geometric and colour error (16 rays).
 ///
-/// Tolerance  times are noisy: a peer dominates only if it is cheaper by more than `cost_tolerance`; one that
-///            errs no more at about the same cost is named.
+/// Tolerance  times are noisy: a peer dominates only if it is cheaper by more than `cost_tolerance`; a peer
+///            with no larger errors at about the same cost is only named.
 /// Threads    pure; any.
 #pragma once
 
@@ -14,15 +14,15 @@ namespace frustumscreen {
 
 inline constexpr double cost_tolerance = 0.05;
 
-/// Neither the pack's own, nor the floor, nor the ray cast, which is a reference.
+/// False for the pack's own levels, for the floor, and for the ray cast, which is a reference.
 [[nodiscard]] bool is_judged_peer(TechniqueKind kind);
 [[nodiscard]] bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b);
 
-/// Every technique, but of the two-pass pictures of one mesh only that of the best eye image: the cheapest of
-/// those that no other one betters at about the same cost.
+/// Every technique, but of one mesh's two-pass pictures only the one with the best eye image: the cheapest
+/// that no other betters at about the same cost.
 [[nodiscard]] std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result);
 
-/// One for each level of the pack; none without peers. Every eye image counts here.
+/// One verdict for each level of the pack; none without peers. Every eye image counts here.
 [[nodiscard]] std::vector<Verdict> judge_dominance(const SetUpResult& result);
 
 } // namespace frustumscreen

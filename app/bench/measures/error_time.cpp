@@ -16,7 +16,7 @@ int rounds_of(const ErrorTimeOptions& options) {
     return std::max(options.timing_rounds, least_samples / options.poses);
 }
 
-/// The pack's level `level` where its geometric error is greatest.
+/// A picture of the pack's level in the pose where its geometric error is greatest.
 Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
                              std::uint32_t level) {
     std::size_t k = 0;

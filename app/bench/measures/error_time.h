@@ -17,7 +17,7 @@ struct SetUpResult {
     std::uint32_t finest_level = 0;
     std::vector<BenchPose> poses;
     std::vector<TechniqueResult> techniques; ///< the floor first
-    /// As `error_picture`: default and finest level, each in the pose of its greatest geometric error.
+    /// `error_picture` of the default and the finest level, each in the pose of its greatest geometric error.
     std::vector<std::pair<std::string, Image8>> worst;
 };
 
@@ -29,10 +29,10 @@ struct ErrorTimeOptions {
     PeerChoice peers;
 };
 
-/// What is being done, and the share of it that is done.
+/// Reports the current step and the share of it that is done.
 using StepProgress = std::function<void(const std::string& step, double done)>;
 
-/// The steps that `error_time` tells of, with guesses of their seconds.
+/// The steps that `error_time` reports, with guesses of their seconds.
 [[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
                                                const ErrorTimeOptions& options);
 

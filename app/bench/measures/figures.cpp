@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Source points farther from the finest level than this are ones that no visitor sees.
+/// No visitor sees source points that are farther from the finest level than this.
 constexpr float seen_reach_box = 5e-4F;
 
 bool agree(float said, float measured) {

@@ -1,10 +1,10 @@
-/// Are a pack's error figures true? A kiosk draws what they say is good enough, so a pack that flatters
-/// itself shows a coarse artifact, and one that runs itself down a slow one. Each level is measured again
-/// against the source, as the bake measures it.
+/// Are a pack's error figures true? A kiosk chooses levels by them: figures that are too small show a coarse
+/// artifact, figures that are too large a slow one. Each level is measured again against the source, as the
+/// bake measures it.
 ///
 /// Units    millimetres on the configured prop.
-/// Held     a figure may be off by a quarter of itself and by `slack_box`: where on the source the sample
-///          points fall differs from the bake's.
+/// Limits   a figure may be off by a quarter of itself plus `slack_box`: the sample points on the source are
+///          not those of the bake.
 /// Threads  uses all cores; deterministic.
 #pragma once
 

@@ -34,8 +34,8 @@ struct PictureError {
     ColourError sixteen_rays; ///< zero where the truth has none
 };
 
-/// A truth without artifact pixels gives zero errors if nothing was drawn, and counts each drawn pixel as if
-/// there were one artifact pixel otherwise.
+/// A truth without artifact pixels gives zero errors if nothing was drawn. Otherwise the errors are those of
+/// a truth with one artifact pixel.
 [[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
 
 /// Mean and worst of each figure over many pictures.

@@ -55,8 +55,8 @@ struct VisitorRays {
     }
 };
 
-/// Projector pixels that one step of a visitor's pixel spans in the direction where they are fewest, at the
-/// place that is seen through `at`; infinite beside the prop.
+/// Projector pixels in a step of one visitor's pixel at the place seen through `at`, in the direction where
+/// they are fewest; infinite beside the prop.
 double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
     PropHit hit;
     if (!intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
@@ -78,7 +78,7 @@ double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm:
     return 0.5 * (std::sqrt(squares + 2.0 * area) - std::sqrt(std::max(0.0, squares - 2.0 * area)));
 }
 
-/// Of every prop pixel in a grid of `step`; infinite if there is none.
+/// The least over the prop's pixels in a grid of `step`; infinite if there are none.
 double least_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
     const VisitorRays rays(scene, camera);
     double least = std::numeric_limits<double>::infinity();
@@ -90,7 +90,7 @@ double least_span(const VisitorScene& scene, const VisitorCamera& camera, int st
     return least;
 }
 
-/// What one visitor sees, in every way that it is made: an instance judges many projector's pictures.
+/// Judges projector pictures by what one visitor sees of them.
 class Judge {
 public:
     Judge(const Truth& truth, const VisitorScene& scene)
@@ -100,7 +100,7 @@ public:
         row_.least_span_px = least_span(scene, camera_, 1);
     }
 
-    /// The picture for either comparison; `smooth` stays as the visitor's view of 16 rays.
+    /// Takes the picture for each comparison; `smooth` keeps the visitor's view of 16 rays.
     [[nodiscard]] ProjectionRow judge(const Image8& for_one_ray, const Image8& for_sixteen_rays) {
         VisitorViewOptions sixteen = exact_check();
         sixteen.rays_per_side = rays_per_side;
@@ -228,7 +228,7 @@ Agreement agreement(const Image8& view, const VisitorTruth& truth) {
 }
 
 VisitorCamera no_finer_camera(const VisitorScene& scene) {
-    // A picture half as wide has pixels twice as wide; the grid misses little of so smooth a function.
+    // A picture half as wide has pixels twice as wide. The function is smooth, so a coarse grid is enough.
     constexpr int grid_px = 4;
     constexpr double margin = 0.99;
     const auto camera = [&scene](double scale) {

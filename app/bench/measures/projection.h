@@ -5,13 +5,14 @@
 ///          through `visitor_view`, which knows neither the artifact nor the collineation.
 /// Truth    a ray from the eye through the visitor's pixel straight at the source mesh; black where it
 ///          misses. It knows where the prop stands, and neither the projector nor the prop's faces.
-/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes:
-///          with 16 rays a pixel in both pictures, averaged in linear light; and with one ray through its
-///          centre, where a texture finer than a pixel makes every filtered picture differ. The projector's
-///          picture as the ray cast has it goes the same way: what it loses is lost between the two grids
-///          of pixels, not by us.
-/// Size     of the visitor's picture: the largest, up to the projector's own, with no pixel on the prop
-///          finer than the projector's: a step of one, in whichever direction, spans a projector pixel.
+/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes: with
+///          16 rays a pixel in both pictures, averaged in linear light; and with one ray through its centre,
+///          where a texture finer than a pixel makes every filtered picture differ. The ray cast's own
+///          projector picture is judged the same way: its loss comes from the two grids of pixels, not from
+///          our method.
+/// Size     of the visitor's picture: the largest, up to the projector's own, whose pixels on the prop are no
+///          finer than the projector's: a step of one pixel in any direction spans at least one projector
+///          pixel.
 /// Frames   table T; metres.
 /// Threads  the one whose context is current; views and rays are cast on every core.
 /// Errors   whatever the parts report, with the set-up's name in front.
@@ -49,11 +50,11 @@ struct Agreement {
 };
 [[nodiscard]] Agreement agreement(const Image8& view, const VisitorTruth& truth);
 
-/// The camera of the size that the block above asks for.
+/// The camera with the picture's size as described at the top.
 [[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
 
-/// View, ray cast and difference of the prop side by side, enlarged; where a pixel is wrong the difference is
-/// red, elsewhere it is grey and four times as bright as it is.
+/// View, ray cast and difference of the prop side by side, enlarged. The difference is red where a pixel is
+/// wrong, elsewhere grey and four times as bright.
 [[nodiscard]] Image8 side_by_side(const Image8& view, const VisitorTruth& truth);
 
 struct ProjectionOptions {
@@ -68,8 +69,8 @@ struct ProjectionRow {
     int level = -1;
     int pose = 0;
     glm::ivec2 size_px{0}; ///< of the visitor's picture
-    double least_span_px =
-        0.0; ///< projector pixels in a step of a visitor's pixel, least over prop and directions
+    /// Projector pixels in a step of one visitor's pixel: the least over the prop and all directions.
+    double least_span_px = 0.0;
     Agreement one_ray;
     Agreement sixteen_rays;
 };

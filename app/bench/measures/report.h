@@ -13,14 +13,14 @@ namespace frustumscreen {
 /// One row for each technique of each set-up: mean and worst errors, times, ratio to the floor;
 /// `best_eye_image` is 0 for a two-pass picture that another eye image of the same mesh betters, else 1.
 [[nodiscard]] std::string summary_csv(std::span<const SetUpResult> results);
-/// The limits that the verdicts hold, by the level that each is for; an empty field is no limit.
+/// The limits that the verdicts check, for each level; an empty field means no limit.
 [[nodiscard]] std::string limits_csv();
 /// One row for each technique in each pose.
 [[nodiscard]] std::string poses_csv(std::span<const SetUpResult> results);
 /// `pack_figures`: the verdicts on the pack's own figures.
 [[nodiscard]] std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
                                       std::span<const Verdict> pack_figures);
-/// Every verdict: of which set-up ('pack': on the pack's own figures), what, found, held or missed.
+/// Every verdict: its set-up ('pack': the pack's own figures), the limit, what was found, held or missed.
 [[nodiscard]] std::string verdicts_csv(std::span<const SetUpResult> results,
                                        std::span<const Verdict> pack_figures);
 /// The table that a person reads, with the verdicts below it.

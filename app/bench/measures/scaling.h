@@ -36,7 +36,7 @@ struct ScalingRow {
     TechniqueResult two_pass;
 };
 
-inline constexpr double most_growth = 1.25; ///< default level's cost at the largest count over the smallest's
+inline constexpr double most_growth = 1.25; ///< default level's cost, largest count over smallest
 
 [[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
                                                       const std::vector<ScalingSource>& sources,

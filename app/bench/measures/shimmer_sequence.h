@@ -35,7 +35,7 @@ namespace frustumscreen {
 
 inline constexpr double step_px = 0.1;
 
-/// Takes pictures of one size, in order, and knows each pixel's shimmer so far.
+/// Takes pictures of one size in order, and computes each pixel's shimmer so far.
 class Flicker {
 public:
     void add(Image8 picture);
@@ -96,7 +96,7 @@ public:
                     PushDirection direction, int steps);
     [[nodiscard]] const std::vector<BenchPose>& poses() const { return poses_; }
 
-    /// What every technique is judged by; once, before them.
+    /// Casts the truth that every technique is judged by. Call it once, before `judge`.
     void cast(const Truth& truth, bool sixteen_rays);
 
     /// The whole projector's picture of a pose.
@@ -104,7 +104,7 @@ public:
     [[nodiscard]] SequenceShimmer judge(const Draw& draw, ShimmerMaps& maps) const;
 
 private:
-    /// Of the projector's picture.
+    /// A rectangle of the projector's picture.
     struct Part {
         glm::ivec2 low{0};
         glm::ivec2 size{0};

@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Around all that is not zero, with a rim of two pixels; empty if all is.
+/// The rectangle around all pixels that are not zero, with a rim of two pixels; empty if all are zero.
 [[nodiscard]] PixelRectangle box_of(const Image<std::uint8_t>& mask);
 
 /// The part must lie inside every picture.

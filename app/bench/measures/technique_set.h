@@ -1,7 +1,7 @@
 /// The techniques that one run compares: all on one stage, on one display of their own.
 ///
 /// Threads  the one that opened it: the display's context is current there.
-/// Errors   no display; what a technique's own making reports.
+/// Errors   no display; whatever making a technique reports.
 #pragma once
 
 #include "app/bench/measures/measure.h"
@@ -35,7 +35,7 @@ enum class TechniqueKind {
     TwoPassLod,
     Relief, ///< relief images, marched or warped
 };
-/// As tables and files say it.
+/// The name in tables and files.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
 
 struct TechniqueResult {
@@ -43,7 +43,7 @@ struct TechniqueResult {
     TechniqueKind kind = TechniqueKind::PackLevel;
     int level = -1;                   ///< PackLevel
     std::uint64_t triangles = 0;      ///< of what is drawn
-    std::vector<PictureError> errors; ///< one each pose; empty for the floor
+    std::vector<PictureError> errors; ///< one for each pose; empty for the floor
     ErrorSummary error;
     Spread time_ms;
     double times_floor = 0.0; ///< median / the floor's median
@@ -53,7 +53,7 @@ struct TechniqueResult {
 
 class TechniqueSet {
 public:
-    /// With the floor as its first technique.
+    /// Opens a set with the floor as its first technique.
     [[nodiscard]] static Result<std::unique_ptr<TechniqueSet>> open(const SetUp& set_up);
     TechniqueSet(const TechniqueSet&) = delete;
     TechniqueSet& operator=(const TechniqueSet&) = delete;
@@ -64,16 +64,16 @@ public:
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels);
     [[nodiscard]] Result<void> add_ray_cast(const Truth& truth);
-    /// The source simplified; through the collineation and by two passes, as the choice says.
+    /// Adds the simplified source, drawn through the collineation and by two passes, as the choice says.
     [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
                                                     const glm::dmat4& prop_from_artifact,
                                                     const PeerChoice& choice);
 
-    /// Peers that show relief images of `texels` a side.
+    /// Adds peers that show relief images of `texels` a side.
     [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
                                                 const glm::dmat4& prop_from_artifact, int texels);
 
-    /// What technique `k` (of `results()`) makes of a pose: sRGB codes.
+    /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
 
     [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
@@ -95,7 +95,7 @@ private:
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;
     std::vector<std::unique_ptr<Technique>> techniques_;
-    std::vector<TechniqueResult> results_; ///< one each technique
+    std::vector<TechniqueResult> results_; ///< one for each technique
 };
 
 /// What a measurement of one pack starts from. The pack must outlive it.

@@ -8,7 +8,7 @@
 namespace frustumscreen {
 
 namespace {
-constexpr double least_share = 0.02; ///< of a step, before which it says nothing about itself
+constexpr double least_share = 0.02; ///< of a step; before that its time is not known
 }
 
 TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
@@ -17,7 +17,7 @@ TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
     }
 }
 
-std::optional<double> TimeLeft::at(const std::string& name, double done, double now_s) {
+std::optional<double> TimeLeft::update(const std::string& name, double done, double now_s) {
     const auto found = std::find_if(steps_.begin(), steps_.end(),
                                     [&name](const Known& known) { return known.step.name == name; });
     const auto index = static_cast<std::size_t>(found - steps_.begin());

@@ -1,7 +1,8 @@
 /// How long a run of several steps still takes.
 ///
-/// Method   a step's seconds are what has passed in it over the share that is done; of a step to come, those
-///          of the last one of its kind, else as many as its guess is to the guesses of all that is known.
+/// Method   the current step's seconds are the time passed in it over the share that is done. A step to come
+///          takes its guess, scaled by the seconds over the guess of the last known step of its kind, else of
+///          all known steps together.
 /// Units    seconds; guesses only count in relation to each other.
 /// Threads  values; any. Reads no clock.
 #pragma once
@@ -24,10 +25,10 @@ public:
     TimeLeft() = default;
     explicit TimeLeft(std::vector<WorkStep> steps);
 
-    /// Step `name` is done by this share (0..1); it begins when it is named after another one. Steps before
-    /// it count as done. The time left of a step that was not planned is its own alone. Nothing while nothing
-    /// is known.
-    [[nodiscard]] std::optional<double> at(const std::string& name, double done, double now_s);
+    /// Takes the share (0..1) of step `name` that is done; returns the seconds left of the run, or of this
+    /// step alone if it was not planned. A step begins when it is named after another one; the steps before
+    /// it count as done. Returns nothing while nothing is known.
+    [[nodiscard]] std::optional<double> update(const std::string& name, double done, double now_s);
 
 private:
     struct Known {
@@ -39,10 +40,10 @@ private:
     std::vector<Known> steps_; ///< the planned ones first
     std::size_t planned_ = 0;
     std::optional<std::size_t> current_;
-    double begun_s_ = 0.0; ///< the current one
+    double begun_s_ = 0.0; ///< when the current step began
 };
 
-/// As a person says it: '40 s', '4 min', '2 h 5 min'.
+/// The time as a person says it: '40 s', '4 min', '2 h 5 min'.
 [[nodiscard]] std::string words_of_time(double seconds);
 
 } // namespace frustumscreen

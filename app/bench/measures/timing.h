@@ -16,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// Told as work goes on: the share that is done, 0..1.
+/// Called as work goes on, with the share that is done, 0..1.
 using Progress = std::function<void(double done)>;
 
 struct Spread {
@@ -27,15 +27,15 @@ struct Spread {
 [[nodiscard]] Spread spread_of(const std::vector<double>& values);
 
 struct TimingPlan {
-    int rounds = 3; ///< each pose is drawn so often by every technique, round by round
+    int rounds = 3; ///< how often every technique draws each pose
     int warm_up = 2;
 };
 
 struct FrameTimes {
-    std::vector<double> wall_ms; ///< one each round and pose
+    std::vector<double> wall_ms; ///< one for each round and pose
     std::vector<double> cpu_ms;
 };
-/// One each technique.
+/// One for each technique.
 [[nodiscard]] std::vector<FrameTimes> time_interleaved(std::span<Technique* const> techniques,
                                                        std::span<const BenchPose> poses,
                                                        const TimingPlan& plan, const Progress& progress);

@@ -33,7 +33,7 @@ bool errors_hold(const TechniqueResult& level, const Limits& limits) {
                        [&limits](const PictureError& error) { return silhouette_holds(error, limits); });
 }
 
-/// The cheapest level whose errors are fine, and whether it is cheap.
+/// Judges the cost of the cheapest level whose errors are within the fine limits.
 Verdict judge_fine(const SetUpResult& result) {
     const Limits& limits = fine_level_limits;
     const TechniqueResult* fine = nullptr;

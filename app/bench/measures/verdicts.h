@@ -20,11 +20,11 @@ struct Limits {
 };
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 5.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
-/// What the front is pushed to: the default level again, and some level of the pack, a fine one.
+/// Stricter limits: for the default level again, and for some fine level of the pack.
 inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 3.5};
 inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 5.0};
 /// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
-/// million triangles and of four; smaller ones (5 % aside) are not judged.
+/// million triangles and of four million; smaller ones (by more than 5 %) are not judged.
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
 [[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
 

@@ -29,7 +29,7 @@ std::string read_all(int descriptor) {
     }
 }
 
-/// Where a script dies of what it did not expect, Python's last line says of what.
+/// When a script ends with an exception, Python names it in the last line.
 std::string last_line(std::string text) {
     text.erase(text.find_last_not_of(" \n") + 1);
     return text.substr(text.rfind('\n') + 1); // the whole text where there is no line break

@@ -1,8 +1,7 @@
-/// Has tables drawn by draw_plots.py, which lies beside the program that the bench is.
+/// Draws tables with draw_plots.py, which lies beside the bench's program.
 ///
-/// Errors   what the script says: one line, as where Debian's python3-matplotlib is missing; a script that is
-/// not
-///          there or does not run.
+/// Errors   what the script says, in one line, for example that Debian's python3-matplotlib is missing; a
+///          script that is not there or does not run.
 /// Threads  one; waits for the script.
 #pragma once
 
@@ -14,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// Where the build leaves the script, seen from the program that runs.
+/// Where the build puts the script, from the path of the running program.
 [[nodiscard]] std::filesystem::path plot_script();
 
 /// `arguments` as the script has them: tables, each drawn as an SVG beside it, or --overall OUT.svg FOLDER...

@@ -142,8 +142,8 @@ StabilityResult baked(const StabilityOptions&) {
         least = std::fmin(least, metres);
         most = std::fmax(most, metres);
         result.rows.push_back({where + "pack not written or not verified", 0.0, written ? 0.0 : 1.0});
-        // The finest level's own tolerance, half a step of 16 bits each way, and where the input itself has
-        // only so many digits, those.
+        // The finest level's own tolerance, half a step of 16 bits each way, and the rounding of the input
+        // itself.
         const double input = offset * 0x1p-53 / (2.0 * scale) * 4.0;
         result.rows.push_back({where + "finest level off the sphere, box units", 6e-5 + 1.0 / 65535.0 + input,
                                off_sphere(*pack, pack->levels.back())});

@@ -1,5 +1,5 @@
-/// The picture the ordinary way, in long double: transforms as matrices of their own, a ray from the eye, a
-/// plane, a pinhole. Shares no arithmetic with app/geometry.
+/// Computes the picture the ordinary way, in long double: transforms as matrices of its own, a ray from the
+/// eye, a plane, a pinhole. Shares no arithmetic with app/geometry.
 ///
 /// Frames   table T and prop P as named; metres, pixels.
 /// Threads  pure; any.
@@ -58,7 +58,7 @@ struct Stage {
 
     [[nodiscard]] Vector eye_in_prop() const;
     [[nodiscard]] Vector lens_in_prop() const;
-    /// Height of the eye, of the lens, above the plane through a face's first three corners.
+    /// Height of a point above the plane through a face's first three corners.
     [[nodiscard]] Real height(const PropFace& face, const Vector& point) const;
     /// Nothing if the ray from the eye through `x` (prop frame) does not come down to the face's plane.
     [[nodiscard]] std::optional<Seen> see(const PropFace& face, const Vector& x) const;

@@ -75,7 +75,7 @@ StabilityResult dark_limit(const StabilityOptions&) {
     return {{{"sine at which a face goes dark, off 0.001 (0.057 deg), relative", 1e-6, off}}};
 }
 
-/// On and behind a face's plane that face is dark and the others are right.
+/// With the eye on or behind a face's plane, that face is dark and the others are right.
 StabilityResult on_and_behind(const StabilityOptions&) {
     PictureFigures figures;
     double lit = 0.0;
@@ -123,7 +123,7 @@ StabilityResult inside_the_artifact(const StabilityOptions&) {
     return {rows_of(figures, "", bound_px / 0.01, gpu_bound_px / 0.01)};
 }
 
-/// From the projector itself every point is drawn straight where the projector sees it, on any face.
+/// With the eye at the projector, every point is drawn where the projector sees it, on any face.
 StabilityResult at_the_projector(const StabilityOptions&) {
     exact::Stage stage = usual_stage();
     stage.table_from_prop = {glm::angleAxis(0.3, glm::dvec3(0, 0, 1)), {0.1, -0.05, 0.0}};

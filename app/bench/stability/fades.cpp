@@ -1,5 +1,5 @@
-// Fades: of artifacts, captions, levels. Closed forms of time; what is measured is that nothing jumps, that
-// no step matters, and that a fade may turn round at any moment.
+// Fades: of artifacts, captions, levels. They are closed forms of time. The cases measure that nothing jumps,
+// that the time step does not matter, and that a fade may turn round at any moment.
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
@@ -41,7 +41,7 @@ StabilityResult closed_forms(const StabilityOptions&) {
              {"falling, above 1, or not 0 before it begins", 0.0, falling}}};
 }
 
-/// Largest step of what is seen: brightness of an artifact, or both brightnesses where the artifact changes.
+/// Largest step of the brightness that is seen; where the artifact changes, both brightnesses add up.
 double exhibit_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
@@ -75,7 +75,7 @@ StabilityResult artifacts(const StabilityOptions&) {
     return {{{"largest jump, over steepest slope x step (2 at most)", 1.0 + 1e-9, over}}};
 }
 
-/// A fade asked for once a second of a late frame shows what it would have shown of an early one.
+/// The brightness at a time does not depend on how often it was asked for before.
 StabilityResult any_rhythm(const StabilityOptions&) {
     MonotonicTime start = from_microseconds(1'000'000);
     std::array<Selection, 2> selections{Selection(3, {"en"}, "en", start), Selection(3, {"en"}, "en", start)};
@@ -160,7 +160,7 @@ StabilityResult captions(const StabilityOptions&) {
              {"frames with a caption, short of 10000", 0.0, std::fmax(0.0, 10'000.0 - worst.shown)}}};
 }
 
-/// A tracker whose prop is lost and found at random, for moments and for long.
+/// A tracker whose prop is lost and found at random, for short and for long times.
 struct LostAndFound {
     std::mt19937 random{9};
     MonotonicTime next = from_microseconds(1'000'000);
@@ -177,7 +177,7 @@ struct LostAndFound {
     }
 };
 
-/// Largest step of brightness, or of both brightnesses where the pose is another.
+/// Largest step of brightness; where the pose changes, both brightnesses add up.
 double attract_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
@@ -204,7 +204,7 @@ StabilityResult lost_props(const StabilityOptions&) {
         const double allowed = std::fmin(2.0, steepest * step / to_seconds(Attract::each_way));
         over = std::fmax(over, attract_jump(step) / allowed);
     }
-    // The fade out and the one in again, looked at once and looked at often.
+    // Fades out and in again, in one object asked once and in another asked often.
     double other = 0.0;
     double rising = 0.0;
     const MonotonicTime start = from_microseconds(1'000'000);

@@ -55,7 +55,8 @@ double relieved_after(double step_s) {
     return -1.0;
 }
 
-/// With frames without end: when the expected time has risen to 90 % of the deadline, and the delay.
+/// The relief with infinitely many frames: the time until the expected time is 90 % of the deadline, plus the
+/// delay.
 double exact_relief() {
     const long double share = std::log(Governor::leave_share * deadline_ms / 8.5L) / std::log(2.5L);
     return static_cast<double>(-FrameTimeModel::time_constant_s * std::log1p(-share)) +
@@ -76,9 +77,8 @@ StabilityResult relief(const StabilityOptions&) {
     return {{{"relief later than with endless frames, in steps", 3.0, late}, {"earlier, s", 0.0, early}}};
 }
 
-/// Constant loads, for long. Which rung it ends at may depend on the way there, inside the hysteresis alone:
-/// never one that is left for being too slow while a quicker one is there, nor below one that would be
-/// entered.
+/// Constant loads over a long time. The last rung may depend on the way there only within the hysteresis: it
+/// is not so slow that it would be left for a quicker one, and no better one would be entered.
 StabilityResult constant_loads(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
@@ -135,7 +135,7 @@ StabilityResult jumping_loads(const StabilityOptions&) {
              {"changes a second", 1.0, most_per_s}}};
 }
 
-/// Time that stands still, goes back or leaps; times that are none.
+/// Time that stands still, goes back or leaps; frame times that are not times.
 StabilityResult odd_steps(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
@@ -156,14 +156,14 @@ StabilityResult odd_steps(const StabilityOptions&) {
     }
     wrong += governor.ignored() == 5 && governor.switches() == still ? 0.0 : 1.0;
     now = from_microseconds(2'000'000'000);
-    for (int k = 0; k < 2000; ++k) { // and then it goes on as if nothing had been
+    for (int k = 0; k < 2000; ++k) { // and then it works as before
         gpu.frame(governor, now += std::chrono::milliseconds(16), 1.0);
     }
     wrong += governor.index() == 0 && std::isfinite(governor.expected_ms()) ? 0.0 : 1.0;
     return {{{"decisions without time, of garbage, or none afterwards", 0.0, wrong}}};
 }
 
-/// Deadlines that everything meets, and that nothing does.
+/// Deadlines that every rung meets, and that no rung meets.
 StabilityResult deadlines(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;

@@ -126,7 +126,7 @@ double not_finite(const FramePlan& plan) {
     return count;
 }
 
-/// One face of the plan, or of none.
+/// Checks one face of the prop, which the plan may have or leave out.
 class FaceCheck {
 public:
     FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
@@ -147,7 +147,7 @@ public:
             {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}});
     }
 
-    /// Sines of the eye, seen from the box's centre, and of the lens, seen from the face's middle.
+    /// Uses the sines of the eye, seen from the box's centre, and of the lens, seen from the face's middle.
     void check() {
         const exact::Vector eye = stage_.eye_in_prop();
         const exact::Vector lens = stage_.lens_in_prop();
@@ -156,7 +156,7 @@ public:
         const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
         const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
-        constexpr exact::Real hair = 1e-9L; // on the limit itself, both are right
+        constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both right
         if (eye_sine < least_sine - hair || lens_sine < least_sine - hair) {
             figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
             return;
@@ -165,7 +165,7 @@ public:
             return;
         }
         sort_shown();
-        constexpr std::size_t most_triangles = 50'000; // of more, a sample
+        constexpr std::size_t most_triangles = 50'000; // of a larger level a sample is checked
         const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * most_triangles) + 1);
         for (std::size_t k = 0; k < artifact_.level.indices.size(); k += stride) {
             triangle(

@@ -1,8 +1,8 @@
-/// A frame plan held against the exact picture, point by point.
+/// Compares a frame plan with the exact picture, point by point.
 ///
-/// Points   of small triangles that are scattered through the artifact's box, and of others that are put on
-///          purpose where the eye looks through a face, so that a slanting view has as many as an open one.
-///          Positions are those that a pack stores, 16 bits an axis.
+/// Points   of small triangles that are scattered through the artifact's box, and of others that are put
+///          where the eye looks through a face, so that a slanting view has as many as an open one. Positions
+///          are those that a pack stores, 16 bits an axis.
 /// Threads  pure; any.
 #pragma once
 
@@ -42,12 +42,12 @@ struct PictureFigures {
     double wrong_faces = 0.0;  ///< planned, although the eye or the lens is not above them
     double not_finite = 0.0;   ///< numbers in the plan
 
-    void include(const PictureFigures& other); ///< the larger error, the sums
+    void include(const PictureFigures& other); ///< takes the larger errors, adds the counts
 };
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
                                         const FramePlan& plan,
                                         std::optional<std::size_t> only_face = std::nullopt);
-/// Of a seen artifact.
+/// The same for `seen_artifact` of the stage.
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
                                         std::optional<std::size_t> only_face = std::nullopt);
 
@@ -56,8 +56,8 @@ struct PictureFigures {
 inline constexpr double bound_px = 64.0 * 1280.0 * 0x1p-53;
 inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 
-/// Nothing missing, unlit, wrong or infinite; errors within the bounds. At least `least_points` were
-/// compared.
+/// Rows that require: nothing is missing, unlit, wrong or infinite; errors are within the bounds; at least
+/// `least_points` were compared.
 [[nodiscard]] std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where,
                                                 double bound_px, double gpu_bound_px,
                                                 double least_points = 100.0);

@@ -66,7 +66,7 @@ StabilityResult of_none(const StabilityOptions&) {
     return {{{"normalised: zero, NaN, infinite", 0.0, taken}}};
 }
 
-/// The tracker refuses them and keeps what it knew.
+/// The tracker refuses such poses and keeps what it knew.
 StabilityResult into_the_tracker(const StabilityOptions&) {
     SituationTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
@@ -113,7 +113,7 @@ StabilityResult from_a_file(const StabilityOptions&) {
              {"rows that are no pose, taken", 0.0, taken}}};
 }
 
-/// q and -q are one pose: the same picture to the last bit.
+/// q and -q are one pose: their pictures are the same to the last bit.
 StabilityResult of_either_sign(const StabilityOptions&) {
     double other = 0.0;
     const auto negated = [](const RigidTransform& t) { return RigidTransform{-t.rotation, t.translation}; };
@@ -133,7 +133,7 @@ StabilityResult of_either_sign(const StabilityOptions&) {
     return {{{"of 100 plans with the sign flipped, other than without", 0.0, other}}};
 }
 
-/// Should such a pose reach the plan all the same, it lights nothing that is not a number, and nothing ends.
+/// If such a pose still reaches the plan, the plan's numbers stay finite and nothing crashes.
 StabilityResult into_the_plan(const StabilityOptions&) {
     double wrong = 0.0;
     const SeenArtifact artifact = seen_artifact(usual_stage(), 2000);

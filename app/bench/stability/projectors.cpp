@@ -77,7 +77,7 @@ exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const ex
     return std::min(1.0L, reference * d * d * d / stage.height(face, lens));
 }
 
-/// The compensation's gain at points of a face, as 32-bit numbers leave for the shader.
+/// The compensation's gain at points of a face, in the 32-bit numbers that the shader gets.
 StabilityResult light(const StabilityOptions&) {
     StabilityResult result;
     for (const double degrees : {90.0, 10.0, 1.0, 0.1, 0.06}) {
@@ -130,7 +130,7 @@ StabilityResult coming_in_sight(const StabilityOptions&) {
         most = before < 0.0 ? most : std::fmax(most, std::abs(reference / before - 1.0));
         before = reference;
     }
-    // 90 % of the light goes by a smooth step over 11.5 degrees: at most 1.5 times its mean slope.
+    // A smooth step over 11.5 degrees takes 90 % of the light away: its slope is at most 1.5 times the mean.
     return {{{"largest change of the reference light in 0.001 deg, relative",
               1.5 * 0.9 / 11.5 * step_deg * 10.0, most}}};
 }
@@ -158,7 +158,7 @@ StabilityResult intrinsics(const StabilityOptions&) {
         stage.table_from_projector.translation.z = lens.height_m;
         stage.table_from_prop.translation = lens.prop_m;
         stage.eye_m += lens.prop_m;
-        // A focal length of f pixels tells f x 2^-24 of a pixel from the next.
+        // With a focal length of f pixels, rounding to 32 bits is f x 2^-24 pixels.
         const double size = std::fmax(1280.0, std::fmax(lens.pinhole.fx, lens.pinhole.fy)) / 1280.0;
         for (StabilityRow& row :
              rows_of(figures_of(stage), lens.name, size * bound_px / 0.1, size * gpu_bound_px / 0.1, 0.0)) {

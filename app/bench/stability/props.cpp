@@ -1,5 +1,5 @@
-// Where the prop stands: at the picture's edge, across it, outside, lifted, tilted; and how it may not be
-// given: mirrored, sheared, not finite.
+// Where the prop stands: at the picture's edge, across it, outside, lifted, tilted; and poses that are
+// refused: mirrored, sheared, not finite.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/themes.h"
@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Some edge-on views come with every pose: the bounds are those of the darkest slant.
+/// Every pose has some faces nearly edge-on, so the bounds are those of the flattest view that is still lit.
 std::vector<StabilityRow> rows_at_any_slant(const PictureFigures& figures, const std::string& where,
                                             double least_points = 100.0) {
     return rows_of(figures, where, bound_px / 1e-3, gpu_bound_px / 1e-3, least_points);
@@ -99,7 +99,7 @@ StabilityResult tilted(const StabilityOptions&) {
     return {rows_at_any_slant(figures, "", 10000.0)};
 }
 
-/// The rigid transform of a matrix: only of one that is rigid.
+/// Only a rigid matrix has a rigid transform.
 StabilityResult refused(const StabilityOptions&) {
     const glm::dmat4 good = RigidTransform{glm::angleAxis(1.0, glm::dvec3(0, 0.6, 0.8)), {1, 2, 3}}.matrix();
     std::vector<glm::dmat4> bad(7, good);

@@ -1,4 +1,4 @@
-// Shapes at the edge of being none: slivers, coplanar duplicates, a rod and a sheet, one triangle, nothing.
+// Shapes that are hardly shapes: slivers, coplanar duplicates, a rod and a sheet, one triangle, nothing.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/shapes.h"
@@ -24,7 +24,8 @@ Result<Pack> baked(const SourceMesh& mesh) {
     return bake(mesh, options);
 }
 
-/// What must hold of any pack: it is written and verified, its figures are numbers, its picture is finite.
+/// Checks what must be true of any pack: it can be written and verified, its figures are numbers, its picture
+/// is finite.
 void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
     if (!pack) {
         result.rows.push_back({"refused: " + pack.error().message, 0.0, 1.0});

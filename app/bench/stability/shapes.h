@@ -1,6 +1,7 @@
 /// Sources with known geometry.
 ///
-/// Frame    the file's own, +Z up. Threads  pure; any.
+/// Frame    the file's own, +Z up.
+/// Threads  pure; any.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"

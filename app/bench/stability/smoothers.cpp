@@ -46,7 +46,7 @@ StabilityResult closed_form(const StabilityOptions&) {
              {"longer steps that go less far", 0.0, falling}}};
 }
 
-/// Of a goal that jumps from 0 to 1: value after `count` steps.
+/// The value after `count` steps towards a goal that jumps from 0 to 1.
 double stepped(double dt, double tau, int count) {
     double x = 0.0;
     for (int k = 0; k < count; ++k) {
@@ -71,7 +71,7 @@ StabilityResult step_response(const StabilityOptions&) {
     return {{{"off the exact response, of each step, of 1", eps, off_per_step}}};
 }
 
-/// Goals that jump at every step, in -1..1: the follower stays among them.
+/// Goals that jump at every step, in -1..1: the follower stays in this range.
 StabilityResult no_overshoot(const StabilityOptions&) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> goal(-1.0, 1.0);
@@ -99,7 +99,7 @@ FrameTimeModel model_of(std::size_t rungs) {
     return FrameTimeModel(std::vector<RungTime>(rungs, {1, usual_work, 10.0}));
 }
 
-/// The load doubles: log2 of what is expected, over what it was, against 1 - exp(-t / time constant).
+/// The load doubles. log2 of the expected time over the old one is compared with 1 - exp(-t / time constant).
 struct LoadResponse {
     double off = 0.0;
     double back = 0.0; ///< falls, or goes beyond the goal
@@ -138,9 +138,9 @@ StabilityResult load_responses(const StabilityOptions&) {
              {"back, or beyond the goal", 8 * eps, back}}};
 }
 
-/// A rung that is twice as slow as it was measured: put down to it alone, then little by little to the load.
-/// What is expected of the rung itself is exact at any step; how the surprise is shared out between rung and
-/// load turns over at learning_s, to within one step.
+/// A rung is twice as slow as it was measured: first only its own factor learns this, then little by little
+/// the load takes it over. The rung's expected time is exact at any step; the share of the load begins to
+/// grow at learning_s, to within one step.
 StabilityResult rung_response(const StabilityOptions&) {
     StabilityResult result;
     double off = 0.0;
@@ -156,7 +156,7 @@ StabilityResult rung_response(const StabilityOptions&) {
     };
     constexpr double seconds = 2.0;
     const double total = exact_share(seconds, FrameTimeModel::time_constant_s);
-    // Learnt in learning_s, then flowing out.
+    // The factor is learnt in learning_s, then it flows out.
     const double own = exact_share(FrameTimeModel::learning_s, FrameTimeModel::time_constant_s) *
                        std::exp(-(seconds - FrameTimeModel::learning_s) / FrameTimeModel::forgetting_s);
     for (const double dt : {1e-5, 1e-4, 1e-3, 0.01, 0.1}) {
@@ -170,7 +170,7 @@ StabilityResult rung_response(const StabilityOptions&) {
     return result;
 }
 
-/// Any times in any rhythm: what is expected stays a number, within what load and rung may reach.
+/// Any times in any rhythm: the expected time stays a number within the limits of load and rung.
 StabilityResult garbage(const StabilityOptions&) {
     FrameTimeModel model = model_of(3);
     std::mt19937 random(12);

@@ -1,9 +1,9 @@
 /// Numerical stability on stiff and extreme cases, as a table: what was measured, against which bound, and
 /// whether it held. docs/stability.md says why each bound holds.
 ///
-/// Each case is a pure function. It holds the program's 64-bit (or, where the GPU takes over, 32-bit) numbers
-/// against long double arithmetic of its own: rays, planes and pinholes the ordinary way, exponentials from
-/// the library's long double.
+/// Each case is a pure function. It compares the program's 64-bit (or, where the GPU takes over, 32-bit)
+/// numbers with long double arithmetic of its own: rays, planes and pinholes the ordinary way, exponentials
+/// from the library's long double.
 ///
 /// Errors   none: what a case cannot find (recordings) it leaves out, with a sentence.
 /// Threads  one caller: floating-point exceptions are flags of the thread.
@@ -34,7 +34,7 @@ struct StabilityOptions {
     int triangles = 200'000;          ///< of the largest artifact
 };
 
-/// What may go in decides whether floating-point exceptions count: a NaN raises them in any comparison.
+/// Whether floating-point exceptions count depends on the inputs: a NaN raises them in any comparison.
 enum class FloatingPoint {
     Strict, ///< no invalid operation, division by zero or overflow anywhere
     Free,   ///< NaN and infinity go in, or foreign libraries work with them
@@ -50,17 +50,17 @@ struct StabilityCase {
 /// Every case, theme by theme.
 [[nodiscard]] std::vector<StabilityCase> stability_cases();
 
-/// Measures; of a strict case, the last row counts the kinds of floating-point exceptions that were raised.
+/// Measures a case. A strict case's last row counts the kinds of floating-point exceptions that were raised.
 [[nodiscard]] StabilityResult measure(const StabilityCase& which, const StabilityOptions& options);
 
-/// How far something that moves in time is from its exact solution, stepped so.
+/// How far a solution computed in steps is from the exact one.
 struct StepError {
     std::string what;  ///< with the error's unit
     double step = 0.0; ///< of smoothers: / time constant; else seconds
     double error = 0.0;
 };
 /// The step response of a first-order smoother over one time constant (one step, if that is longer), as the
-/// program steps it and by the textbook's other ways.
+/// program computes it and by other methods of the textbooks.
 [[nodiscard]] std::vector<StepError> smoother_step_errors();
 /// The program's own dynamics at their own time constants.
 [[nodiscard]] std::vector<StepError> program_step_errors();

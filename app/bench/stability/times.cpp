@@ -1,4 +1,4 @@
-// Time as it may come: standing still, backwards, by a nanosecond, by ten seconds, out of order; and real
+// Times that may occur: standing still, backwards, by a nanosecond, by ten seconds, out of order; and real
 // recordings.
 
 #include "app/bench/stability/themes.h"
@@ -52,7 +52,7 @@ PoseSample sample_at(MonotonicTime time, double x) {
     return sample;
 }
 
-/// Against the plain rule: of all samples so far the latest, of equals the last.
+/// Compares with the plain rule: the latest of all samples so far, and of equal times the last.
 StabilityResult situations(const StabilityOptions&) {
     SituationTracker tracker(glm::dvec3(0.0));
     double wrong = 0.0;
@@ -72,7 +72,7 @@ StabilityResult situations(const StabilityOptions&) {
     return {{{"of 20000 samples with steps of 0, +-1 ns, -3 s, 10 s, other than the latest", 0.0, wrong}}};
 }
 
-/// Each sample once, in order, when its time has come, whatever the rhythm of the polls.
+/// Each sample comes once, in order, when its time has come, however often it is polled.
 StabilityResult replays(const StabilityOptions&) {
     std::vector<PoseSample> recording;
     for (const MonotonicTime time : odd_times(2'000, 4)) {
@@ -214,7 +214,7 @@ StabilityResult recordings(const StabilityOptions& options) {
         wrong += samples.size() == forward ? 0.0 : 1.0;
         wrong +=
             samples.size() + static_cast<std::size_t>(recording->dropped_rows) == times.size() ? 0.0 : 1.0;
-        // Delivered in disorder, every time all but the latest of the pair counts.
+        // Delivers each pair in the wrong order: the later sample of the pair counts.
         SituationTracker tracker(glm::dvec3(0.0));
         for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
             wrong += tracker.take(samples[k + 1]) && tracker.take(samples[k]) ? 0.0 : 1.0;

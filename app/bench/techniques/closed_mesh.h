@@ -7,8 +7,8 @@
 
 namespace frustumscreen {
 
-/// Every edge is run through as often one way as the other (vertices nearer than 1e-6 of the mesh's size
-/// count as one), the volume is positive and no material is masked.
+/// True if every edge is used as often in one direction as in the other (vertices nearer than 1e-6 of the
+/// mesh's size count as one), the volume is positive and no material is masked.
 [[nodiscard]] bool is_closed(const SourceMesh& mesh);
 
 } // namespace frustumscreen

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// All that must be equal for two corners to be one vertex; compared as bytes.
+/// Everything that must be equal for two corners to be one vertex; it is compared as bytes.
 struct Vertex {
     glm::vec3 position; ///< from the box's corner: 32-bit where it is finest
     glm::vec2 uv;

@@ -6,7 +6,8 @@
 ///
 /// Frame    the source's own coordinates.
 /// Threads  pure; any.
-/// Library  meshoptimizer 0.18 (Garland & Heckbert 1997 quadrics; this version's know positions alone).
+/// Library  meshoptimizer 0.18 (Garland & Heckbert 1997 quadrics; this version's quadrics know only
+///          positions).
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"
@@ -20,7 +21,7 @@ namespace frustumscreen {
 struct LevelOfDetail {
     std::size_t target = 0; ///< triangles that were asked for; a source of many seams keeps more
     SourceMesh mesh;
-    double error = 0.0; ///< that the simplifier says: a root of mean squares, in the source's units
+    double error = 0.0; ///< reported by the simplifier: a root of mean squares, in the source's units
 };
 
 /// One for each target below the source's number of triangles, in ascending order; a target that gives no

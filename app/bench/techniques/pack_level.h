@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// How the exhibit's renderer is set up for the pictures that are measured.
+/// Options of the exhibit's renderer for the pictures that are measured.
 struct PictureOptions {
     int samples = 0; ///< a pixel; 0 = what the pack asks for
 };

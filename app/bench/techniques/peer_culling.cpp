@@ -71,7 +71,7 @@ void VisibleParts::find(const PeerTriangles& mesh, const PeerView& view) {
             ranges_[face].push_back({first, static_cast<std::uint32_t>(indices_.size()) - first});
         }
     }
-    glBindVertexArray(0); // a vertex array keeps the buffer that is bound while it is
+    glBindVertexArray(0); // a bound vertex array would store the next binding
     bind();
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices_.size() * sizeof(std::uint32_t)),
                  indices_.data(), GL_STREAM_DRAW);

@@ -32,7 +32,7 @@ public:
     VisibleParts() : buffer_(GlBuffer::generate()) {}
     void find(const PeerTriangles& mesh, const PeerView& view);
     void bind() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.get()); }
-    /// Of the view's face number `face`.
+    /// The triangles of a part on the view's face number `face`.
     [[nodiscard]] const IndexRange& range(std::size_t face, std::size_t part) const {
         return ranges_[face][part];
     }

@@ -1,4 +1,4 @@
-/// The little of OpenGL ES that the bench's peers need: offscreen pictures and the prop's faces.
+/// The parts of OpenGL ES that the bench's peers need: offscreen pictures and the prop's faces.
 ///
 /// Threads  the one whose context is current, which must outlive every object here.
 /// Errors   a target that the driver cannot hold is an Internal error.
@@ -35,7 +35,7 @@ using OutputPrograms = std::array<GlProgram, 2>;
 [[nodiscard]] Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
                                                    std::string_view fragment);
 
-/// A technique that draws points as it draws colours, into a picture of their own.
+/// A technique that draws points the way it draws colours, into a separate picture.
 class PeerTechnique : public Technique {
 public:
     [[nodiscard]] std::string name() const override { return name_; }
@@ -55,7 +55,7 @@ private:
     OffscreenTarget points_;
 };
 
-/// What a pose means for the peers' passes.
+/// A pose as the peers' passes need it.
 struct PeerView {
     glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero
     glm::dvec3 eye_m{0.0};              ///< prop frame

@@ -2,7 +2,8 @@
 ///
 /// Frame    prop frame, metres, placed in 64-bit.
 /// Colour   base colour * texture (trilinear) * vertex colour, linear light; MASK cut, BLEND opaque,
-/// two-sided. Threads  the one whose context is current.
+///          two-sided.
+/// Threads  the one whose context is current.
 #pragma once
 
 #include "app/bench/techniques/peer_culling.h"
@@ -18,14 +19,14 @@ namespace frustumscreen {
 
 class PeerMesh {
 public:
-    /// `from_outside`: its triangles are only to be seen from outside, also where it is not closed.
+    /// `from_outside`: its triangles are drawn only from outside, even if it is not closed.
     [[nodiscard]] static Result<std::shared_ptr<const PeerMesh>>
     upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside = false);
-    /// Into the bound framebuffer with the state as it is, but for culling: the backs of a closed mesh are
-    /// left out. `front`: GL_CCW, or GL_CW where the clip matrix mirrors (row 0 of the projector's picture is
-    /// its top).
+    /// Draws into the bound framebuffer and changes no state but culling: it leaves out the backs of a closed
+    /// mesh. `front`: GL_CCW, or GL_CW where the clip matrix mirrors (row 0 of the projector's picture is its
+    /// top).
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front) const;
-    /// Only what was found to be visible on a face of the view.
+    /// Draws only what was found to be visible on a face of the view.
     void draw(const glm::dmat4& clip_from_prop, Output output, GLenum front, const VisibleParts& visible,
               std::size_t face) const;
     [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }

@@ -217,7 +217,7 @@ private:
         }
     }
 
-    /// The lit part into the framebuffer, and black into memory again for the next picture.
+    /// Puts the lit part into the framebuffer, and makes memory black again for the next picture.
     void show() {
         glBindFramebuffer(GL_FRAMEBUFFER, stage_.framebuffer);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -2,10 +2,10 @@
 /// framebuffer.
 ///
 /// Rays     for each face a pixel's ray from the eye is linear in the pixel (64-bit set-up); packets of 8
-///          along rows, of those pixels alone that may show the artifact's box. Embree's kernels, 32-bit,
-///          every core.
+///          along rows, only of pixels that may show the artifact's box. Embree's kernels, 32-bit, every
+///          core.
 /// Colour   as the truth's one ray: bilinear, base level.
-/// Threads  the one whose context is current; it helps as many more as there are cores.
+/// Threads  the one whose context is current; the rays are cast on every core.
 #pragma once
 
 #include "app/bench/techniques/peer_gl.h"

@@ -28,7 +28,8 @@ RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
     return {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(over_table, 0.0)};
 }
 
-/// Turned anyhow (Shoemake 1992, uniform random rotations), from just above the table to a forearm higher.
+/// Turned in any way (Shoemake 1992, uniform random rotations), from just above the table to a forearm
+/// higher.
 RigidTransform held(const PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
     constexpr double highest_above_table_m = 0.25;
     const double share = draw.between(0.0, 1.0);
@@ -94,8 +95,8 @@ Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropSh
         if (tries > static_cast<std::int64_t>(count) * most_tries_each) {
             return fail(
                 ErrorKind::BadConfiguration,
-                "hardly any place on the table has the prop inside the picture with every face that is "
-                "seen lit; move the projector higher or make the prop smaller");
+                "hardly any place on the table has the prop inside the picture and light on every face that "
+                "is seen; move the projector higher or make the prop smaller");
         }
         const BenchPose pose = draw_one(settings, prop, draw);
         if (in_zone(settings, prop, pose)) {

@@ -17,7 +17,7 @@ struct SurfaceColour {
     float alpha = 1.0F;
 };
 
-/// Of triangle `triangle` at barycentric (u, v): corner weights (1 - u - v, u, v).
+/// The colour of triangle `triangle` at barycentric (u, v): corner weights (1 - u - v, u, v).
 [[nodiscard]] SurfaceColour surface_colour(const SourceMesh& mesh, std::uint32_t triangle, double u,
                                            double v);
 

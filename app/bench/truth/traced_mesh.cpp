@@ -57,7 +57,7 @@ void TracedMesh::add_triangles() {
         rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh_->triangles.size()));
     if (vertices == nullptr || indices == nullptr) {
-        return; // rtcGetDeviceError tells `build`
+        return; // `build` asks rtcGetDeviceError
     }
     for (const glm::dvec3& position : positions_) {
         for (int axis = 0; axis < 3; ++axis) {

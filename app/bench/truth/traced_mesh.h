@@ -1,4 +1,4 @@
-/// A source mesh placed in the prop, as Embree casts rays at it: the truth and the ray-cast peer share one.
+/// A source mesh placed in the prop, for Embree to cast rays at. The truth and the ray-cast peer share one.
 ///
 /// Frame    prop frame, metres; placed in 64-bit, Embree's copy is 32-bit (robust).
 /// Threads  immutable once built; any.
@@ -21,9 +21,9 @@ public:
     build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact);
 
     [[nodiscard]] const SourceMesh& mesh() const { return *mesh_; }
-    /// Of the triangles' corners, with a margin for float rounding.
+    /// The box of the triangles' corners, with a margin for float rounding.
     [[nodiscard]] const Box& box() const { return box_; }
-    /// Cuts what a material masks.
+    /// Rays pass through what a material masks.
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
     [[nodiscard]] bool refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,

@@ -78,7 +78,7 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     if (!enters(traced_->box(), origin, direction, enter)) {
         return false;
     }
-    // Starting at the box keeps float's precision for the artifact.
+    // The ray starts at the box, to keep float's precision for the artifact.
     const glm::dvec3 start = origin + enter * direction;
     const glm::dvec3 unit = glm::normalize(direction);
     RTCRayHit ray{};
@@ -99,7 +99,7 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
         return false;
     }
     glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
-    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // else Embree's own stands
+    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // if false, Embree's own values stay
     hit = {ray.hit.primID, start + t_u_v.x * unit,
            surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
     return true;

@@ -8,7 +8,7 @@
 ///
 /// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
 /// Set-up   vertices are placed and hits refined in 64-bit; Embree (float, robust) only finds the triangle.
-/// Threads  `cast_*` use every core inside; one call at a time is meant.
+/// Threads  `cast` uses every core inside; make one call at a time.
 #pragma once
 
 #include "app/bench/truth/surface_colour.h"

@@ -41,7 +41,7 @@ int run(int argc, char** argv) {
     auto* name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
     app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %")->capture_default_str();
     auto* output_option = app.add_option("-o,--output", output, "GLB file to write");
-    auto* list_option = app.add_flag("--list", list, "Print name, title and text of each, parted by tabs");
+    auto* list_option = app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
     app.add_option("--language", language, "Language of --list: en, de, fr, es, el")->capture_default_str();
     list_option->excludes(name_option)->excludes(output_option);
     try {

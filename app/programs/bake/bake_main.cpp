@@ -65,7 +65,7 @@ Result<void> describe(Pack& pack, const Arguments& arguments) {
     return {};
 }
 
-/// Unlit, such a mesh would be one flat colour.
+/// Without colours an unlit mesh would be one flat area.
 bool has_colours(const SourceMesh& mesh) {
     const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
         return each.base_colour == mesh.materials.front().base_colour;
@@ -98,7 +98,7 @@ Result<Pack> bake_file(const Arguments& arguments) {
     return pack;
 }
 
-/// Before the work: the scan stays, an unknown file too, and what is made can be kept.
+/// Checks before the work that no scan and no unknown file is overwritten, and that the pack can be written.
 Result<void> check_output(const Arguments& arguments) {
     if (Result<void> safe = check_output_is_no_input(arguments.output, {{arguments.input}}); !safe) {
         return safe;
@@ -149,7 +149,7 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     app.add_flag("--unlit", arguments.options.unlit,
-                 "base colour alone, no museum light: for colours that have their light in them");
+                 "base colour alone, no museum light: for colours that already contain light");
     app.add_option("--prop", arguments.prop, "prop whose directions the relief is made for")
         ->check(CLI::IsMember({"frustum", "cube"}))
         ->capture_default_str();

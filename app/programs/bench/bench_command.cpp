@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 void BenchProgress::show(const std::string& step, double done) {
     const double passed_s = to_seconds(monotonic_now() - started_);
-    const std::optional<double> left_s = time_left_.at(step, done, passed_s);
+    const std::optional<double> left_s = time_left_.update(step, done, passed_s);
     line_.say(fmt::format("{} {:.0f} %{}", step, done * 100.0,
                           left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string()));
 }

@@ -27,7 +27,8 @@ namespace frustumscreen {
 /// The step that a long run is at, and how long it still takes.
 class BenchProgress {
 public:
-    /// The steps to come, so that the time left is that of the whole run; without, of each step alone.
+    /// Sets the steps to come, so that the time left is that of the whole run. Without it, it is that of each
+    /// step alone.
     void plan(std::vector<WorkStep> steps) { time_left_ = TimeLeft(std::move(steps)); }
     void show(const std::string& step, double done);
     void clear() { line_.clear(); }
@@ -43,7 +44,7 @@ struct BenchCommand {
     std::function<Result<void>(BenchProgress&)> run;
 };
 
-/// Where the results go and whose settings hold; every command has these.
+/// Where the results go and which settings are used; every command has these options.
 struct BenchPlace {
     std::filesystem::path out;
     std::vector<std::filesystem::path> configs; ///< none: the near and the shipped set-up
@@ -67,11 +68,11 @@ struct LoadedArtifact {
     VerifiedPack pack;
     std::shared_ptr<const SourceMesh> mesh;
 };
-/// Warns on standard error of a pack that was not baked with --unlit, and of a mesh that is not its source.
+/// Warns on standard error if the pack was not baked with --unlit, or if the mesh is not its source.
 [[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
 [[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
 
-/// Files in --out, all or the first that fails.
+/// Writes files into --out; stops at the first that fails.
 [[nodiscard]] Result<void> write_all(const std::filesystem::path& folder,
                                      const std::vector<std::pair<std::string, std::string>>& files);
 /// Draws tables that are in `folder`, each as an SVG beside it.

@@ -31,7 +31,7 @@ std::vector<WorkStep> all_steps(const std::vector<SetUp>& set_ups, const LoadedA
     return steps;
 }
 
-/// The pack's own figures, measured again; in mm on the first set-up's prop.
+/// Measures the pack's own figures again, in mm on the first set-up's prop.
 std::vector<Verdict> judge_figures(const LoadedArtifact& artifact, const SetUp& set_up,
                                    BenchProgress& progress) {
     progress.show("the pack's own figures", 0.0);

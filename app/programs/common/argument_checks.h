@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// The form of the word alone: which levels there are stands in the packs.
+/// Checks only the form of the word: which levels exist is known from the packs.
 [[nodiscard]] inline CLI::Validator is_technique_word() {
     const auto check = [](std::string& text) {
         return is_technique(text)

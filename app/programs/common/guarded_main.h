@@ -1,4 +1,5 @@
-/// The last net under every program: what no room has turned into a Result ends in one line and status 1.
+/// The last safety net of every program: an exception that no room turned into a Result ends in one line and
+/// status 1.
 ///
 /// Threads  the main one.
 #pragma once

@@ -16,7 +16,7 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(std::size_t done, std::size_t all);
     void say(std::string_view line);
-    /// The line is free again, for what a program has to tell.
+    /// Clears the line, so that the program can print.
     void clear();
 
 private:

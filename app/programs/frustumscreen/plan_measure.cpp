@@ -26,13 +26,13 @@ double microseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
-/// Held by the program, in the allocator's own books.
+/// Bytes that the program holds, as the allocator counts them.
 std::int64_t allocated_bytes() {
     const struct mallinfo2 info = ::mallinfo2();
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-/// The situations that the devices of the plan come to, half a second apart.
+/// The situations that the plan's devices give, half a second apart.
 Result<std::vector<Situation>> situations(const Settings& settings, const DevicePlan& devices) {
     const MonotonicTime start;
     Result<Inputs> inputs = make_inputs(settings, devices, std::nullopt, start);
@@ -86,7 +86,7 @@ public:
               Display& display)
         : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
 
-    /// Loaded some times and let go again, alone each time; then loaded to stay.
+    /// Loads the scene several times, alone each time, and frees it; then loads it to keep it.
     [[nodiscard]] Result<Scene> load(unsigned economies) {
         std::vector<double> load_ms;
         std::vector<double> ram_bytes;
@@ -123,7 +123,7 @@ public:
         return scene;
     }
 
-    /// All scenes at each pose, one after the other, each round in another order.
+    /// Draws all scenes at each pose, one after the other, each round in another order.
     [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
         const Result<std::vector<Situation>> poses = situations(settings_, devices_);
         if (!poses) {

@@ -1,8 +1,8 @@
-/// What leaving out saves, measured: the same scene is loaded as planned, with everything, and once for each
-/// economy without that one alone; then all of them draw the same poses in turn.
+/// Measures what leaving things out saves. The same scene is loaded as planned, with everything, and once for
+/// each economy with that economy alone switched off; then all of them draw the same poses in turn.
 ///
 /// Units    GPU bytes as the driver says; RAM bytes that the program holds from the allocator once it has
-///          loaded (a software GPU keeps its memory there too, so that these are then counted in both);
+///          loaded (a software GPU keeps its memory there too, so these bytes are then counted in both);
 ///          milliseconds of loading; microseconds of drawing, until the picture is done.
 /// Threads  the render thread, with the display's context current.
 /// Errors   as ArtifactShow.
@@ -36,7 +36,7 @@ struct EconomySaving {
 struct PlanMeasurement {
     std::unique_ptr<ArtifactShow> show; ///< as planned
     SceneCost everything, planned, saved;
-    std::vector<EconomySaving> economies; ///< of those that leave something out
+    std::vector<EconomySaving> economies; ///< those that leave something out
     std::size_t poses = 0;
     std::string renderer; ///< the driver's name for the GPU
 };

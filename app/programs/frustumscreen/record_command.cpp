@@ -28,7 +28,7 @@ namespace {
 
 constexpr Nanoseconds between_polls = std::chrono::milliseconds(2);
 constexpr double longest_s = 86400.0;
-/// From the recording's end to the program's; a thread may hang in its device.
+/// The longest time from the recording's end to the program's: a thread may hang in its device.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
 
 struct Request {
@@ -48,7 +48,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
         ->check(seconds_between(0.01, longest_s));
     app.add_flag("--raw", request.raw,
-                 "the packets with their times of arrival, in a new file that is good up to any cut; "
+                 "the packets with their times of arrival, in a new file, readable also if it is cut off; "
                  "frustumscreen-poses convert makes poses of it");
     try {
         app.parse(argc, argv);
@@ -59,7 +59,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     return 0;
 }
 
-/// Polls until the time is over or a stop is asked for; says each new state of the tracker on standard error.
+/// Polls until the time is over or a stop is asked for; writes each new state of the tracker to standard
+/// error.
 class Recording {
 public:
     Recording(Tracker& tracker, MonotonicTime start) : tracker_(tracker), start_(start) {}
@@ -84,7 +85,7 @@ public:
 private:
     void poll(MonotonicTime now, bool keep) {
         const std::size_t before = poses_.size();
-        static_cast<void>(tracker_.poll(now, poses_)); // what is the matter stands in the state
+        static_cast<void>(tracker_.poll(now, poses_)); // the tracker's state says what is wrong
         if (!keep) {
             poses_.resize(before);
         }
@@ -100,7 +101,7 @@ private:
     Sentence state_;
 };
 
-/// Times from the beginning on; sensors that are no station of ours are left out.
+/// Times count from the beginning; sensors that are not one of our stations are left out.
 std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, MonotonicTime start) {
     std::vector<PoseSample> kept;
     for (PoseSample pose : poses) {
@@ -150,7 +151,7 @@ Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracke
     return {};
 }
 
-/// `inputs` are the caller's to end: a thread of theirs may hang in its device.
+/// The caller ends `inputs`: one of their threads may hang in its device.
 Result<void> record(const Request& request, Inputs& inputs) {
     const StopSignals stop;
     const Result<CheckedSettings> settings = load_settings(request.config);
@@ -183,7 +184,7 @@ Result<void> record(const Request& request, Inputs& inputs) {
     inputs = std::move(*made);
     Recording recording(*inputs.tracker, start);
     recording.run(request, stop, !request.raw);
-    const StopSignals::AtOnce at_once(stop); // a disk may take long, or hang; whoever asks twice means it
+    const StopSignals::AtOnce at_once(stop); // a disk may hang: from here a stop ends the program
     return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
                        : write_pose_recording(request, inputs, recording, start);
 }
@@ -200,9 +201,9 @@ int record_command(int argc, char** argv) {
     const int status = exit_status("frustumscreen", record(request, inputs));
     std::fflush(stdout);
     if (status != 0) {
-        std::quick_exit(status); // a device that hangs must not make a success of it
+        std::quick_exit(status); // a device that hangs must not turn the failure into a success
     }
-    end_within(longest_stop); // all is in the file; only the device is left to put away
+    end_within(longest_stop); // all is in the file; only the device is left to close
     return status;
 }
 

@@ -99,7 +99,7 @@ void say_off_the_table(const std::vector<Situation>& frames, const TableSettings
     }
 }
 
-/// Everything that one picture is made with.
+/// Everything that is needed to make one picture.
 struct Studio {
     const Request& request;
     const Settings& settings;
@@ -115,7 +115,7 @@ VisitorScene visitor_scene(const Studio& studio, const Situation& situation) {
             {studio.settings.table.width_m, studio.settings.table.depth_m}};
 }
 
-/// Writes one frame's files; its line of frames.csv.
+/// Writes one frame's files; returns its line of frames.csv.
 Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Situation& situation,
                                std::vector<VisitorFrame>& visitor_frames) {
     OfflinePicture picture = studio.renderer.draw(situation.table_from_prop, situation.eye_m);

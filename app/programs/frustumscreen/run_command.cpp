@@ -75,7 +75,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(CLI::Range(1, 1000000))
         ->needs(seconds);
     app.add_flag("--everything", everything,
-                 "leave nothing out that this scene does not need, to compare with; see frustumscreen plan");
+                 "load also what this scene does not need, to compare; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
     try {
         app.parse(argc, argv);
@@ -87,20 +87,20 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     return 0;
 }
 
-/// From the end of the loop: a device's thread that does not come back is not waited for.
+/// The longest time from the loop's end to the program's: it does not wait for a device's thread that hangs.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
 constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
 /// While the machine boots, udev may not have given the card to the exhibit's user yet.
 constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
-/// For so long a service shows why there is nothing to show, before it ends and is started to look for packs
-/// anew.
+/// A service shows for this long why it has nothing to show. Then it ends, is started again and looks for
+/// packs again.
 constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
 
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
 }
 
-/// As a service, a graphics card whose driver comes late is waited for, and for a while one that cannot be
+/// A service waits for a graphics card whose driver comes late, and for a while for a card that cannot be
 /// used yet; a person is told at once.
 Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const Settings& settings,
                                                   const StopSignals& stop_signals, ServiceManager& manager,
@@ -127,7 +127,7 @@ Result<std::unique_ptr<Display>> wait_for_display(const Request& request, const 
         }
         manager.status(why);
         manager.still_starting(10 * between_looks_for_card);
-        const StopSignals::AtOnce at_once(stop_signals); // nothing to put away yet
+        const StopSignals::AtOnce at_once(stop_signals); // nothing to close yet
         static_cast<void>(hotplug->wait(between_looks_for_card));
     }
 }
@@ -154,7 +154,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     return std::make_unique<LiveExhibit>(settings, std::move(*artifacts), std::move(exhibit), display.name());
 }
 
-/// As a service, a recording that cannot be made is said, and the exhibit goes on without it.
+/// A service that cannot record says so, and the exhibit goes on without the recording.
 Result<Inputs> open_inputs(const Request& request, const Settings& settings, const DevicePlan& devices,
                            bool is_service, std::optional<Nanoseconds> press_every, MonotonicTime start) {
     std::unique_ptr<PacketRecorder> recorder;
@@ -176,7 +176,7 @@ Result<Inputs> open_inputs(const Request& request, const Settings& settings, con
     return inputs;
 }
 
-/// On the table for the staff, where a person would read standard error.
+/// Shows the error on the table for the staff, since nobody reads a service's standard error.
 Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
                                           const Error& why) {
     journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
@@ -260,7 +260,7 @@ Result<void> run(const Request& request) {
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
     Result<std::unique_ptr<Show>> show = [&] {
-        const StopSignals::AtOnce at_once(stop_signals); // loading takes long, and leaves nothing behind
+        const StopSignals::AtOnce at_once(stop_signals); // loading takes long and leaves nothing behind
         return make_show(request, **settings, devices, **display, now());
     }();
     std::optional<Error> excuse;

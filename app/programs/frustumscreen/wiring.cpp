@@ -27,7 +27,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of the zone in which every face is lit: at its edge the light only grazes one.
+/// The share of the zone in which every face is lit: at the zone's edge the light only grazes a face.
 constexpr double used_share_of_zone = 0.75;
 
 Nanoseconds nanoseconds(double seconds) {

@@ -1,8 +1,8 @@
 /// The one place that names concrete devices.
 ///
 /// Threads  the render thread: the display's context becomes current on it.
-/// Errors   a pose file or recording that cannot be read, a recording of what has no packets, no OpenGL ES, a
-/// display that this build does not have.
+/// Errors   a pose file or recording that cannot be read, a recording of a tracker that has no packets, no
+///          OpenGL ES, a display that this build does not have.
 #pragma once
 
 #include "app/scene/scene_plan.h"
@@ -23,8 +23,8 @@ namespace frustumscreen {
 /// A new file for the tracker's packets.
 [[nodiscard]] Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind,
                                                                     const std::filesystem::path& path);
-/// What the plan has, no more. `press_every`: press 'next artifact' evenly in place of the panel's script.
-/// `recorder`, if any, has the tracker's packets.
+/// Opens what the plan has and nothing else. `press_every`: presses 'next artifact' this often in place of
+/// the panel's script. `recorder`, if any, gets the tracker's packets.
 [[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                                          std::optional<Nanoseconds> press_every, MonotonicTime start,
                                          std::unique_ptr<PacketRecorder> recorder = nullptr);

@@ -30,7 +30,7 @@ void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(2));
 }
 
-/// Every pack is looked at, also after one that is not sound.
+/// Checks every pack, also after one that is not sound.
 int verify(const Request& request) {
     int status = 0;
     auto report = nlohmann::ordered_json::array();
@@ -53,7 +53,7 @@ int verify(const Request& request) {
     return status;
 }
 
-/// Of the kind that it was baked for.
+/// The usual prop of the kind that the pack was baked for.
 PropSettings usual_prop(const Pack& pack) {
     return pack.prop_kind == name_of(PropKind::Cube) ? cube_settings() : PropSettings{};
 }

@@ -1,4 +1,4 @@
-/// What frustumscreen-pack tells about a pack, for programs (JSON) and for people.
+/// What frustumscreen-pack says about a pack, for programs (JSON) and for people.
 ///
 /// Errors   as verify_pack, beginning with the file's name.
 /// Threads  one caller.

@@ -24,7 +24,7 @@ constexpr std::size_t largest_text_bytes = std::size_t{1} << 30;
 struct ConvertRequest {
     std::string input;
     std::string output;
-    std::string settings; ///< packets: the registration
+    std::string settings; ///< for packets: the settings with the registration
     RecordingOptions recording;
 };
 
@@ -44,7 +44,7 @@ Result<void> write_pose_file(const std::string& path, const std::string& comment
     return write_file(path, as_bytes(text));
 }
 
-/// Packets of `frustumscreen record --raw`: the poses that the exhibit had then.
+/// Converts packets of `frustumscreen record --raw` to the poses that the exhibit had then.
 Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
     Result<PacketReplay> replay = PacketReplay::open(std::move(bytes), request.input);
     if (!replay) {
@@ -106,7 +106,7 @@ Result<void> convert(const ConvertRequest& request) {
     return written;
 }
 
-/// The prop stays where every face is lit at every yaw, whoever looks.
+/// The prop stays where every face is lit at every yaw, for any eye.
 Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
     const auto settings = load_settings(request.settings);
     if (!settings) {
@@ -131,7 +131,7 @@ Result<void> simulate(const SimulateRequest& request) {
         return tl::unexpected(visitor.error());
     }
     std::vector<PoseSample> samples;
-    // One period less: S seconds at H hertz are S x H poses of each station.
+    // The last pose is one period before the end: S seconds at H hertz are S x H poses of each station.
     const auto last_ns = static_cast<std::int64_t>((request.seconds - 0.5 / request.rate_hz) * 1e9);
     SimulatedTracker tracker(*visitor, MonotonicTime{});
     Result<void> polled = tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples);

@@ -1,9 +1,10 @@
 /// A short looping animation of the visitor's view, as animated WebP.
 ///
 /// The camera stands at the visitor's eye and keeps looking at the middle of the places where the prop is, so
-/// that the prop is seen to move. Played there and back, so that it loops without a jump.
+/// that the prop is seen to move. It plays forwards and backwards, so that it loops without a jump.
 ///
-/// Library  libwebp's WebPAnimEncoder. Errors  a picture that cannot be read; the encoder has no memory.
+/// Library  libwebp's WebPAnimEncoder.
+/// Errors   a picture that cannot be read; the encoder has no memory.
 #pragma once
 
 #include "app/programs/sheet/sheet_frames.h"

@@ -48,11 +48,11 @@ struct FrameFolder {
                                                     const std::string& label,
                                                     const glm::dvec3& default_eye_m);
 
-/// The middle one of each of `count` equal parts; all if there are no more.
+/// The middle frame of each of `count` equal parts; all frames if there are not more.
 [[nodiscard]] std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_t count);
 
-/// Those that look unlike each one before: another artifact, place, turn or eye. The prop rests most of the
-/// time.
+/// The frames that look different from all before: another artifact, place, turn or eye. The prop rests most
+/// of the time.
 [[nodiscard]] std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames);
 
 /// Errors: not a PNG; another size than the configured projector's shape.

@@ -26,11 +26,11 @@ constexpr glm::ivec2 projector_tile{400, 340};
 constexpr glm::ivec2 visitor_tile{544, 340};
 constexpr glm::ivec2 cell(projector_tile.x + 4 + visitor_tile.x, projector_tile.y + label_height);
 
-constexpr double most_zoom = 1.5; ///< of what shows the prop alone
+constexpr double most_zoom = 1.5; ///< of a view that shows the prop alone
 constexpr double least_zoom = 0.5;
-constexpr double filled = 0.94;  ///< of the tile
-constexpr int lit_code = 40;     ///< a picture's letters are brighter
-constexpr int between_looks = 4; ///< pixels
+constexpr double filled = 0.94;  ///< share of the tile
+constexpr int lit_code = 40;     ///< letters in a picture are brighter
+constexpr int between_looks = 4; ///< pixels from one that is looked at to the next
 constexpr double beside_the_prop_px = 4.0;
 
 /// A part of the projector's picture, in its pixels.
@@ -58,7 +58,7 @@ std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) 
     return outlines;
 }
 
-/// Around the prop, in the tile's shape, a little wider.
+/// A crop around the prop, in the tile's shape, a little wider.
 Crop around(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());

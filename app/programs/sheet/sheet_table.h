@@ -11,8 +11,8 @@ namespace frustumscreen {
 struct TableLine {
     std::string artifact;
     std::string technique;
-    std::size_t frames =
-        0; ///< drawn; the first of a run, which compiles shaders, is left out where there are more
+    /// Drawn ones; the first of a run, which compiles shaders, is left out if there are more.
+    std::size_t frames = 0;
     std::size_t unchanged = 0;
     double median_ms = 0.0;
     double p99_ms = 0.0;

@@ -48,7 +48,7 @@ std::size_t pyramid_of(const glm::ivec2& direction) {
 }
 constexpr std::size_t all_texels = 4;
 
-/// Only texels behind which, in `direction`, the surface falls or the image ends; the others are at the
+/// Keeps only texels behind which, in `direction`, the surface falls or the image ends; the others go to the
 /// bottom.
 Image16 crests(const Image16& depth, const glm::ivec2& direction) {
     Image16 result = depth;

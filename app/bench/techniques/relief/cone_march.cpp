@@ -85,7 +85,7 @@ struct Cones { ///< on an axis's low and high surface
     Image16 high;
 };
 
-/// Of the images along `axis`; 0 where a side has none.
+/// The cones of the images along `axis`; 0 where a side has none.
 Cones cones_of(const ReliefImages& images, int axis, Image16 (*make)(const Image16&)) {
     Cones cones{{images.texels, images.texels}, {images.texels, images.texels}};
     for (const ReliefImage& image : images.images) {

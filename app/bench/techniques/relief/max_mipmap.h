@@ -1,6 +1,7 @@
 /// Maximum mipmap of a dual-depth relief image: each texel bounds the material of the four below it.
 ///
-/// Shape    level 0 is the image, each next half as wide and high, the last 1 x 1. Sides are powers of two.
+/// Shape    level 0 is the image, each next level is half as wide and high, the last is 1 x 1. Sides are
+///          powers of two.
 /// Codes    as `material_along`: (low, high); low > high is nothing.
 /// Threads  pure; any.
 /// Source   Tevs, Ihrke & Seidel 2008, here with the back's minimum beside the front's maximum.

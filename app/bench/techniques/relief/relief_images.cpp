@@ -21,8 +21,8 @@ int axis_of(const glm::dvec3& normal) {
     return size.y >= size.z ? 1 : 2;
 }
 
-/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area. Where all four
-/// miss what is thinner than a texel, that of its middle.
+/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area. If all four miss
+/// something thinner than a texel, it is the colour of the middle.
 glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const glm::vec3& colour_of_middle,
                           const glm::dvec3& inward, const glm::dvec3& across, const glm::dvec3& down) {
     Truth::Hit hit;
@@ -69,7 +69,8 @@ void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
     }
 }
 
-/// One ring of texels around what has a colour gets the mean of its neighbours; `known` marks what has.
+/// Gives one ring of texels around the coloured ones the mean of their neighbours; `known` marks the coloured
+/// ones.
 void continue_colours(Image8& colour, Image<std::uint8_t>& known) {
     const Image8 before = colour;
     const Image<std::uint8_t> known_before = known;

@@ -27,8 +27,8 @@ inline constexpr double depth_codes = 65534.0; ///< of one box length
 struct ReliefImage {
     int axis = 0;     ///< 0 x, 1 y, 2 z
     bool high = true; ///< looks at the box's high side, against the axis
-    /// sRGB; alpha 1..255: the cosine between the surface's normal and the line of sight; 0 = no hit, and the
-    /// hits' colours continued a few texels.
+    /// sRGB; alpha 1..255: the cosine between the surface's normal and the line of sight; 0 = no hit; there
+    /// the colours of hits continue for a few texels.
     Image8 colour;
     Image16 depth; ///< from the box's side, in 1 / depth_codes of the box; no_depth = no hit
 };

@@ -144,7 +144,7 @@ void simplify(Grid& grid, double tolerance_m) {
     if (grid.triangles.empty()) {
         return;
     }
-    std::vector<glm::vec3> positions; // around the middle, for float's sake
+    std::vector<glm::vec3> positions; // around the middle, where float is finer
     for (const glm::dvec3& position : grid.positions) {
         positions.emplace_back(position - grid.positions.front());
     }

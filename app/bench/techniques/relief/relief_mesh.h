@@ -1,4 +1,4 @@
-/// Relief textures warped, as Oliveira, Bishop & McAllister have it and Kim, Shin & Kim project it on a prop:
+/// Relief textures, warped as by Oliveira, Bishop & McAllister and projected on a prop as by Kim, Shin & Kim:
 /// each single-layer image's texels are mapped from their depth to where the eye sees them on the prop's
 /// face.
 ///
@@ -9,8 +9,8 @@
 /// them. Flat parts of a grid are simplified to a tolerance, which is what makes it fast: a driver's time
 /// goes to triangles.
 ///
-/// Single   triangles across a jump of depth are left out; what no image sees first is missing. Where
-///          another image sees a surface more squarely and shows it, that image has it alone.
+/// Single   triangles across a jump of depth are left out; what no image sees first is missing. Where another
+///          image sees a surface more squarely and shows it, only that image draws it.
 /// Frame    the mesh in the prop's frame, metres; one material and texture for each image.
 /// Threads  `single_layer_mesh` any; the technique as peers.h.
 /// Source   Oliveira, Bishop & McAllister, Relief texture mapping, 2000; Kim, Shin & Kim 2008.

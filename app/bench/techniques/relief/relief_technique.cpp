@@ -48,8 +48,8 @@ bool inside(vec3 p) {
 }
 )";
 
-/// Of the images whose surface the hit is on, the one that sees it most squarely shows it; if it is on none,
-/// the nearest. Layers of `colours`: 2 axis + (1 if high).
+/// A hit lies on the surface of some images: the one that sees it most squarely shows it. If it lies on none,
+/// the nearest image shows it. Layers of `colours`: 2 axis + (1 if high).
 constexpr std::string_view main_source = R"(
 vec3 colour_at(vec3 p) {
     vec2 x = material(p.yz, 0);
@@ -207,7 +207,7 @@ glm::dvec3 corner_of(const Box& box, unsigned k) {
             (k & 4U) != 0 ? box.high.z : box.low.z};
 }
 
-/// What of the convex polygon lies on the side of `kept`, by the plane through the eye, a and b.
+/// Keeps the part of the convex polygon on the side of `kept` of the plane through the eye, a and b.
 void cut(std::vector<glm::dvec3>& polygon, const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b,
          const glm::dvec3& kept) {
     glm::dvec3 normal = glm::cross(a - eye, b - eye);

@@ -1,12 +1,14 @@
-/// What the peers that search relief images share: the rays, the pixels, the colours; the search is a
-/// shader's.
+/// What the peers that search relief images share: the rays, the pixels, the colours. Each brings its own
+/// search as a shader.
 ///
 /// A search is GLSL that defines
 ///     bool search(vec3 start, vec3 along, float leave, out float at)
 /// start + t along is the eye ray in box coordinates, inside the box for 0 < t < leave; `at` is the hit's t.
-///     It may use float box_codes 65535: heights' codes of one box length int texels of an image's side highp
-///     usampler2DArray relief the technique's own; layers 0..2 have material_along the axes in .xy bool
-///     inside(vec3 p) behind the surface of every image, at the nearest texels
+/// It may use
+///     float box_codes                 65535: codes of one box length of height
+///     int texels                      of an image's side
+///     highp usampler2DArray relief    the technique's own; layers 0..2 have `material_along` the axes in .xy
+///     bool inside(vec3 p)             p is behind the surface of every image, at the nearest texels
 ///
 /// Threads  the one whose context is current.
 #pragma once
@@ -33,11 +35,12 @@ make_relief_technique(const Stage& stage, const ReliefImages& images, ReliefSear
 
 /// An array of `layers` unsigned 16-bit images with `levels` mip levels, read by texelFetch.
 [[nodiscard]] GlTexture make_relief_array(GLenum format, int texels, int levels, int layers);
-/// Into the bound array.
+/// Writes an image into the bound array.
 void set_layer(int level, int layer, const Image<glm::u16vec2>& image);
 void set_layer(int level, int layer, const Image<glm::u16vec4>& image);
 
-/// The part of a face whose eye rays meet the box: convex, the face's own order; empty if there is none.
+/// The part of a face whose eye rays meet the box: convex, in the order of the face's corners; empty if there
+/// is none.
 [[nodiscard]] std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& eye_m,
                                                      const Box& box);
 
