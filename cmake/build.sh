@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz [TARGET...]. On a
-# terminal ninja says how far it is; elsewhere one line does every 20 s, and the whole log only if something fails.
+# Configures (once) and builds a preset, or some of its targets: build.sh release|debug|asan|tsan|fuzz
+# [TARGET...]. On a terminal ninja shows the progress; elsewhere it prints one line every 20 s, and the whole
+# log only after a failure.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
@@ -12,7 +13,7 @@ fi
 
 log=build/$preset.log
 mkdir -p build
-# Ends with the process that it was started from.
+# Ends with the process that started it.
 say_progress() {
     local step
     while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
