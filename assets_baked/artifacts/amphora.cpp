@@ -16,8 +16,8 @@ namespace {
 namespace atlas = amphora_atlas;
 constexpr double turn = 6.283185307179586;
 
-/// One line from the middle of the underside over foot, body and lip into the mouth, cut in three. Radius,
-/// height.
+/// One line from the middle of the underside over foot, body and lip into the mouth, cut in three. Values are
+/// radius, height.
 Profile underside_profile() {
     return Profile({{0, 11}, {25, 10}, {38, 5, true}, {43, 0.6}, {46, 0}});
 }
@@ -91,8 +91,7 @@ Patch body_patch(const Profile& profile, const std::shared_ptr<const ReliefMap>&
     return patch;
 }
 
-/// The handle's middle line, in the half-plane of the profile: out of the neck, up, and down on to the
-/// shoulder.
+/// The handle's middle line, in the profile's half-plane: out of the neck, up, and down to the shoulder.
 class HandlePath {
 public:
     struct Point {
@@ -116,7 +115,7 @@ Patch handle_patch(double side) {
     patch.at = [side](double u, double v) {
         const double phi = u < 1.0 ? u * turn : 0.0;
         const HandlePath::Point p = HandlePath::at(v);
-        const double from_end = std::min(v, 1.0 - v) * 110.0; // mm, about
+        const double from_end = std::min(v, 1.0 - v) * 110.0; // about mm
         const double swell = 1.0 + 0.75 * std::exp(-from_end / 5.5);
         const double across = std::sin(phi);
         const double out = std::cos(phi); // +1 on the side away from the body
@@ -124,7 +123,7 @@ Patch handle_patch(double side) {
             out > -0.2 ? 0.75 * std::cos(3.0 * turn * across * 0.47) * glm::smoothstep(-0.2, 0.4, out) : 0.0;
         const double thick = (4.6 + reeds) * swell * out;
         const double wide = 9.6 * swell * across;
-        const glm::dvec2 outward = {-p.direction.y, p.direction.x}; // left of the way from neck to shoulder
+        const glm::dvec2 outward = {-p.direction.y, p.direction.x}; // left of the path to the shoulder
         const glm::dvec2 at = p.position + outward * thick;
         // Bent around the axis: the ends keep one depth below the round wall.
         const double x = std::sqrt(std::max(0.0, at.x * at.x - wide * wide));

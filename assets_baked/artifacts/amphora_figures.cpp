@@ -131,7 +131,7 @@ void paint_helmet(Ink& ink, vec2 p, float edge) {
 void paint_shield(Ink& ink, vec2 p, int emblem, float edge) {
     const vec2 centre = {0.075F, 0.575F};
     const float rim = disc(p, centre, 0.175F);
-    ink.paint(Pigment::Ground, cover(rim - 0.006F, edge)); // a halo parts the shield from what is behind
+    ink.paint(Pigment::Ground, cover(rim - 0.006F, edge)); // a halo separates the shield from the rest
     silhouette(ink, Pigment::Slip, rim, edge);
     ink.raise(0.9F, cover(rim + 0.012F, 0.03F));
     incise(ink, disc(p, centre, 0.150F), edge);

@@ -53,7 +53,7 @@ void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge) 
         distance = std::min(distance, rectangle({x + shift, p.y}, 0.5F * (base_low + base_high),
                                                 0.5F * (base_high - base_low)));
     }
-    // Strokes fill their cells; a hair thinner keeps the ground between them as wide as they are.
+    // Strokes fill their cells. Slightly thinner ones keep the ground between them as wide as they are.
     stamp(ink, Pigment::Slip, distance + 0.04F * cell.y, edge);
 }
 
@@ -139,7 +139,7 @@ void paint_bud_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge
                                    cover(foot + 1.5F - p.y, edge));
     const float stalk = limb({x, p.y}, {0.0F, foot * 0.6F}, {0.0F, foot + 1.0F}, 0.5F, 0.7F);
     float arcs = stalk;
-    for (const float side : {-1.0F, 1.0F}) { // each bud hangs on to the next but one
+    for (const float side : {-1.0F, 1.0F}) { // each bud is joined to the next but one
         arcs = std::min(arcs, std::abs(disc({x - side * unit, p.y}, {0.0F, foot + 0.2F * height},
                                             std::sqrt(unit * unit + 0.04F * height * height))) -
                                   0.35F);

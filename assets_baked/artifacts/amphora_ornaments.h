@@ -8,13 +8,13 @@
 
 namespace frustumscreen {
 
-/// Square-cornered key pattern, one unit each `unit` in x; y in 0..height.
+/// Square-cornered key pattern that repeats every `unit` in x; y in 0..height.
 void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge);
 /// Rays that stand on y = 0.
 void paint_rays(Ink& ink, glm::vec2 p, float unit, float height, float edge);
-/// Tongues that hang from y = height, black and red by turns.
+/// Tongues that hang from y = height, black and red in turn.
 void paint_tongues(Ink& ink, glm::vec2 p, float unit, float height, float edge);
-/// Palmettes and lotus flowers by turns on a chain, as necks of amphorae have it.
+/// Palmettes and lotus flowers in turn on a chain, as on the necks of amphorae.
 void paint_lotus_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);
 /// Buds on crossing arcs.
 void paint_bud_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);

@@ -16,14 +16,14 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr float turn = 6.28318531F;
-/// sRGB. The slip is lighter than a real one: a projector has no black to show it with.
+/// sRGB. The slip is lighter than a real one, because a projector cannot show black.
 constexpr vec3 clay_colour{0.79F, 0.46F, 0.26F};
 constexpr vec3 slip_colour{0.150F, 0.125F, 0.120F};
 constexpr vec3 thin_slip_colour{0.36F, 0.17F, 0.10F};
 constexpr vec3 red_colour{0.47F, 0.13F, 0.12F};
 constexpr vec3 white_colour{0.90F, 0.84F, 0.72F};
 
-/// A stretch of the body between two heights, with the length along the profile as its y.
+/// A part of the body between two heights; its y is the length along the profile.
 struct Band {
     float bottom = 0.0F; ///< length along the profile, mm
     float height = 0.0F;
@@ -155,7 +155,7 @@ private:
 struct Wear {
     vec3 tint{1.0F};
     float thin = 0.0F;  ///< slip fired brown
-    float chip = 0.0F;  ///< paint gone
+    float chip = 0.0F;  ///< missing paint
     float crack = 0.0F; ///< mended break
     float grain_mm = 0.0F;
 };
@@ -217,12 +217,11 @@ void paint_body(const Profile& body, AmphoraSkin& skin) {
 }
 
 /// The parts without figures: slip inside the mouth thinning into bare clay, clay below, slip on the handles.
-/// `height_mm`: of the strip, at the scale at which once around is as long as on the body.
+/// `height_mm` is the strip's, at a scale where its circumference equals the body's.
 void paint_plain(const AtlasStrip& strip, float height_mm, Image8& texture,
                  float (*slip_at)(float fraction)) {
     paint_strip(strip, texture, [&](float u, float v) {
-        const float y =
-            1000.0F + static_cast<float>(strip.first_row) + v * height_mm; // other wear than the body's
+        const float y = 1000.0F + static_cast<float>(strip.first_row) + v * height_mm; // not the body's wear
         Ink ink;
         ink.paint(Pigment::Slip, slip_at(v + 0.03F * noise({u * 12.0F, y / 9.0F}, 12, 3, 31)));
         return colour_of(ink, wear_at(u, y));

@@ -23,8 +23,8 @@ struct AtlasStrip {
 
 [[nodiscard]] glm::u8vec4 texel_of(const glm::vec3& srgb01);
 
-/// colour(u, v): v from 0 in the first row to 1 in the last. Some rows more keep the edge clean when
-/// filtered.
+/// colour(u, v): v from 0 in the first row to 1 in the last. A few rows beyond the strip are filled too, so
+/// that filtering keeps the edge clean.
 void paint_strip(const AtlasStrip& strip, Image8& texture,
                  const std::function<glm::vec3(float u, float v)>& colour);
 

@@ -1,4 +1,4 @@
-/// The built-in artifacts, so that a fresh machine has something worth seeing.
+/// The built-in artifacts: they give a fresh machine something to show.
 ///
 /// Frame    glTF-like: +Y up, millimetres. Deterministic: the same name and count give the same mesh.
 /// Threads  pure; any.

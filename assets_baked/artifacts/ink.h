@@ -1,4 +1,5 @@
-/// What the painters share: flat shapes as signed distances, noise that closes around a body, ink in layers.
+/// What the painters share: flat shapes as signed distances, noise that is periodic around a body, ink in
+/// layers.
 ///
 /// Units    the caller's (mm or a figure's height); distances are negative inside a shape.
 /// Threads  pure; any.

@@ -19,7 +19,7 @@ constexpr double turn = 6.283185307179586;
 /// the mouth and negative inside; `phi` goes around the section from the keel (0) to the coil (+-pi).
 /// Source: the logarithmic spiral of molluscan shells (Moseley 1838).
 namespace shell {
-constexpr double growth = 0.17484955; ///< ln 3 / 2 pi
+constexpr double growth = 0.17484955; ///< ln 3 / (2 pi)
 constexpr double centre_radius_mm = 66.0;
 constexpr double radial_mm = 44.0;
 constexpr double axial_mm = 42.0;
@@ -55,7 +55,7 @@ dvec3 normal(double theta, double phi) {
     return glm::normalize(glm::cross(along, around));
 }
 
-/// `height` mm (at the mouth's scale) above the outer wall.
+/// The point `height` mm (at the mouth's scale) above the outer wall.
 dvec3 at(double theta, double phi, double height) {
     return coil_mm + bare(theta, phi) + normal(theta, phi) * (height * std::exp(growth * theta));
 }
@@ -164,7 +164,7 @@ Patch strap(dvec2 from, dvec2 to, dvec2 across, double length_mm) {
     return patch;
 }
 
-/// Foot, stem, knop and calyx in one line from the middle of the underside. Radius, height.
+/// Foot, stem, knop and calyx in one line from the middle of the underside. Values are radius, height.
 Profile stem_profile() {
     return Profile({{52, 0, true},   {55, 0.8},   {56.2, 3.5},   {55.5, 6.5},  {51.5, 8.5, true},
                     {50.5, 10},      {46, 15},    {37, 21},      {26, 26},     {16, 33},

@@ -42,7 +42,7 @@ vec3 inside_colour(float u, float v) {
     return vec3(0.90F, 0.87F, 0.85F) + 0.045F * hue + vec3(0.03F) * drift + vec3(0.012F) * lines;
 }
 
-/// Gilding: worn and bright on what stands out, dark in the hollows. `recess` 0..1.
+/// Gilding: worn and bright on raised parts, dark in the hollows. `recess` 0..1.
 vec3 gold_colour(float u, float v, float recess) {
     const float drift = noise({u * 24.0F, v * 10.0F}, 24, 4, 61);
     const float fine = noise({u * 512.0F, v * 120.0F}, 512, 2, 62);

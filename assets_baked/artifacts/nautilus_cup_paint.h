@@ -18,11 +18,11 @@ inline constexpr AtlasStrip stem{1480, 400};
 inline constexpr AtlasStrip straps{1888, 160};
 } // namespace cup_atlas
 
-/// Height of the foot's and stem's chasing in mm: `angle` radians, `length` mm along the profile. 0 where
-/// plain.
+/// Height of the foot's and stem's chasing in mm: `angle` radians, `length` mm along the profile. It is 0
+/// where the metal is plain.
 [[nodiscard]] double chasing_mm(double angle, double length);
 
-/// `stem_length_mm`: of the profile whose chasing is painted.
+/// `stem_length_mm` is the length of the profile whose chasing is painted.
 [[nodiscard]] Image8 paint_nautilus_cup(double stem_length_mm);
 
 } // namespace frustumscreen

@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr int steps_per_span = 64;
-constexpr double bend_mm_per_radian = 12.0; ///< a turn of one radian draws as many rows as this length
+constexpr double bend_mm_per_radian = 12.0; ///< a bend of one radian gets as many rows as this length
 
 /// Barry and Goldman's pyramid for the centripetal Catmull-Rom spline.
 glm::dvec2 catmull_rom(const std::array<glm::dvec2, 4>& p, double fraction) {

@@ -29,9 +29,9 @@ public:
     };
     [[nodiscard]] double length_mm() const { return points_.back().length_mm; }
     [[nodiscard]] Point at_length(double length_mm) const;
-    /// 0..1 along the curve, slower where it bends, so that even rows follow the shape.
+    /// The point at `row`, 0..1 along the curve; rows are denser where it bends.
     [[nodiscard]] Point at_row(double row) const;
-    /// Length at which the curve first reaches `height`; for curves that rise.
+    /// The length at which a rising curve first reaches `height`.
     [[nodiscard]] double length_at_height(double height) const;
 
 private:

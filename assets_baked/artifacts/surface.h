@@ -31,7 +31,8 @@ struct Patch {
     int columns_of = -1; ///< index of an earlier patch that has the same columns: they share an edge
 };
 
-/// One material with `texture`. The number of triangles is within 5 % of `triangles` from 1000 on.
+/// One material with `texture`. The number of triangles is within 5 % of `triangles` if that is at least
+/// 1000.
 [[nodiscard]] SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, Image8 texture);
 
 } // namespace frustumscreen

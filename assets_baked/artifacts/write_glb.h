@@ -1,4 +1,4 @@
-/// A SourceMesh as one binary glTF file, so that any other program can check our pictures against the true
+/// Writes a SourceMesh as one binary glTF file, so that other programs can check our pictures against the
 /// mesh.
 ///
 /// Frame    the mesh's own coordinates, as 32-bit floats; textures embedded as PNG.

@@ -14,7 +14,7 @@ struct Step {
     int width;
 };
 
-/// Lowest place for a rectangle on the skyline; index of its first step, or -1.
+/// Finds the lowest place for a rectangle on the skyline; returns the index of its first step, or -1.
 int lowest_place(const std::vector<Step>& skyline, const glm::ivec2& size, int atlas_width, int& best_y) {
     int best = -1;
     for (std::size_t first = 0; first < skyline.size(); ++first) {

@@ -1,6 +1,8 @@
 /// Packs rectangles into one picture.
 ///
-/// Units    texels. Threads  pure; any. Method  skyline, bottom-left, tallest first (Jylanki 2010).
+/// Units    texels.
+/// Threads  pure; any.
+/// Method   skyline, bottom-left, tallest first (Jylanki 2010).
 #pragma once
 
 #include <glm/glm.hpp>

@@ -19,9 +19,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// Simplification tolerances, box units: 1e-4 is 10 um on an artifact 0.1 m long.
-/// The finest level is the source itself unless it is too large for that. (Not a tolerance near zero: the
-/// library's 32-bit errors say nothing below some 3e-4, and it strays as far.)
+/// Simplification tolerances, box units: 1e-4 is 10 um on an artifact 0.1 m long. The finest level is the
+/// source itself unless that is too large. (A tolerance near zero would not give it: the library's 32-bit
+/// errors mean nothing below some 3e-4, and its result strays that far.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
@@ -60,7 +60,7 @@ public:
         finest_ =
             welded_.triangle_count() > most_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
         if (finest_.indices.empty()) {
-            finest_ = welded_; // all of it is thinner than the tolerance: a rod, a thread
+            finest_ = welded_; // everything is thinner than the tolerance: a rod, a thread
         }
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
@@ -77,7 +77,7 @@ public:
                               0.1 + 0.45 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.indices.empty() || fewer.triangle_count() * 20 > last * 19) {
-                continue; // nothing left, or not 5 % fewer than the last: not worth a level
+                continue; // nothing is left, or not 5 % fewer than the last: not worth a level
             }
             last = fewer.triangle_count();
             const TriangleMesh sides = visible_sides_like(fewer, visible_, seen, mesh_tolerances[k]);
@@ -114,8 +114,8 @@ public:
     }
 
 private:
-    /// Hidden by itself: against the source, a simplified surface that lies a hair outside would seem open.
-    /// Only where alpha is cut does the source have to answer.
+    /// The mesh itself decides what is hidden. If the source did, parts of a simplified surface slightly
+    /// outside it would seem visible. Only where alpha cuts holes the source must decide.
     [[nodiscard]] TriangleMesh seen_sides(const TriangleMesh& mesh) const {
         const std::vector<SourceMaterial>& materials = source_.mesh().materials;
         if (std::any_of(materials.begin(), materials.end(),
@@ -176,12 +176,12 @@ double mm_per_box(const Pack& pack, const BakedProp& prop) {
     return place(pack, prop.shape).metres_per_box * 1e3;
 }
 
-/// As a visitor sees it on the usual prop.
+/// Judges the level as a visitor sees it on the usual prop.
 bool good_enough(const PackLevel& level, const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
     // The worst of fifty poses in two set-ups shows up to three times as much of each.
     constexpr double good_mean_mm = 0.09;
     constexpr double good_outline_shift_mm = 0.04;
-    constexpr double good_silhouette_share = 0.012; // a thin object is outline throughout
+    constexpr double good_silhouette_share = 0.012; // a thin object is all outline
     const SeenError error =
         seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source(), prop.zone);
     const double scale = mm_per_box(pack, prop);
@@ -190,8 +190,8 @@ bool good_enough(const PackLevel& level, const Pack& pack, const Bakery& bakery,
            error.silhouette_share <= good_silhouette_share;
 }
 
-/// The cheapest level that is good enough; below a number of triangles that any source may cost, the finest
-/// instead. The last level is for looking closer: it is drawn with more samples.
+/// The first level that is good enough, from the finest one of at most `free_triangles` on. The last level is
+/// for close views: it is drawn with more samples.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
     constexpr std::size_t free_triangles = 30'000;
     std::uint32_t level = 0;
@@ -204,7 +204,7 @@ std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const Baked
     return level;
 }
 
-/// Levels that stray further than a visitor would forgive are no levels; the nearest one always stays.
+/// Drops levels that stray further than a visitor would accept; the nearest one always stays.
 void drop_useless(std::vector<Candidate>& candidates) {
     constexpr float worst_mean_box = 3e-3F; // 0.3 mm on an artifact of 0.1 m
     float nearest = std::numeric_limits<float>::infinity();
@@ -216,7 +216,7 @@ void drop_useless(std::vector<Candidate>& candidates) {
     });
 }
 
-/// Nearer, and it does not pay for that by straying further in places or in colour.
+/// True if the mean error is smaller and neither the 95th percentile nor the colour error is clearly larger.
 bool betters(const LevelError& dearer, const LevelError& cheaper) {
     constexpr float scatter = 1.1F; // of a measure over random points
     constexpr float least_rmse = 1.0F;
@@ -255,7 +255,7 @@ void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
 } // namespace
 
 std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
-    constexpr std::size_t few_triangles = 1500; // fewer cost a frame no less
+    constexpr std::size_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
     std::vector<std::size_t> order(levels.size());
     std::iota(order.begin(), order.end(), 0);
     const auto rank = [&](std::size_t k) {

@@ -1,4 +1,5 @@
-/// From a source mesh to a pack: levels of relief and of simplified mesh, measured, the front kept.
+/// Bakes a source mesh into a pack: makes levels of relief and of simplified mesh, measures them, keeps the
+/// front.
 ///
 /// Frame    in: the file's; out: the box (pack.h).
 /// Errors   one line for the curator.
@@ -22,7 +23,7 @@ namespace frustumscreen {
 /// What a pack is baked for: every prop of that kind, whatever its size.
 struct BakedProp {
     std::string kind;
-    PropShape shape; ///< of the usual size: what a visitor would notice is judged on it
+    PropShape shape; ///< of the usual size, which decides what a visitor would notice
     ViewingZone zone;
 };
 /// It stands on the table.
@@ -42,13 +43,13 @@ struct BakeOptions {
 /// Title, languages, captions and provenance are left for the caller to fill in.
 [[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
 
-/// Bytes of room that a pack of this size (texels) may need. The largest pack measured, a helmet of seven
-/// levels at 512, had 31 MB; this is some twice as much, and never more than a pack may have.
+/// Disk space in bytes that a pack of this size (texels) may need. The largest pack measured, a helmet of
+/// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack may have.
 [[nodiscard]] std::uintmax_t room_for_pack(int size);
 
-/// Indices of the levels on the front of error against cost (triangles; below some 1500 all cost a frame the
-/// same), cheapest first: each is nearer in the mean than the one before, and does not stray further in
-/// places or in colour.
+/// Indices of the levels on the Pareto front of error against cost (triangles; below some 1500 all cost a
+/// frame the same), cheapest first: each has a smaller mean error than the one before, and no clearly larger
+/// 95th percentile or colour error.
 [[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels);
 
 } // namespace frustumscreen

@@ -100,7 +100,7 @@ Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up) {
 }
 
 std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
-    // The corner of the bounding box is subtracted first: that loses no digit, however far the origin is.
+    // The corner of the bounding box is subtracted first: that loses no precision, however far the origin is.
     const glm::dvec3 half(0.5 * frame.extent.x / frame.file_units_per_box,
                           0.5 * frame.extent.y / frame.file_units_per_box, 0.0);
     std::vector<glm::dvec3> points;

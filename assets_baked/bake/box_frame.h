@@ -18,7 +18,7 @@
 
 namespace frustumscreen {
 
-/// "x", "-x", "y", ... to the rotation that turns that axis of the file to +Z; nothing for other words.
+/// The rotation that turns the file's axis "x", "-x", "y", ... to +Z; nothing for other words.
 [[nodiscard]] std::optional<glm::dmat3> up_rotation(std::string_view up);
 
 struct BoxFrame {
@@ -30,14 +30,14 @@ struct BoxFrame {
     glm::dvec3 extent{1.0};           ///< of that box
 };
 
-/// Of the vertices that triangles use. Errors: every vertex at one point, or extents beyond 1e-30..1e30.
+/// Only vertices that triangles use count. Errors: every vertex at one point, or extents beyond 1e-30..1e30.
 [[nodiscard]] Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up);
 
-/// Positions in the box frame, one for each of the mesh's positions: exact to rounding of the box's size,
-/// where box_from_file rounds at the artifact's distance from its origin.
+/// Positions in the box frame, one for each of the mesh's positions: rounded relative to the box's size,
+/// while box_from_file rounds relative to the artifact's distance from its origin.
 [[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame);
 
-/// The points that bound the largest scale inside any prop that is symmetric in X and Y with convex outline:
+/// The points that limit the scale inside any prop that is symmetric in X and Y and has a convex outline:
 /// vertices of the convex hulls of the (x, z) and (y, z) profiles.
 [[nodiscard]] std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points);
 

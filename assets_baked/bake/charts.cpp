@@ -63,7 +63,7 @@ struct GrowingChart {
     }
 };
 
-/// In-plane axes whose u is as level as may be, so that most charts stand upright in the atlas.
+/// Chooses in-plane axes with u as level as possible, so that most charts stand upright in the atlas.
 void set_direction(GrowingChart& chart, const glm::vec3& direction) {
     chart.direction = direction;
     const glm::vec3 reference = std::abs(direction.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
@@ -71,7 +71,7 @@ void set_direction(GrowingChart& chart, const glm::vec3& direction) {
     chart.axis_v = glm::cross(direction, chart.axis_u);
 }
 
-/// Texel centres that the current chart already covers; one picture reused by stamping.
+/// Texel centres that the current chart already covers; one picture is reused by numbered stamps.
 class Coverage {
 public:
     explicit Coverage(float texel_box)
@@ -79,7 +79,7 @@ public:
           stamps_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0) {}
 
     void begin() { ++stamp_; }
-    /// Marks the triangle's texel centres, or marks nothing and returns false if one of them was taken.
+    /// Marks the triangle's texel centres; marks nothing and returns false if one of them is taken.
     bool claim(const std::array<glm::vec2, 3>& corners) {
         claimed_.clear();
         const auto edge = [](const glm::vec2& a, const glm::vec2& b, const glm::vec2& p) {

@@ -25,11 +25,11 @@ struct ChartedMesh {
     std::size_t chart_count = 0;
 };
 
-/// Texels that each chart is padded by on every side.
+/// Texels of padding on every side of a chart.
 inline constexpr int chart_gutter_texels = 3;
 
-/// `texel_box` is the edge of a texel in box units; it grows if the atlas would pass `largest_atlas` texels a
-/// side.
+/// `texel_box` is the edge of a texel in box units; it grows if the atlas would exceed `largest_atlas` texels
+/// a side.
 [[nodiscard]] ChartedMesh chart(const TriangleMesh& mesh, float texel_box, int largest_atlas = 4096);
 
 } // namespace frustumscreen

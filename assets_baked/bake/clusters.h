@@ -1,7 +1,7 @@
-/// Triangles cut into clusters that are culled as one: the pack's levels and the bench's peers alike.
+/// Cuts triangles into clusters that are culled as one, for the pack's levels and for the bench's peers.
 ///
-/// Frame    that of the positions, normalised to the object: what is added to spheres and cones against
-///          32-bit rounding is meant for a longest edge of 1.
+/// Frame    that of the positions, normalised to the object: the margin of spheres and cones against 32-bit
+///          rounding is meant for a longest edge of 1.
 /// Threads  pure; any.
 /// Library  meshoptimizer (meshlets and their normal cones).
 #pragma once

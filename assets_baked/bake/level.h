@@ -1,7 +1,8 @@
-/// A level of the pack from charted triangles: quantised, ordered for the vertex cache, cut into clusters,
-/// measured.
+/// Makes a level of the pack from charted triangles: quantised, ordered for the vertex cache, cut into
+/// clusters, measured.
 ///
-/// Frame    box. Threads  pure; any (measure uses all cores).
+/// Frame    box.
+/// Threads  pure; any (measure uses all cores).
 /// Library  meshoptimizer (meshlets and their normal cones).
 #pragma once
 
@@ -16,10 +17,10 @@ namespace frustumscreen {
 [[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size,
                                    LevelTechnique technique);
 
-/// A level's surface back from its quantised vertices.
+/// Rebuilds a level's surface from its quantised vertices.
 [[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
 
-/// Points on the source that a visitor sees, with their colour: drawn once, compared with every level.
+/// Points on the source that a visitor sees, with their colour: chosen once, compared with every level.
 struct SourceSamples {
     struct Point {
         glm::vec3 position{0.0F};
@@ -28,28 +29,28 @@ struct SourceSamples {
     };
     std::vector<Point> points;
 };
-/// `visible` is the kept surface of the finest level: only source points near it are drawn.
+/// `visible` is the kept surface of the finest level: only source points near it are chosen.
 [[nodiscard]] SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible,
                                           float tolerance_box);
 
-/// Both ways: the level's points against the source, the source's seen points against the level.
+/// Measures both ways: the level's points against the source, the source's seen points against the level.
 /// Colour is compared only where `compare_colour` (unlit): baked light is not an error.
 [[nodiscard]] LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
 
-/// What a visitor would notice: means over several eyes of the viewing zone. (One eye's figure is too much at
-/// the mercy of one strap.)
+/// What a visitor would notice: means over several eyes of the viewing zone. (With one eye, a single strap
+/// would change the figure too much.)
 struct SeenError {
     double mean_box = 0.0; ///< distance between what it sees on the level and on the source
-    /// The rays that hit one of them alone, as an even band along the source's outline: its width.
+    /// The width of an even band along the source's outline made of the rays that hit only one of the two.
     double outline_shift_box = 0.0;
-    double silhouette_share = 0.0; ///< the same rays, as a share of those that hit both
+    double silhouette_share = 0.0; ///< the same rays, over those that hit both
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source, const ViewingZone& zone);
 
-/// Samples a pixel (2, 4 or 8) for pictures of the source at the pixels of a usual table: the fewest that
+/// Samples a pixel (2, 4 or 8) for pictures of the source at the resolution of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies
 /// need two, thin or finely painted ones more.
 [[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,

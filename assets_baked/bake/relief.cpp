@@ -84,7 +84,7 @@ void place_piece(BakedRelief& relief, const Piece& piece, const glm::ivec2& corn
 
 /// Two triangles for every square of linked texels, split along the flatter diagonal.
 void triangulate(BakedRelief& relief, const ReliefChart& chart, const glm::dvec3& box_size) {
-    constexpr float steepest = 9.0F; // texels; a little more than a link's, for diagonals
+    constexpr float steepest = 9.0F; // texels; a little more than a link's, because of diagonals
     const ReliefGeometry geometry(relief.atlas, box_size);
     const DirectionFrame frame = frame_of(chart.direction);
     const float most_step = steepest * relief.atlas.texel_box;
@@ -206,7 +206,8 @@ std::optional<BakedRelief> bake_relief(const SourceScene& source, const Triangle
 }
 
 ChartedMesh simplify_grid(const BakedRelief& relief, float tolerance_box) {
-    // Chart by chart: their rings share positions, which must not tie one chart's vertices to another's.
+    // It goes chart by chart: rings of charts share positions, which must not tie one chart's vertices to
+    // another's.
     ChartedMesh result = relief.grid;
     result.indices.clear();
     std::vector<std::uint32_t> local;

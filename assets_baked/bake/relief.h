@@ -1,10 +1,11 @@
-/// Layered relief: every front-facing crossing of every orthographic ray in the prop's face directions, each
-/// kept by the face that sees it best, cut into charts that overlap by rings, packed in one atlas.
+/// Layered relief: every front-facing crossing of the orthographic rays in the prop's face directions. The
+/// face that sees a crossing best keeps it; the samples are cut into charts that overlap by rings and packed
+/// in one atlas.
 ///
 /// Frames   box; a chart's texels form a grid of pitch `texel_box` across its direction, depth along it.
 /// Threads  uses all cores; deterministic.
 /// Source   layered depth images (Shade 1998) as relief textures (Oliveira 2000; Kim 2008) with their holes
-/// closed.
+///          closed.
 #pragma once
 
 #include "app/pack/pack.h"
@@ -26,14 +27,15 @@ struct BakedRelief {
     std::vector<Range> charts; ///< each chart's own part of `grid`
 };
 
-/// `visible`: what a visitor sees (with flipped copies); other crossings are left out. Nothing is returned if
-/// the atlas would pass `largest_atlas` texels a side (more layers than a relief is good for).
+/// `visible`: what a visitor sees (with flipped copies); other crossings are left out. Returns nothing if the
+/// atlas would exceed `largest_atlas` texels a side (too many layers for a relief).
 [[nodiscard]] std::optional<BakedRelief> bake_relief(const SourceScene& source, const TriangleMesh& visible,
                                                      const glm::dvec3& box_size,
                                                      const std::vector<ReliefDirection>& directions,
                                                      int texels_along_longest_edge, int largest_atlas = 4096);
 
-/// The grid with as few triangles as stay within `tolerance_box`; its vertices are still texels of the atlas.
+/// The grid with the fewest triangles that stay within `tolerance_box`; its vertices are still texels of the
+/// atlas.
 [[nodiscard]] ChartedMesh simplify_grid(const BakedRelief& relief, float tolerance_box);
 
 } // namespace frustumscreen

@@ -32,7 +32,7 @@ void sample_ray(const LayerInput& input, const DirectionFrame& frame, int x, int
     origin[frame.axis_n] =
         low[frame.axis_n] + (frame.sign > 0.0F ? input.box_size[frame.axis_n] + 0.01F : -0.01F);
     float near = 0.0F;
-    float last_front = -1.0F; // of each side apart, the last crossing met
+    float last_front = -1.0F; // the last crossing met, of each side
     float last_back = -1.0F;
     for (int layer = 0; layer < most_layers; ++layer) {
         const SurfaceHit hit = input.source.trace(origin, -normal, near, 4.0F);
@@ -42,12 +42,13 @@ void sample_ray(const LayerInput& input, const DirectionFrame& frame, int x, int
         near = hit.distance + 1e-5F;
         glm::vec3 n = hit.normal;
         float facing = glm::dot(n, normal);
-        // Sheets closer than a part of a texel are one: soups and coplanar repetitions have many.
+        // Sheets closer than a part of a texel count as one: triangle soups and coplanar repetitions have
+        // many.
         float& last = facing < 0.0F ? last_back : last_front;
         const bool repeated = last >= 0.0F && hit.distance - last < same_sheet * input.texel_box;
         last = hit.distance;
         if (facing < 0.0F) {
-            n = -n; // two-sided: the other side is kept where a visitor sees it
+            n = -n; // two-sided: the back is kept where a visitor sees it
             facing = -facing;
         }
         if (facing < 0.03F || repeated) {
@@ -168,7 +169,7 @@ private:
                 }
             }
         }
-        // Two rings of the charts next door, so that seams overlap.
+        // Adds two rings of the neighbouring charts, so that seams overlap.
         std::size_t start = 0;
         for (int ring = 0; ring < 2; ++ring) {
             const std::size_t end = members.size();

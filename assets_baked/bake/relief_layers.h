@@ -1,6 +1,7 @@
 /// One direction's layers, before they are packed: samples on a grid, linked into charts.
 ///
-/// Frame    box; grid coordinates in texels across the direction. Threads  uses all cores; deterministic.
+/// Frame    box; grid coordinates in texels across the direction.
+/// Threads  uses all cores; deterministic.
 #pragma once
 
 #include "app/pack/pack.h"
@@ -34,7 +35,7 @@ struct ReliefSample {
     glm::vec3 colour{0.0F};
 };
 
-/// Pieces of one direction: indices into `samples`; no two of a chart share a texel.
+/// The pieces of one direction. Charts are indices into `samples`; no two of a chart share a texel.
 struct DirectionLayers {
     std::vector<ReliefSample> samples;
     std::vector<std::vector<std::uint32_t>> charts;

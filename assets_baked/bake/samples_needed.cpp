@@ -14,8 +14,8 @@ constexpr std::array<glm::ivec2, 4> grids{glm::ivec2(1, 1), glm::ivec2(1, 2), gl
                                           glm::ivec2(2, 4)};
 constexpr glm::ivec2 reference_grid{4, 4};
 
-/// A picture of the source from far away; pixels as the projector's land on it: upright ones are stretched by
-/// the steep faces.
+/// A picture of the source from far away, with pixels as the projector's land on it: steep faces stretch them
+/// upright.
 struct FarView {
     glm::vec3 towards, right, up, centre;
     glm::vec2 pixel_box;
@@ -94,7 +94,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
                    const ViewingZone& zone) {
     constexpr double good_rmse = 8.0;
     constexpr double most_samples =
-        45e3; // of the artifact's pixels on a usual table: what a slow GPU shades in time
+        45e3; // for the artifact's pixels on a usual table: what a slow GPU shades in time
     constexpr int views = 4;
     const double lowest_deg = zone.lowest_elevation_deg + 17.0;
     constexpr double highest_deg = 65.0;
@@ -118,7 +118,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
             worst[g] = std::max(worst[g], errors[g]);
         }
     }
-    std::size_t chosen = 1; // with one sample, outlines are stairs and shimmer as a single ray's do
+    std::size_t chosen = 1; // with one sample, outlines have steps and shimmer
     while (chosen + 1 < grids.size() && worst[chosen] > good_rmse &&
            pixels * grids[chosen + 1].x * grids[chosen + 1].y <= most_samples) {
         ++chosen;

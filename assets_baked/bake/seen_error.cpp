@@ -19,7 +19,7 @@ struct Tally {
     std::size_t outline = 0; ///< hits of the source beside a miss
 };
 
-/// Rays from one eye over the sphere around the box, one each step of a square grid.
+/// Rays from one eye over the sphere around the box, one for each step of a square grid.
 class EyeRays {
 public:
     EyeRays(const glm::vec3& eye, const glm::vec3& centre, float radius)
@@ -28,7 +28,7 @@ public:
           extent_(radius / glm::distance(eye, centre) * 1.02F) {}
 
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
-    /// Between neighbouring rays, where they pass the artifact.
+    /// The distance between neighbouring rays where they pass the artifact.
     [[nodiscard]] double spacing_box(double eye_distance_box) const {
         return 2.0 * static_cast<double>(extent_) * eye_distance_box / side;
     }
@@ -105,7 +105,7 @@ SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::d
     constexpr int eyes = 10;
     constexpr double golden_angle = 2.399963229728653;
     constexpr double eye_distance_box = 6.0;
-    const double lowest_deg = zone.lowest_elevation_deg + 9.0; // at the very edge hardly anybody stands
+    const double lowest_deg = zone.lowest_elevation_deg + 9.0; // hardly anybody stands at the edge
     constexpr double highest_deg = 80.0;
     const TriangleMesh surface = surface_of(level, box_size);
     const SourceMesh level_mesh = cut_out(as_source(surface), level, texture);

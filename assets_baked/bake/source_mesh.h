@@ -32,11 +32,10 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
-/// Corner attributes of a triangle, kept per vertex: the loader splits vertices as the file does.
+/// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::vec2>
-        uvs; ///< texture transform applied; empty or one each position; v = 0 at the top row
+    std::vector<glm::vec2> uvs;     ///< transformed; empty or one each position; v = 0 at the top row
     std::vector<glm::vec4> colours; ///< linear vertex colour factors; empty or one each position
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
     std::vector<std::uint32_t> triangle_materials;       ///< one each triangle

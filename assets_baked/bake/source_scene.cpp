@@ -135,7 +135,7 @@ bool keep_nearest(RTCPointQueryFunctionArguments* arguments) {
     const glm::vec3 point = a + (b - a) * weights.x + (c - a) * weights.y;
     const glm::vec3 away = point - query.point;
     const float squared = glm::dot(away, away);
-    if (!(squared < query.best_squared)) { // also refuses the NaN of a degenerate triangle
+    if (!(squared < query.best_squared)) { // this also refuses the NaN of a degenerate triangle
         return false;
     }
     query.best_squared = squared;

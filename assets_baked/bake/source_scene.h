@@ -1,8 +1,9 @@
-/// The source surface as something that rays and nearest-point queries can ask, in the box frame.
+/// The source surface for rays and nearest-point queries, in the box frame.
 ///
 /// Frame    box. Two-sided; alpha MASK is cut at its cut-off, BLEND counts as opaque (docs/conventions.md:
-/// the picture). Threads  built on one, asked from any. Library  Embree 3; rays in 32-bit floats over a box
-/// of size 1.
+///          the picture).
+/// Threads  built on one, queried from any.
+/// Library  Embree 3; rays in 32-bit floats over a box of size 1.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"

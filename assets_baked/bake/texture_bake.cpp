@@ -67,8 +67,7 @@ glm::vec3 nearest_in_plane(const glm::vec2& p, const glm::vec2& a, const glm::ve
     return best;
 }
 
-/// The source's hit nearest to p along the normal, of those that face the same way; else the nearest point at
-/// all.
+/// Finds the source's hit nearest along the normal that faces the same way; else the nearest point of all.
 SurfaceHit find_on_source(const SourceScene& source, const SurfacePoint& at, float reach) {
     const glm::vec3 origin = at.position + at.normal * reach;
     SurfaceHit best;
@@ -91,7 +90,7 @@ SurfaceHit find_on_source(const SourceScene& source, const SurfacePoint& at, flo
     return best.hit ? best : source.nearest(at.position, 8.0F * reach);
 }
 
-/// Four points of the texel: its neighbours' half-way points, where they lie on the same triangle.
+/// Four points of the texel, half-way to its neighbours, where they lie on the same triangle.
 std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& texel) {
     const SurfacePoint centre = surface_at(mesh, texel);
     const glm::vec3 tangent = glm::normalize(glm::cross(
@@ -110,7 +109,7 @@ std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& 
     return parts;
 }
 
-/// Alpha, bent so that the material's cut-off lies at one half.
+/// Alpha, scaled so that the material's cut-off lies at one half.
 float coverage_of(const SourceScene& source, const SurfaceHit& hit) {
     const SourceMaterial& material = source.mesh().materials[source.mesh().triangle_materials[hit.triangle]];
     if (!material.alpha_mask) {
@@ -156,7 +155,7 @@ std::vector<glm::vec3> cosine_directions(int count) {
 }
 
 float light_at(const SourceScene& source, const SurfacePoint& at, const std::vector<glm::vec3>& directions) {
-    constexpr float lift = 1.5e-3F; // what a simplified surface may lie below its source
+    constexpr float lift = 1.5e-3F; // so far may a simplified surface lie below its source
     constexpr float dome_reach = 1.5F;
     const glm::vec3 side = std::abs(at.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
     const glm::vec3 tangent = glm::normalize(glm::cross(side, at.normal));
@@ -166,13 +165,13 @@ float light_at(const SourceScene& source, const SurfacePoint& at, const std::vec
     for (const glm::vec3& d : directions) {
         const glm::vec3 direction = tangent * d.x + bitangent * d.y + at.normal * d.z;
         if (direction.z < 0.0F) {
-            sum += 0.10F; // what the dark table sends back
+            sum += 0.10F; // light that the dark table reflects
             continue;
         }
         if (!source.occluded(origin, direction, 0.0F, dome_reach)) {
             sum += radiance(direction);
         } else {
-            sum += 0.12F; // bounced once, unseen: keeps hollows readable
+            sum += 0.12F; // stands for light that bounced once; keeps hollows readable
         }
     }
     return sum / static_cast<float>(directions.size());
@@ -209,7 +208,7 @@ template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& 
     }
 }
 
-/// Mean of each known texel with its known neighbours; charts lie further apart than that reaches.
+/// The mean of each known texel and its known neighbours; charts lie too far apart to mix.
 ImageFloat smoothed(const ImageFloat& image, const Image<std::uint8_t>& known) {
     ImageFloat result = image;
     parallel_for(static_cast<std::size_t>(image.height), 32, [&](std::size_t begin, std::size_t end) {
@@ -310,7 +309,7 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
         float sum = 0.0F;
         for (const SurfacePoint& at : parts_of(mesh, texel)) {
-            const SurfaceHit hit = source.nearest(at.position, reach_box); // asks no alpha
+            const SurfaceHit hit = source.nearest(at.position, reach_box); // ignores alpha
             sum += hit.hit ? coverage_of(source, hit) : 1.0F;
         }
         coverage.at(x, y) = sum / 4.0F;
@@ -321,7 +320,7 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
 }
 
 ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source) {
-    // Light is smooth: every third texel in each direction, then spread and smoothed.
+    // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
     constexpr int rays = 96;
     const std::vector<glm::vec3> directions = cosine_directions(rays);
@@ -342,7 +341,7 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
 
 ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels, const ChartedMesh& from,
                           const ImageFloat& from_light, float reach_box) {
-    // The two sides of a sheet share positions and differ in light: each is lifted a little to its own side.
+    // The two sides of a sheet share positions and differ in light: each is moved a little to its own side.
     constexpr float lift = 1e-4F;
     TriangleMesh lifted{from.positions, from.indices};
     for (std::size_t k = 0; k < lifted.positions.size(); ++k) {

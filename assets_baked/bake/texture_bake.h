@@ -21,20 +21,20 @@ struct AtlasTexel {
     float u = 0.0F, v = 0.0F;             ///< barycentric weights of the second and third corner
 };
 
-/// Every texel within the gutter of a triangle gets the nearest point of it.
+/// Every texel within the gutter of a triangle gets the nearest point on the triangle.
 [[nodiscard]] Image<AtlasTexel> rasterise(const ChartedMesh& mesh);
 
 /// Base colour of the source, linear, for each texel. `reach_box`: how far the level strays from the source.
 [[nodiscard]] ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                      const SourceScene& source, float reach_box);
 
-/// How much of each texel alpha MASK leaves, 0..1, cut where it is below one half; empty for a source that
-/// has no such material.
+/// How much of each texel alpha MASK leaves, 0..1; below one half it is cut. Empty for a source without such
+/// a material.
 [[nodiscard]] Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                          const SourceScene& source, float reach_box);
 
-/// Light that falls on each texel, 1 = an open surface facing the key light; soft dome and key, hidden by the
-/// artifact itself and by the table it stands on (ambient occlusion).
+/// Light that falls on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by
+/// the artifact itself and by the table it stands on (ambient occlusion).
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                     const SourceScene& source);
 
@@ -43,8 +43,8 @@ struct AtlasTexel {
                                         const ChartedMesh& from, const ImageFloat& from_light,
                                         float reach_box);
 
-/// To sRGB; what no triangle covers, or alpha cuts, takes its neighbours' colour, so that neither mipmaps nor
-/// the filter bleed. `coverage` becomes alpha; empty = all of it is there.
+/// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
+/// that mipmaps and the filter do not bleed. `coverage` becomes alpha; empty = nothing is cut.
 [[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels,
                             const Image<float>& coverage = {});
 

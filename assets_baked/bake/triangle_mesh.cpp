@@ -90,7 +90,7 @@ std::vector<std::uint32_t> simplified(const std::vector<std::uint32_t>& indices,
     return result;
 }
 
-/// Triangles in the order of the cells of a grid that their centres lie in; the cell of each.
+/// Each triangle with the grid cell of its centre, in the order of the cells.
 std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(const TriangleMesh& mesh, float offset_box) {
     constexpr float cell_box = 0.15F;
     constexpr float low = -2.0F; // of every box
@@ -105,7 +105,7 @@ std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(const TriangleMesh&
     return order;
 }
 
-/// Simplifies cell by cell, each in coordinates of its own, and keeps what the cells share.
+/// Simplifies each cell in its own coordinates and keeps what the cells share.
 TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, float offset_box) {
     constexpr std::uint32_t unknown = 0xFFFFFFFFU;
     const auto order = by_cell(mesh, offset_box);
@@ -143,14 +143,14 @@ TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, fl
 } // namespace
 
 TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
-    constexpr std::size_t dense = 50'000; // below, cells would hold few triangles but their borders
+    constexpr std::size_t dense = 50'000; // below, cells would hold little but border triangles
     TriangleMesh result = mesh;
     std::size_t before = 0;
     do {
         before = result.triangle_count();
         if (mesh.triangle_count() >= dense) {
             for (const float offset_box :
-                 {0.0F, 0.075F}) { // what cells share in one grid is inside in the other
+                 {0.0F, 0.075F}) { // a border of one grid is inside a cell of the other
                 result = simplify_in_cells(result, tolerance_box, offset_box);
             }
         } else if (before > 0) {
@@ -158,7 +158,7 @@ TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
             drop_repetitions(result.indices);
         }
     } while (20 * result.triangle_count() < 19 * before);
-    if (!result.indices.empty() && mesh.triangle_count() >= dense) { // open borders, which cells never touch
+    if (!result.indices.empty() && mesh.triangle_count() >= dense) { // open borders, which cells never change
         result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
     }
     drop_repetitions(result.indices);

@@ -1,4 +1,4 @@
-/// Plain triangles in the box frame, and what makes them fewer.
+/// Plain triangles in the box frame, and their simplification.
 ///
 /// Frame    box (longest edge 1); counter-clockwise seen from outside.
 /// Threads  pure; any.
@@ -23,7 +23,7 @@ struct TriangleMesh {
     [[nodiscard]] const glm::vec3& corner(std::size_t triangle, int k) const {
         return positions[indices[3 * triangle + static_cast<std::size_t>(k)]];
     }
-    /// Not unit: twice the area long.
+    /// Its length is twice the area.
     [[nodiscard]] glm::vec3 area_normal(std::size_t triangle) const {
         return glm::cross(corner(triangle, 1) - corner(triangle, 0),
                           corner(triangle, 2) - corner(triangle, 0));
@@ -34,14 +34,14 @@ struct TriangleMesh {
 /// orientation: triangles are two-sided) are dropped.
 [[nodiscard]] TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points);
 
-/// Fewest triangles that meshoptimizer reaches within `tolerance_box`, cell by cell and run until it settles.
-/// Its errors are 32-bit and know nothing below some 3e-4 of the mesh's extent: in cells of 0.15 box the
-/// surface strays 20 to 40 % less at the same number of triangles, where a mesh is dense enough for them. A
-/// single run stops early on dense meshes (a source of 4M triangles kept 2.3 times as many as one of 100k).
-/// Runs add up to somewhat more than the tolerance; levels are measured, not trusted.
+/// The fewest triangles that meshoptimizer reaches within `tolerance_box`, cell by cell, run until nothing
+/// changes. Its errors are 32-bit and see nothing below about 3e-4 of the mesh's extent: in cells of 0.15 box
+/// the surface strays 20 to 40 % less at the same number of triangles, where a mesh is dense enough. A single
+/// run stops early on dense meshes (a source of 4M triangles kept 2.3 times as many as one of 100k). Several
+/// runs add up to a little more than the tolerance; every level is measured afterwards.
 [[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
 
-/// The same triangles as a source without materials, for ray casts against them.
+/// The same triangles as a SourceMesh without materials, for ray casts.
 [[nodiscard]] SourceMesh as_source(const TriangleMesh& mesh);
 
 } // namespace frustumscreen

@@ -12,7 +12,7 @@ namespace {
 
 enum Side : std::uint8_t { none = 0, front = 1, back = 2, both = 3 };
 
-/// Integer hash (the finaliser of MurmurHash3), for points that depend on nothing but their number.
+/// Integer hash (the finaliser of MurmurHash3), for points that depend only on their number.
 std::uint32_t hashed(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x85EBCA6BU;
@@ -30,7 +30,7 @@ std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre)
     constexpr int count = 1024;
     constexpr double golden_angle = 2.399963229728653;
     const double lowest = std::sin(zone.lowest_elevation_deg * std::numbers::pi / 180.0);
-    const double power = lowest > 0.0 ? 1.5 : 1.0; // above a table, more of the low ones
+    const double power = lowest > 0.0 ? 1.5 : 1.0; // above a table there are more low eyes
     std::vector<glm::vec3> eyes;
     for (int k = 0; k < count; ++k) {
         const double sine = lowest + (1.0 - lowest) * std::pow((k + 0.5) / count, power);
@@ -44,7 +44,7 @@ std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre)
     return eyes;
 }
 
-/// Sample weights on a triangle: towards the corners and edges first, where a view through a gap begins.
+/// Sample weights on a triangle: first near the corners and edges, where a view through a gap begins.
 glm::vec3 sample_weights(std::uint32_t triangle, int k) {
     static constexpr std::array<glm::vec3, 4> fixed{glm::vec3(1.0F / 3.0F), glm::vec3(0.8F, 0.1F, 0.1F),
                                                     glm::vec3(0.1F, 0.8F, 0.1F), glm::vec3(0.1F, 0.1F, 0.8F)};
@@ -67,7 +67,7 @@ std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const 
         return none;
     }
     const glm::vec3 normal = area_normal / twice_area;
-    // One more sample for each 1e-4 of the box's square: a large triangle may show through a small window.
+    // One more sample for each 1e-4 of the box's square: a large triangle may be visible through a small gap.
     const int samples = 4 + std::min(28, static_cast<int>(twice_area * 5e3F));
     std::uint8_t seen = none;
     for (int k = 0; k < samples && seen != both; ++k) {
@@ -93,8 +93,8 @@ std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const 
     return seen;
 }
 
-/// Seen sides spread to triangles that touch a seen one, and on over the surface for `reach_box`: what
-/// samples missed beside what they found is kept.
+/// Spreads seen sides to touching triangles, and on over the surface for `reach_box`: this keeps what samples
+/// missed beside what they found.
 std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides,
                                 std::uint8_t side) {
     constexpr float reach_box = 5e-3F;
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std:
     return result;
 }
 
-/// Flipped copies have vertices of their own, so that the two sides keep their own normals.
+/// Flipped copies get their own vertices, so that each side keeps its own normals.
 TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides) {
     TriangleMesh result{mesh.positions, {}};
     std::vector<std::uint32_t> twin(mesh.positions.size(), 0xFFFFFFFFU);

@@ -2,8 +2,8 @@
 ///
 /// Frame    box; the eyes are those of the viewing zone, at every azimuth (the prop can be turned), from
 ///          `lowest_elevation_deg` up to straight above.
-/// Method   sample points on each triangle look for one eye of the zone that sees them; what is found is
-///          grown by the triangles that share a vertex, so that no picture meets an edge of the kept surface.
+/// Method   for sample points on each triangle it looks for one eye of the zone that sees them; the set is
+///          grown by the triangles that share a vertex, so that no picture shows an edge of the kept surface.
 /// Threads  uses all cores; deterministic.
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace frustumscreen {
 
-/// Where eyes can be, relative to the artifact; generous, since one pack serves every kiosk.
+/// Where eyes can be, relative to the artifact; generous, because one pack serves every kiosk.
 struct ViewingZone {
     double lowest_elevation_deg = 3.0; ///< above the prop's bottom, seen from its centre
     double nearest_box = 2.0;          ///< distance in box units
     double farthest_box = 20.0;
 
-    /// Of a prop that is turned anyhow.
+    /// For a prop that can be turned in any way.
     [[nodiscard]] static ViewingZone all_around() {
         ViewingZone zone;
         zone.lowest_elevation_deg = -90.0;
@@ -29,7 +29,7 @@ struct ViewingZone {
 };
 
 /// The triangles of `mesh` whose counter-clockwise side is seen, and for those whose other side is seen a
-/// flipped copy: what is left can be drawn with back faces culled. `scene` is what hides.
+/// flipped copy: the result can be drawn with back faces culled. `scene` hides what is behind it.
 [[nodiscard]] TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene,
                                          const ViewingZone& zone);
 

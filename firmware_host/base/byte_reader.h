@@ -1,4 +1,5 @@
-/// Little-endian numbers out of bytes and into bytes; reading past the end is remembered, never done.
+/// Reads little-endian numbers from bytes and appends them to bytes. Reading past the end gives zeros and is
+/// remembered.
 ///
 /// Threads  values; any.
 #pragma once

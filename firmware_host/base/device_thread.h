@@ -1,8 +1,7 @@
-/// What every thread but the exhibit's own begins with.
+/// Every thread except the exhibit's own begins with this.
 ///
-/// Its name, of at most 15 bytes, is for whoever looks at the process from outside (`top -H`, a debugger).
-/// SIGTERM and SIGINT are left to the exhibit's thread, which puts away what is open before it ends
-/// (firmware_host/service/stop_signals.h).
+/// `name` has at most 15 bytes; `top -H` and debuggers show it. SIGTERM and SIGINT are left to the exhibit's
+/// thread, which closes what is open before it ends (firmware_host/service/stop_signals.h).
 #pragma once
 
 #include <pthread.h>

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// An output file under its temporary name; unlinked unless `keep` was reached.
+/// An output file under its temporary name; unlinked unless `keep` was called.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& target)

@@ -1,4 +1,4 @@
-/// Whole files in, whole files out; an output file appears by rename, complete or not at all.
+/// Reads and writes whole files. A written file appears by rename: complete or not at all.
 #pragma once
 
 #include "firmware_host/base/result.h"

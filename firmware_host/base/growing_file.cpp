@@ -59,7 +59,7 @@ Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
 Result<void> GrowingFile::sync() const {
     while (::fdatasync(descriptor_) != 0) {
         if (errno == EINVAL) {
-            return {}; // a pipe, or whatever else keeps nothing
+            return {}; // a pipe, or something else that stores nothing
         }
         if (errno != EINTR) {
             return failure();

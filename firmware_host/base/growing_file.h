@@ -1,8 +1,8 @@
-/// A file that grows in place, for what must be there up to the last second when the power goes.
+/// A file that grows in place, for data that must survive a power cut up to the last second.
 ///
-/// The one exception from 'files appear by rename': its format must be readable up to any cut.
+/// The one exception to 'files appear by rename': its format must be readable up to any cut.
 /// Threads  one caller.
-/// Errors   one sentence; a full disk is told from others.
+/// Errors   one sentence; a full disk has a sentence of its own.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 class GrowingFile {
 public:
-    /// Makes a new file: `wanted`, or where that is there already, the first of `wanted`.2, `wanted`.3, ...
+    /// Makes a new file: `wanted`, or, where that exists, the first of `wanted`.2, `wanted`.3, ...
     [[nodiscard]] static Result<GrowingFile> create(const std::filesystem::path& wanted);
     /// Takes over an open descriptor; `name` stands in messages.
     GrowingFile(int descriptor, std::filesystem::path name);
@@ -22,12 +22,12 @@ public:
     GrowingFile& operator=(GrowingFile&&) = delete;
 
     [[nodiscard]] Result<void> append(std::span<const std::byte> bytes);
-    /// What was appended survives a power cut from here on; or not: a disk may say only now what went wrong.
+    /// From here on, what was appended survives a power cut. A disk may report an earlier error only here.
     [[nodiscard]] Result<void> sync() const;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
 private:
-    /// What the latest call says through `errno`.
+    /// The error that the latest call left in `errno`.
     [[nodiscard]] Result<void> failure() const;
 
     int descriptor_;

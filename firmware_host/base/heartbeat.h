@@ -1,8 +1,8 @@
-/// A device thread's promise to be heard of again: renewed before each call that may take long, read by
-/// whoever watches. A promise that is broken means that the thread hangs, not that its device does: the
-/// promise is longer than the kernel lets any one call take.
+/// A device thread's promise of when it will be heard from again. The thread renews it before each call that
+/// may take long. A broken promise means that the thread hangs, not its device: the promise is longer than
+/// the kernel lets any one call take.
 ///
-/// Threads  one promises, any reads; neither waits.
+/// Threads  one thread promises, any thread reads; neither waits.
 #pragma once
 
 #include "firmware_host/base/time.h"

@@ -1,4 +1,4 @@
-/// What holds a button's line while the button is up: the word of the settings and of the GPIO chip.
+/// What holds a button's line while the button is up; the settings and the GPIO chip use these words.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
-/// The latest items on their way from a device's thread to the exhibit's; the oldest give way.
+/// Carries the latest items from a device's thread to the exhibit's; when it is full, the oldest are
+/// overwritten.
 ///
 /// Item     has a `time`; put in ascending time.
-/// Threads  one puts, one takes. Taking never waits: while the other side is putting, nothing is there yet.
+/// Threads  one puts, one takes. Taking never waits; it takes nothing while the other side is putting.
 /// Memory   fixed.
 #pragma once
 
@@ -39,8 +40,8 @@ public:
 private:
     std::mutex mutex_;
     std::array<Item, capacity> items_;
-    std::uint64_t put_ = 0;   ///< ever
-    std::uint64_t taken_ = 0; ///< ever, or overwritten
+    std::uint64_t put_ = 0;   ///< items put so far
+    std::uint64_t taken_ = 0; ///< items taken or overwritten so far
 };
 
 } // namespace frustumscreen

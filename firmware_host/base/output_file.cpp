@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of no bytes under a name of its own: what the rights say is not all that can forbid one.
+/// Makes an empty file and removes it: not only missing rights can forbid a file.
 Result<void> try_to_write_in(const fs::path& folder) {
     const std::string probe = (folder / (".frustumscreen" + std::to_string(::getpid()))).string();
     const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
@@ -57,7 +57,7 @@ Result<void> check_output_place(const fs::path& output, std::uintmax_t bytes) {
 
 Result<void> check_output_is_no_input(const fs::path& output, std::span<const fs::path> inputs) {
     for (const fs::path& input : inputs) {
-        std::error_code ignored; // one of them is not there: they are not the same file
+        std::error_code ignored; // if one of them does not exist, they are not the same file
         if (fs::equivalent(output, input, ignored)) {
             return bad_input(output.string() + ": this would replace the input " + input.string() +
                              "; choose another name for the output");

@@ -1,5 +1,5 @@
-/// Looks, before the work, whether its result can be written where a person wants it, so that no hour of work
-/// is lost at its end and no input is lost at all.
+/// Checks before the work whether its result can be written where a person wants it, so that neither an hour
+/// of work nor an input is lost.
 ///
 /// Errors   one line: the place, what is wrong with it, what to do.
 /// Threads  any. Makes and removes an empty file beside the output.
@@ -13,11 +13,11 @@
 
 namespace frustumscreen {
 
-/// The folder is there and may be written to, and has `bytes` left; `output` itself is a regular file or
-/// nothing.
+/// Checks that the folder exists, is writable and has `bytes` left, and that `output` is a regular file or
+/// does not exist.
 [[nodiscard]] Result<void> check_output_place(const std::filesystem::path& output, std::uintmax_t bytes = 0);
 
-/// `output` is none of `inputs`, by whatever name or link.
+/// Checks that `output` is none of `inputs`, under any name or link.
 [[nodiscard]] Result<void> check_output_is_no_input(const std::filesystem::path& output,
                                                     std::span<const std::filesystem::path> inputs);
 

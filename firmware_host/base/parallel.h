@@ -1,6 +1,6 @@
 /// Splits offline work over the machine's cores. Never used on the kiosk's render path.
 ///
-/// Threads  the caller's and as many more as the machine has cores; returns when all are done.
+/// Threads  the caller's and one more for each further core; returns when all are done.
 #pragma once
 
 #include <algorithm>

@@ -11,8 +11,8 @@
 
 namespace frustumscreen {
 
-/// Value below which `share` of the values lie: the smallest with at least share * n values at or below it.
-/// Zero for none. The values come out in another order.
+/// The smallest value with at least share * n values at or below it; zero if there are no values. Reorders
+/// the values.
 template <typename Number> [[nodiscard]] double quantile_in(std::span<Number> values, double share) {
     if (values.empty()) {
         return 0.0;
@@ -23,7 +23,7 @@ template <typename Number> [[nodiscard]] double quantile_in(std::span<Number> va
     std::nth_element(values.begin(), place, values.end());
     return static_cast<double>(*place);
 }
-/// As they are.
+/// The same on a copy of the values.
 [[nodiscard]] inline double quantile(std::vector<double> values, double share) {
     return quantile_in(std::span(values), share);
 }

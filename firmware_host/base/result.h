@@ -15,7 +15,7 @@ namespace frustumscreen {
 enum class ErrorKind {
     BadInput,         ///< outside bytes are wrong: refuse them, keep running
     DeviceLost,       ///< a device went away: reconnect
-    BadConfiguration, ///< a person must change something; a service is started again until it is so
+    BadConfiguration, ///< a person must change something; a service is restarted until that is done
     Internal,         ///< this program cannot go on: the service manager restarts it
 };
 

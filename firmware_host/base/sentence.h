@@ -1,7 +1,7 @@
-/// How a device is, in one plain sentence for the person beside it, without memory of its own.
+/// The state of a device in one plain sentence for the person beside it, as a value of fixed size.
 ///
-/// `Sentence` is a value of fixed size; what is too long is cut, between two characters of UTF-8: systemd
-/// refuses half a one. `SharedSentence` carries the latest one from the device's thread to the exhibit's.
+/// `Sentence` cuts what is too long between two UTF-8 characters: systemd refuses half a character.
+/// `SharedSentence` carries the latest one from the device's thread to the exhibit's.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,11 @@ public:
     [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
 
 private:
-    /// Bytes of the whole characters that `text` begins with and that there is room for.
+    /// How many bytes of `text` fit, in whole characters.
     [[nodiscard]] static constexpr std::size_t fitting(std::string_view text) {
         std::size_t end = std::min(text.size(), longest);
         while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-            --end; // a character goes on here
+            --end; // this byte continues a character
         }
         return end;
     }

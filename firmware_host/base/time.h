@@ -16,7 +16,7 @@ using MonotonicTime = std::chrono::time_point<std::chrono::steady_clock, Nanosec
 [[nodiscard]] inline std::int64_t to_microseconds(MonotonicTime time) {
     return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
-/// The one reading of the monotonic clock; only what paces the exhibit or waits for a device calls it.
+/// The only reading of the monotonic clock; only what paces the exhibit or waits for a device calls it.
 [[nodiscard]] inline MonotonicTime monotonic_now() {
     return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
 }

@@ -1,4 +1,4 @@
-/// Words as they stand in XML and HTML, in text and in attributes within double quotes.
+/// Escapes words for XML and HTML: for text, and for attributes in double quotes.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ namespace {
 using PlaneList = std::unique_ptr<drmModePlaneRes, decltype(&drmModeFreePlaneResources)>;
 using Plane = std::unique_ptr<drmModePlane, decltype(&drmModeFreePlane)>;
 
-/// Properties to set at once. What an object has not, or has already, is left out.
+/// Properties to set at once. A property that an object lacks, or that already has its value, is left out.
 class Commit {
 public:
     explicit Commit(int file) : file_(file), request_(drmModeAtomicAlloc(), drmModeAtomicFree) {}
@@ -57,7 +57,7 @@ void turn_off_crtc(Commit& commit, const KmsProperties& crtc) {
     commit.set(crtc, "MODE_ID", 0);
 }
 
-/// The plane shows the whole framebuffer, whatever a program before did with it.
+/// The plane shows the whole framebuffer, whatever an earlier program did with it.
 void show_on_plane(Commit& commit, const KmsProperties& plane, std::uint32_t crtc, const ScannedOut& shown) {
     const auto number = [](int pixels) { return static_cast<std::uint64_t>(pixels); };
     commit.set(plane, "FB_ID", shown.framebuffer);
@@ -136,14 +136,14 @@ KmsAnswer AtomicKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     if (!route || drmModeCreatePropertyBlob(file_, &info, sizeof info, &blob) != 0) {
         return resources_of(file_) ? KmsAnswer::Refused : kms_answer(-errno);
     }
-    forget_mode(); // the kernel keeps what is set
+    forget_mode(); // the kernel keeps the mode that is set
     mode_blob_ = blob;
     const KmsProperties properties(file_, connector, DRM_MODE_OBJECT_CONNECTOR);
     const std::vector<PropertySetting> settings = exact_picture(properties.all());
     KmsAnswer answer = light(*route, shown, ticket, settings);
     const bool set = answer != KmsAnswer::Refused || settings.empty();
     if (!set) {
-        answer = light(*route, shown, ticket, {}); // better lit than exact
+        answer = light(*route, shown, ticket, {}); // a lit screen is worth more than an exact picture
     }
     if (answer == KmsAnswer::Done) {
         route_ = route;
@@ -167,7 +167,7 @@ KmsAnswer AtomicKms::light(const Route& route, const ScannedOut& shown, std::uin
             continue;
         }
         commit.set(connector, "CRTC_ID", route.crtc);
-        commit.reset(connector, "link-status", 0); // good: the link is trained anew
+        commit.reset(connector, "link-status", 0); // 0 is good: the link is trained again
         for (const PropertySetting& setting : settings) {
             commit.set(connector.object(), setting.property, setting.value);
         }

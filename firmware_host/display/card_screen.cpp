@@ -34,8 +34,8 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
     return screen;
 }
 
-/// Drivers compile a program when it is first drawn with, for the formats that it is drawn with: here, not
-/// when a projector comes. What cannot be made now is told when a projector asks for it.
+/// Drivers compile a program when it first draws, for the formats that it draws with: let that happen here
+/// and not when a projector comes. What cannot be made now is reported when a projector needs it.
 void CardScreen::warm_up() const {
     const PixelSize exact{picture_.width(), picture_.height()};
     const PixelSize scaled{std::max(exact.width / 2, 1), std::max(exact.height / 2, 1)};

@@ -1,8 +1,7 @@
-/// The exhibit's picture on a graphics card: what draws it, and its way into framebuffers that the card
+/// The exhibit's picture on a graphics card: what draws it, and how it gets into framebuffers that the card
 /// shows.
 ///
-/// Threads  the render thread. The copying has a context of its own, so that the renderer's state stays as it
-///          is.
+/// Threads  the render thread. The copying has its own context and leaves the renderer's state alone.
 /// Errors   no GBM and no EGL; framebuffers that the card cannot make.
 #pragma once
 
@@ -43,7 +42,7 @@ private:
     PictureCopy copy_;
 };
 
-/// The copying's context for as long as this lives, the picture's afterwards.
+/// Makes the copying's context current for as long as this lives, and the picture's afterwards.
 class CopyingNow {
 public:
     explicit CopyingNow(const CardScreen& screen) : CopyingNow(screen.copying(), screen.gpu().context()) {}

@@ -1,7 +1,7 @@
-/// What the kernel knows of all graphics cards' connectors without opening a card.
+/// What the kernel knows about the connectors of all graphics cards, without opening a card.
 ///
 /// Threads  any.
-/// Errors   none: what cannot be read is not connected.
+/// Errors   none: what cannot be read counts as not connected.
 /// Source   sysfs: /sys/class/drm/card1-HDMI-A-1/status is "connected", "disconnected" or "unknown".
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace frustumscreen {
 
-/// Those to which something is connected, as "card1-HDMI-A-1", in order.
+/// Names of the connectors with something connected, such as "card1-HDMI-A-1", in order.
 [[nodiscard]] std::vector<std::string> connected_connectors(const std::filesystem::path& folder);
 
-/// Is one of them this card's? `card`: its path, such as "/dev/dri/card1"; `connector`: this one; empty =
-/// any.
+/// Does one of them belong to this card? `card`: its path, such as "/dev/dri/card1"; `connector`: its name,
+/// empty = any.
 [[nodiscard]] bool has_connected(std::span<const std::string> connected, const std::filesystem::path& card,
                                  std::string_view connector);
 

@@ -9,9 +9,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
-constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< at what the kernel knows: cheap
-/// The kernel reads a projector's EDID again and again where the cable is bad, each try with a limit of its
-/// own.
+constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< the kernel knows: cheap
+/// Where the cable is bad, the kernel reads a projector's EDID again and again, with a limit for each try.
 constexpr Nanoseconds longest_look = std::chrono::seconds(20);
 
 } // namespace
@@ -34,7 +33,7 @@ std::optional<CardSeen> ConnectorWatch::news() {
 void ConnectorWatch::run() {
     begin_device_thread("connectors");
     std::optional<CardSeen> last;
-    bool plugged = true; // what was before the start is news
+    bool plugged = true; // what is connected at the start is news
     while (!stop_) {
         heartbeat_.promise(monotonic_now() + between_looks_in_the_dark + longest_look);
         CardSeen seen;

@@ -1,8 +1,8 @@
-/// Watches on a thread of its own what is connected to a graphics card: asking a projector may take long.
+/// Watches what is connected to a graphics card on its own thread, because asking a projector may take long.
 ///
-/// A hot-plug is looked at at once. In the dark the projectors are asked again and again, because some plug
-/// in without a word; while one is lit, only what the kernel knows is looked at, because asking disturbs
-/// some.
+/// It looks at once after a hot-plug. While nothing is lit it asks the projectors again and again, because
+/// some plug in without an event; while one is lit it only reads what the kernel knows, because asking
+/// disturbs some.
 ///
 /// Threads  `news`, `quiet`, `set_lit`: the render thread, never blocked.
 #pragma once
@@ -30,11 +30,11 @@ public:
     ConnectorWatch(const ConnectorWatch&) = delete;
     ConnectorWatch& operator=(const ConnectorWatch&) = delete;
 
-    /// What is connected, if that was not handed out before and changed or was plugged.
+    /// What is connected, if it changed or was plugged and was not handed out yet.
     [[nodiscard]] std::optional<CardSeen> news();
-    /// While it is held nobody asks the card; not held: the card is just being asked.
+    /// While this lock is held nobody asks the card; if it could not be taken, the card is being asked now.
     [[nodiscard]] std::unique_lock<std::mutex> quiet() { return std::unique_lock(asking_, std::try_to_lock); }
-    /// Until when its thread promises to be heard of again.
+    /// Until when its thread promises to be heard from again.
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
     /// Is a projector lit?
     void set_lit(bool lit) { lit_ = lit; }

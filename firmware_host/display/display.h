@@ -23,27 +23,27 @@ public:
     /// GL name of the framebuffer to draw the next picture into: colour sRGB 8-bit, depth 24, stencil 8.
     /// Row 0 of a read-back is the picture's top row (as `Pinhole::clip_from_point`).
     [[nodiscard]] virtual unsigned framebuffer() const = 0;
-    /// How many presents ago the framebuffer held what it holds now; 0 = undefined, 1 = the last picture.
+    /// How many presents old the framebuffer's content is; 0 = undefined, 1 = the last picture.
     [[nodiscard]] virtual int buffer_age() const = 0;
-    /// The part of the framebuffer that was drawn into since the last present; not told: all of it.
+    /// Tells which part of the framebuffer was drawn into since the last present; if not called, all of it
+    /// was.
     virtual void changed(const PixelRectangle& /*part*/) {}
-    /// Shows what was drawn; the time at which it was (or will be) lit.
+    /// Shows what was drawn; returns the time at which it was (or will be) lit.
     [[nodiscard]] virtual Result<MonotonicTime> present(MonotonicTime now) = 0;
     /// When the frame after the one that began at `now` should begin, for one frame every `period`: on a
     /// flip, where there are flips.
     [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return now + period;
     }
-    /// The first pixels of the top row, `code_pixels` at most, as they are shown now, RGBA codes. False:
-    /// nothing is shown; then the framebuffer has what was presented.
+    /// Reads the first pixels of the top row, at most `code_pixels`, as they are shown now, RGBA codes.
+    /// False: nothing is shown; what was presented is in the framebuffer.
     [[nodiscard]] virtual bool read_shown(std::span<std::byte> /*rgba*/) const { return false; }
-    /// What was presented is on, or there is nothing that it could be on.
+    /// What was presented is shown, or there is no screen that could show it.
     [[nodiscard]] virtual bool settled() const { return true; }
-    /// Until when the device's thread promises to be heard of again; nothing: it has none.
+    /// Until when the device's thread promises to be heard from again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return std::nullopt; }
     [[nodiscard]] virtual std::string name() const = 0;
-    /// How the device is, in one plain sentence; empty: there is nothing that could fail. Good until the next
-    /// call.
+    /// The device's state in one plain sentence, valid until the next call; empty: nothing can fail.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
 };
 

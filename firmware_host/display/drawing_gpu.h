@@ -2,12 +2,12 @@
 /// else the processor.
 ///
 /// Mesa pairs the display and the GPU of many boards by itself (kmsro: vc4 and v3d of a Raspberry Pi, most
-/// ARM boards). What is left are cards that only display, without such a pair (bochs, ast, mgag200, udl,
+/// ARM boards). What remains are cards that only display, without such a pair (bochs, ast, mgag200, udl,
 /// gud), in a machine with a GPU of its own.
 ///
 /// Threads  the render thread; afterwards the context is current.
 /// Errors   no GBM and no EGL at all.
-/// Source   Mesa, src/gbm/backends/dri (a card without a driver is drawn for by kms_swrast) and
+/// Source   Mesa, src/gbm/backends/dri (kms_swrast draws for a card without a driver) and
 ///          src/gallium/winsys/kmsro.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace frustumscreen {
 
 class DrawingGpu {
 public:
-    /// `card`: the card that shows, which stays open.
+    /// `card` shows the picture and must stay open.
     [[nodiscard]] static Result<DrawingGpu> choose_for(int card);
 
     [[nodiscard]] const EglContext& context() const { return context_; }

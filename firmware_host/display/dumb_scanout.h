@@ -1,8 +1,8 @@
-/// Framebuffers in plain memory of a card that another GPU, or the processor, draws for: every picture is
-/// copied into them. All drivers of displays have such memory.
+/// Framebuffers in plain memory of a card for which another GPU or the processor draws: every picture is
+/// copied into them. All display drivers have such memory.
 ///
 /// Threads  the render thread.
-/// Errors   one clause: what the card has not.
+/// Errors   one clause: what the card lacks.
 /// Source   the kernel's "Dumb Buffer Objects": DRM_IOCTL_MODE_CREATE_DUMB, _MAP_DUMB.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `screen` outlives it.
+/// `screen` must outlive the result.
 [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_dumb_scanout(const CardScreen& screen,
                                                                      PixelSize size);
 

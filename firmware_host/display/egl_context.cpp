@@ -119,7 +119,7 @@ std::string gl_driver_name() {
     return text(GL_RENDERER) + ", " + text(GL_VERSION);
 }
 
-/// Mesa's three.
+/// Mesa's three names for it.
 bool draws_on_processor(std::string_view driver_name) {
     return driver_name.starts_with("llvmpipe") || driver_name.starts_with("softpipe") ||
            driver_name.starts_with("Software Rasterizer");

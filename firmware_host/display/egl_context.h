@@ -16,11 +16,11 @@ namespace frustumscreen {
 
 class EglContext {
 public:
-    /// On no screen at all; current.
+    /// Without a screen; it is current afterwards.
     [[nodiscard]] static Result<EglContext> without_screen();
-    /// On the card of a GBM device, which must outlive it; current.
+    /// On the card of a GBM device, which must outlive it; it is current afterwards.
     [[nodiscard]] static Result<EglContext> on_gbm(void* gbm_device);
-    /// One more with the same textures and buffers and with a state of its own. Not current.
+    /// Another context with the same textures and buffers but its own state; it is not current.
     [[nodiscard]] Result<EglContext> sharing() const;
 
     ~EglContext();
@@ -41,11 +41,11 @@ private:
     void* context_ = nullptr;
 };
 
-/// The driver's own name and version; of the current context.
+/// The name and version of the current context's driver.
 [[nodiscard]] std::string gl_driver_name();
 /// Does a driver of this name draw on the processor?
 [[nodiscard]] bool draws_on_processor(std::string_view driver_name);
-/// Of the current context.
+/// Does the current context have this extension?
 [[nodiscard]] bool has_gl_extension(std::string_view name);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// When the refreshes of a screen are: flips that were seen, and the mode's period from there on.
+/// Predicts a screen's refreshes: from the latest flip that was seen, in steps of the mode's period.
 ///
 /// Time     CLOCK_MONOTONIC.
 /// Threads  values.

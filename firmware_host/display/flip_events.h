@@ -16,12 +16,12 @@ class FlipEvents {
 public:
     explicit FlipEvents(int card);
 
-    /// Flips of this CRTC alone are of interest from now on; a commit that turns others off brings theirs
-    /// too. Whether they keep time is asked anew, when one was seen: until then a mode is being set.
+    /// From now on only flips of this CRTC count; a commit that turns others off reports theirs too. Whether
+    /// flips keep time is asked again after the first one: until then a mode is being set.
     void expect_of(std::uint32_t crtc);
-    /// One that the card does not report, because its call returned when it was done.
+    /// Adds a flip that the card does not report, because the call returned only when it was done.
     void add(const Flipped& flipped) { seen_.push_back(flipped); }
-    /// The next flip, waited for at most so long; 0 = not at all.
+    /// The next flip; waits for it at most `at_most`, 0 = not at all.
     [[nodiscard]] std::optional<Flipped> wait(Nanoseconds at_most);
     [[nodiscard]] bool keep_time() const { return keep_time_.value_or(false); }
 

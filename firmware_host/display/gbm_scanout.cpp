@@ -112,8 +112,8 @@ GbmScanoutPair::~GbmScanoutPair() {
     }
 }
 
-/// The picture is drawn to its end (KmsDisplay::present). The kernel shows the copy only when it is drawn
-/// too, on a card that draws itself and on one that does not.
+/// The picture is complete (KmsDisplay::present). The kernel shows the copy only when it is complete too,
+/// whether the card draws it or not.
 FramebufferId GbmScanoutPair::fill(int which, const PixelRectangle& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     const CopyingNow copying(screen_);
@@ -141,9 +141,8 @@ bool GbmScanoutPair::read(int which, std::span<std::byte> rgba) const {
 Result<std::unique_ptr<ScanoutPair>> make_gbm_scanout(const CardScreen& screen, PixelSize size) {
     auto pair = std::make_unique<GbmScanoutPair>(screen, size);
     if (const char* missing = pair->make()) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("the graphics card has not {} for {} x {} pixels", missing, size.width, size.height));
+        return fail(ErrorKind::BadConfiguration, fmt::format("the graphics card lacks {} for {} x {} pixels",
+                                                             missing, size.width, size.height));
     }
     return pair;
 }

@@ -1,7 +1,7 @@
 /// Framebuffers in the memory of a card that draws for itself, through GBM: the picture is drawn into them.
 ///
 /// Threads  the render thread.
-/// Errors   one clause: what the card has not.
+/// Errors   one clause: what the card lacks.
 /// Source   EGL_KHR_image_pixmap (a GBM buffer as an EGL image), OES_EGL_image.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// `screen` outlives it.
+/// `screen` must outlive the result.
 [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_gbm_scanout(const CardScreen& screen, PixelSize size);
 
 } // namespace frustumscreen

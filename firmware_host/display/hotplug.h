@@ -1,4 +1,4 @@
-/// Told when something is plugged into a graphics card, or pulled out.
+/// Reports when something is plugged into a graphics card or pulled out.
 #pragma once
 
 #include "firmware_host/base/time.h"
@@ -10,13 +10,13 @@ namespace frustumscreen {
 class Hotplug {
 public:
     virtual ~Hotplug() = default;
-    /// Waits for it, at most so long, or until `wake`: was there any?
+    /// Waits for an event, at most `at_most` or until `wake`; true if there was one.
     [[nodiscard]] virtual bool wait(Nanoseconds at_most) = 0;
-    /// Ends the wait that is under way, or the next one. Any thread.
+    /// Ends the current wait, or the next one; any thread may call it.
     virtual void wake() = 0;
 };
 
-/// From udev. Where there is no udev, nothing is ever heard and every wait takes its time.
+/// Events of udev. Where there is no udev, none ever comes and every wait takes its full time.
 [[nodiscard]] std::unique_ptr<Hotplug> make_udev_hotplug();
 
 } // namespace frustumscreen

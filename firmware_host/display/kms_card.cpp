@@ -73,7 +73,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
                 best = std::move(card);
             }
         } else if (!best && best.error().kind == ErrorKind::DeviceLost) {
-            best = std::move(card); // the reason why there is none; that one may not be opened says most
+            best = std::move(card); // why there is none: that a card may not be opened says most
         }
     }
     return best;
@@ -91,7 +91,7 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
     KmsCard card(file, path);
     const KmsResources resources = resources_of(file);
     if (!resources || resources->count_crtcs == 0 || resources->count_connectors == 0) {
-        return fail(ErrorKind::DeviceLost, // the one that has may come later
+        return fail(ErrorKind::DeviceLost, // a card with connectors may come later
                     fmt::format("display: the graphics card {} has no connectors; name another one", path));
     }
     card.atomic_ = drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&

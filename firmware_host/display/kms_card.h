@@ -1,8 +1,8 @@
 /// An open graphics card: its file, its name, and what is connected to it.
 ///
 /// Threads  `look` on any one thread while the render thread sets modes: the kernel takes both.
-/// Errors   no permission (a person acts, or udev is not done yet): BadConfiguration; no card, or one without
-///          screens: DeviceLost.
+/// Errors   no permission (a person must act, or udev is not done yet): BadConfiguration; no card, or one
+///          without screens: DeviceLost.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -29,19 +29,19 @@ public:
     /// False: modes are set by the kernel's older calls.
     [[nodiscard]] bool is_atomic() const { return atomic_; }
     /// What is connected. `thoroughly`: asks the projectors, which takes up to some 100 ms for each; else
-    /// what the kernel knows already.
+    /// gives what the kernel already knows.
     [[nodiscard]] CardSeen look(bool thoroughly) const;
 
 private:
     friend class OtherCards;
     KmsCard(int file, std::string path) : file_(file), path_(std::move(path)) {}
     [[nodiscard]] static Result<KmsCard> open_path(const std::string& path);
-    /// Of a card that does not answer: it, or another one, may be there anew.
+    /// The state of a card that does not answer: it, or another one, may be back.
     [[nodiscard]] CardState state() const;
 
     int file_ = -1;
     std::string path_;
-    bool any_ = false; ///< another one would do
+    bool any_ = false; ///< any other card would do
     bool atomic_ = false;
 };
 
@@ -56,11 +56,12 @@ public:
 private:
     std::string own_path_;
     OutputRequest request_;
-    std::vector<std::string> looked_at_; ///< connectors to which something was connected, in vain
+    std::vector<std::string> looked_at_; ///< connected ones at the last look, which found no projector
 };
 
-/// Makes this process the one that may set modes on an open card: true if no other one is. The kernel lets
-/// only the first who opened the card do so, and whoever once was it (drm_auth.c, drm_master_check_perm).
+/// Makes this process the one that may set modes on an open card; true if no other process is. The kernel
+/// lets only the first process that opened the card do so, and one that was it before (drm_auth.c,
+/// drm_master_check_perm).
 [[nodiscard]] bool take_screen(int card);
 
 } // namespace frustumscreen

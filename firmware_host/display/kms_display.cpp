@@ -29,7 +29,7 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
     }
     if (!take_screen(card->file())) {
         return fail(
-            ErrorKind::DeviceLost, // opened anew later, it may be had
+            ErrorKind::DeviceLost, // it may be free when it is opened again later
             fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
                         card->path()));
     }
@@ -61,7 +61,7 @@ CardSeen KmsDisplay::look(bool thoroughly) {
 }
 
 Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
-    glFinish(); // in the dark too: the exhibit's pace and its watchdog do not depend on a projector
+    glFinish(); // without a projector too: the exhibit's pace and its watchdog do not depend on one
     presented_ = true;
     if (std::optional<CardSeen> seen = watch_.news()) {
         presenter_.connected(std::move(*seen));

@@ -1,14 +1,13 @@
 /// The projector on a connector of this machine's graphics card.
 ///
 /// The renderer draws into one framebuffer object of the picture's size; each picture is copied from there to
-/// what the card shows, scaled where the projector's mode is of another size, so that no projector that
-/// comes, goes or changes ever touches the renderer.
+/// what the card shows, scaled where the projector's mode is of another size, so that a projector that comes,
+/// goes or changes never affects the renderer.
 ///
 /// Time     CLOCK_MONOTONIC, from the card's page flips.
-/// Threads  the one that created it: the context is current there. A thread of its own asks what is
-/// ///          connected.
-/// Errors   at the start: no card, no permission, no OpenGL ES 3. Later none but a card that is back after it
-///          was gone, that hangs, or another one that has the projector now; `state` says the rest.
+/// Threads  the one that created it: the context is current there. Another thread asks what is connected.
+/// Errors   at the start: no card, no permission, no OpenGL ES 3. Later: the card is back after it was gone,
+///          it hangs, or another card has the projector now; `state` says the rest.
 #pragma once
 
 #include "firmware_host/display/card_screen.h"
@@ -33,7 +32,7 @@ public:
     [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
     void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
-    /// Waits until the picture is drawn, and for the flip before, at most `flip_patience`.
+    /// Waits until the picture is drawn, and at most `flip_patience` for the flip before.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
         return presenter_.next_frame(now, period);
@@ -53,7 +52,7 @@ private:
 
     KmsCard card_;
     OutputRequest request_;
-    std::optional<OtherCards> other_cards_; ///< the watch's thread alone; nothing: this card was asked for
+    std::optional<OtherCards> other_cards_; ///< of the watch's thread alone; none: this card was asked for
     std::unique_ptr<CardScreen> screen_;
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;

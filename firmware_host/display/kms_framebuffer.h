@@ -1,5 +1,5 @@
-/// A piece of a graphics card's memory as a framebuffer that the kernel can show, 8 bits a channel, without
-/// alpha.
+/// Makes a piece of a graphics card's memory a framebuffer that the kernel can show, 8 bits a channel,
+/// without alpha.
 ///
 /// Threads  the render thread.
 /// Errors   0: the card does not take it.
@@ -14,7 +14,7 @@ namespace frustumscreen {
 /// `handle`: the memory's GEM handle on this card; `stride`: bytes of a row.
 [[nodiscard]] FramebufferId add_framebuffer(int card, PixelSize size, std::uint32_t handle,
                                             std::uint32_t stride);
-/// 0 is none.
+/// Does nothing for 0.
 void remove_framebuffer(int card, FramebufferId framebuffer);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// libdrm's mode objects as owners, and the house's timing as the kernel's.
+/// Owners of libdrm's mode objects, and our ModeTiming converted to and from the kernel's.
 #pragma once
 
 #include "firmware_host/display/kms_device.h"
@@ -20,12 +20,12 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
     return {drmModeGetResources(card), drmModeFreeResources};
 }
 
-/// What the kernel gives back with a flip; no address.
+/// What the kernel gives back with a flip; it is no address.
 [[nodiscard]] inline void* bits_given_back(std::uint64_t ticket) {
     return reinterpret_cast<void*>(ticket); // NOLINT(performance-no-int-to-ptr)
 }
 [[nodiscard]] bool is_hdmi(int card, std::uint32_t connector);
-/// Of a call's negative error number; 0 = done.
+/// The answer for a call's negative error number; 0 = done.
 [[nodiscard]] KmsAnswer kms_answer(int status);
 [[nodiscard]] ModeTiming timing_of(const drmModeModeInfo& mode);
 [[nodiscard]] drmModeModeInfo mode_info(const ModeTiming& timing);

@@ -17,7 +17,7 @@ namespace {
 
 /// 59.94, 59.81 and 60 Hz are the same request, 50 and 60 are not.
 constexpr double same_refresh_hz = 0.5;
-constexpr double usual_refresh_hz = 60.0; ///< where a mode is made here and none is asked for
+constexpr double usual_refresh_hz = 60.0; ///< of a mode made here when no rate is asked for
 
 /// CTA-861's formats 4 and 16: projectors that take HDMI know these to the pixel.
 constexpr ModeTiming hd_720{74250, 1280, 1390, 1430, 1650, 0,
@@ -39,7 +39,7 @@ double off_rate(const ModeTiming& mode, const OutputRequest& request) {
     return std::abs(refresh_hz(mode) - (request.refresh_hz > 0.0 ? request.refresh_hz : request.picture_hz));
 }
 
-/// Smaller is nearer: whole pictures before half ones, then size and shape, then refresh.
+/// Smaller is nearer: progressive modes before halved ones, then size and shape, then refresh.
 auto distance(const ModeTiming& mode, const OutputRequest& request) {
     const int width = request.width > 0 ? request.width : request.picture_width;
     const int height = request.height > 0 ? request.height : request.picture_height;

@@ -1,10 +1,9 @@
-/// Which connector and which mode: pure choice over what a graphics card says is connected.
+/// Chooses a connector and a mode from what a graphics card says is connected.
 ///
 /// Units    pixels, lines, kilohertz, hertz.
 /// Threads  values; any.
 /// Source   struct drm_mode_modeinfo of the kernel's KMS; VESA CVT 1.2 for timings made here, CTA-861 for the
-/// two
-///          that digital projectors expect exactly.
+///          two that digital projectors expect exactly.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +38,14 @@ inline constexpr std::uint32_t mode_interlaced = 1U << 4U;
 inline constexpr std::uint32_t mode_doublescan = 1U << 5U;
 inline constexpr std::uint32_t mode_stereo = 0x1FU << 14U;
 
-/// Pictures a second; 0 for a timing that is none.
+/// Pictures a second; 0 for an invalid timing.
 [[nodiscard]] double refresh_hz(const ModeTiming& mode);
 
 enum class Plugged : std::uint8_t { No, Yes, Unknown };
 
 struct ConnectorSeen {
     std::uint32_t id = 0;
-    std::string name; ///< as the kernel's: "HDMI-A-1"
+    std::string name; ///< the kernel's, such as "HDMI-A-1"
     Plugged plugged = Plugged::No;
     bool built_in = false; ///< a panel of the machine itself
     bool link_bad = false; ///< the kernel asks for the mode to be set again
@@ -55,8 +54,8 @@ struct ConnectorSeen {
     [[nodiscard]] bool operator==(const ConnectorSeen&) const = default;
 };
 
-/// Back: gone, and now there anew. Elsewhere: nothing can be lit, and another card has a projector. Only a
-/// new start takes these up.
+/// Back: it was gone and is there again. Elsewhere: nothing can be lit, and another card has a projector.
+/// Both need a new start of the program.
 enum class CardState : std::uint8_t { There, Gone, Back, Elsewhere };
 
 struct CardSeen {
@@ -74,7 +73,7 @@ struct OutputRequest {
     double refresh_hz = 0.0; ///< 0 = any
     bool force = false; ///< use the mode even where the projector does not name it, and light the connector
                         ///< named even where it says that nothing is connected
-    int picture_width = 0; ///< the exhibit's; nearest to it where nothing else decides
+    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides
     int picture_height = 0;
     double picture_hz = 60.0;
 };
@@ -82,23 +81,23 @@ struct OutputRequest {
 /// Is this the connector that is lit by force though it says that nothing is connected?
 [[nodiscard]] bool is_lit_blindly(const ConnectorSeen& connector, const OutputRequest& request);
 
-/// The connector to light; nothing: no projector is there. One that is certainly connected goes before one
-/// that cannot say, one of the outside before a built-in panel, else the first.
+/// The connector to light; nothing: no projector is there. One that is certainly connected goes before an
+/// unknown one, an external one before a built-in panel, then the first.
 [[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputRequest& request);
 
-/// Which of several cards to take: the one with the smallest number, of equal ones the first.
+/// Which of several cards to take: the one of the lowest rank, among equals the first.
 enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTheConnectorNamed };
 [[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputRequest& request);
 
-/// The modes to try, best first: the one asked for; if none is, those of the picture's own size, then the
-/// preferred one; the rest by nearness.
+/// The modes to try, best first: the one asked for; if none is asked for, those of the picture's own size,
+/// then the preferred one; the rest by nearness.
 [[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector,
                                                    const OutputRequest& request);
 
 /// Does `mode` fulfil what the settings ask for?
 [[nodiscard]] bool fulfils(const ModeTiming& mode, const OutputRequest& request);
 
-/// A timing of our own, where the projector's EDID has none; no clock: none can be made.
+/// Makes a timing where the projector's EDID has none; its clock is 0 if none can be made.
 [[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);
 
 } // namespace frustumscreen

@@ -2,7 +2,7 @@
 /// read.
 ///
 /// Threads  values.
-/// Errors   a property that the driver does not have is nothing.
+/// Errors   none: a property that the driver does not have is not found.
 #pragma once
 
 #include <cstdint>

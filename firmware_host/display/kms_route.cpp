@@ -13,7 +13,7 @@ std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector_id) {
     if (!resources || !connector) {
         return crtcs;
     }
-    std::uint32_t possible = 0; // a bit for each, by their order in the list
+    std::uint32_t possible = 0; // one bit for each CRTC, in the list's order
     std::uint32_t feeding = 0;
     for (int k = 0; k < connector->count_encoders; ++k) {
         if (const KmsEncoder encoder(drmModeGetEncoder(card, connector->encoders[k]), drmModeFreeEncoder);

@@ -1,7 +1,7 @@
 /// The way from a graphics card's memory to a connector.
 ///
 /// Threads  the render thread.
-/// Errors   none: what the card does not say is not there.
+/// Errors   none: what the card does not report is left out.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ struct KmsCrtc {
     int index = 0; ///< in the card's list
 };
 
-/// CRTCs that can feed the connector; the one that does already first: a program before may have set it up.
+/// CRTCs that can feed the connector; one that already does comes first: an earlier program may have set it
+/// up.
 [[nodiscard]] std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector);
 
 } // namespace frustumscreen

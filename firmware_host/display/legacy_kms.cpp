@@ -28,8 +28,8 @@ bool set_properties(int card, const KmsProperties& connector) {
 
 } // namespace
 
-/// A framebuffer is shown pixel for pixel alone. The first CRTC that takes it is the connector's; all others
-/// are turned off before, as they may hold what this mode needs.
+/// A framebuffer is shown only pixel for pixel. The first CRTC that accepts the mode becomes the connector's;
+/// all others are turned off first, because they may hold what this mode needs.
 KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                            std::uint64_t ticket) {
     const PixelSize screen{mode.width, mode.height};

@@ -1,6 +1,6 @@
 /// KMS without atomic commits, for the drivers that have none (nouveau as Debian ships it, radeon, gma500).
 ///
-/// Setting a mode waits until it is set, up to some 100 ms; the flip that has to follow it is told then.
+/// Setting a mode blocks until it is set, up to some 100 ms; the flip that must follow is reported then.
 ///
 /// Threads  the render thread.
 /// Source   the kernel's userspace API for KMS: SETCRTC, PAGE_FLIP; libdrm.
@@ -31,7 +31,7 @@ public:
 private:
     int file_;
     FlipEvents flips_;
-    std::uint32_t crtc_ = 0; ///< that feeds what is lit; 0 = nothing is
+    std::uint32_t crtc_ = 0; ///< feeds what is lit; 0 = nothing is lit
     std::string_view shortcoming_;
 };
 

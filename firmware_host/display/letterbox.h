@@ -1,5 +1,4 @@
-/// Where a picture goes on a screen of another size: as large as it fits, centred,
-/// nothing distorted.
+/// Where a picture goes on a screen of another size: as large as it fits, centred, not distorted.
 #pragma once
 
 #include "firmware_host/base/pixel_rectangle.h"
@@ -15,8 +14,9 @@ struct PixelSize {
     [[nodiscard]] bool operator==(const PixelSize&) const = default;
 };
 
-/// Of the picture's top row: they bear a code that a watchdog reads and are shown pixel for pixel at the
-/// screen's top left, however the picture is scaled (the same as `probe_pixels` of app/render/probe.h).
+/// How many pixels of the picture's top row bear a code that a watchdog reads. They are shown pixel for pixel
+/// at the screen's top left, however the picture is scaled (the same as `probe_pixels` of
+/// app/render/probe.h).
 inline constexpr int code_pixels = 8;
 
 /// Both sizes at least 1 x 1.
@@ -36,8 +36,8 @@ inline constexpr int code_pixels = 8;
     return place;
 }
 
-/// The pixels of the screen on which `part` of the picture can be seen, if the picture is at `place`; one
-/// that lies between two pixels of the picture is of both.
+/// The pixels of the screen on which `part` of the picture is seen when the picture is at `place`. A screen
+/// pixel between two pixels of the picture belongs to both.
 [[nodiscard]] inline PixelRectangle part_on_screen(const PixelRectangle& part, PixelSize picture,
                                                    const PixelRectangle& place) {
     const auto from = [](int at, int screen, int whole) {

@@ -14,8 +14,8 @@ struct Wanted {
     std::string_view property;
     std::string_view choice; ///< empty: the number 0
 };
-/// "Graphics" asks the projector not to cut, filter or smooth. What is not here ("max bpc", "scaling mode",
-/// "audio") changes no pixel of a mode that the projector names.
+/// "Graphics" asks the projector not to cut, filter or smooth. Properties that are not listed ("max bpc",
+/// "scaling mode", "audio") change no pixel of a mode that the projector names.
 constexpr std::array<Wanted, 9> wanted{{
     {range, "Full"},
     {"underscan", "off"},

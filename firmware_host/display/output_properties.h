@@ -22,7 +22,7 @@ struct PropertySetting {
     [[nodiscard]] bool operator==(const PropertySetting&) const = default;
 };
 
-/// What is not so already, and the driver has.
+/// The settings that the driver has and that are not in force yet.
 [[nodiscard]] std::vector<PropertySetting> exact_picture(std::span<const KmsProperty> connector);
 
 /// A clause for a technician; empty: nothing is in doubt. Only HDMI has two ranges of codes, and the driver

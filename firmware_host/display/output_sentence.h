@@ -1,4 +1,4 @@
-/// How the output is, in one sentence for the person beside it.
+/// The output's state in one sentence for the person beside it.
 ///
 /// Threads  pure.
 #pragma once

@@ -35,7 +35,7 @@ void main() {
 }
 )";
 
-/// Where the driver decodes every texel that is read.
+/// For drivers that decode every texel that is read.
 constexpr std::string_view shader_of_light = R"(
 uniform sampler2D picture;
 in vec2 at;
@@ -75,7 +75,7 @@ Result<PictureCopy> PictureCopy::create() {
 PictureCopy::PictureCopy(GlProgram program, GlSampler nearest, GlSampler interpolated)
     : program_(std::move(program)), nearest_(std::move(nearest)), interpolated_(std::move(interpolated)) {}
 
-/// The whole picture at `place`, of which the pixels of `part` are written; rows counted as the target's.
+/// Draws the whole picture at `place` but writes only the pixels of `part`; rows are the target's.
 struct PictureCopy::Pass {
     bool exact = true;
     TopRow top = TopRow::First;

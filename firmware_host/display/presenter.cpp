@@ -79,7 +79,7 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     const MonotonicTime expected = clock_.first_after(device_.now());
     if (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
         take(*flipped);
-        return queued_ ? expected : flipped->time; // an emulated card's comes at once
+        return queued_ ? expected : flipped->time; // an emulated card's flip comes at once
     }
     return expected;
 }
@@ -89,7 +89,7 @@ bool Presenter::read_shown(std::span<std::byte> rgba) const {
            scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
 }
 
-/// Once for each flip: a card that hangs must not hold up every frame.
+/// Waits only once for each flip: a card that hangs must not delay every frame.
 void Presenter::wait_for_flip() {
     if (!queued_) {
         return;
@@ -117,7 +117,7 @@ void Presenter::wait_for_flip() {
 
 void Presenter::take(const Flipped& flipped) {
     if (!queued_ || flipped.ticket != queued_->ticket) {
-        return; // of something that was given up
+        return; // the flip of a picture that was given up
     }
     if (device_.flips_keep_time()) {
         clock_.flipped(flipped.time);
@@ -146,7 +146,7 @@ bool Presenter::still_right() const {
     }
     const std::vector<ModeTiming> modes = modes_to_try(*connector, request_);
     if (!modes.empty() && fulfils(modes.front(), request_) && !lit_->as_requested) {
-        return false; // what is asked for can be had now
+        return false; // the mode that is asked for is possible now
     }
     return std::find(modes.begin(), modes.end(), lit_->mode) != modes.end();
 }
@@ -155,7 +155,7 @@ void Presenter::darken() {
     const KmsAnswer answer = device_.darken();
     if (answer == KmsAnswer::Busy) {
         went_wrong(answer);
-        return; // next time
+        return; // tried again next time
     }
     stuck_since_.reset();
     lit_.reset();
@@ -188,7 +188,7 @@ void Presenter::light() {
     state_ = why_refused(*connector, request_, no_memory_.view());
 }
 
-/// False: another mode may work.
+/// False: it failed, but another mode may work.
 bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     const PixelSize picture{request_.picture_width, request_.picture_height};
     const PixelSize screen{mode.width, mode.height};
@@ -196,7 +196,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
         if (light(connector, mode, picture)) {
             return true;
         }
-        card_scales_ = false; // or this mode cannot be had at all; the copy scales as well
+        card_scales_ = false; // or it refuses the mode itself; the copy can scale as well
     }
     return light(connector, mode, screen);
 }
@@ -267,7 +267,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
     switch (answer) {
     case KmsAnswer::Done:
         break;
-    case KmsAnswer::Busy: // the picture is left out; the next one comes
+    case KmsAnswer::Busy: // this picture is skipped; the next one comes
         try_again_ = device_.now() + soon;
         stuck_since_ = stuck_since_.value_or(device_.now());
         break;

@@ -1,6 +1,6 @@
-/// From the exhibit's pictures to flips on a projector that comes and goes: the state machine of the output.
+/// The output's state machine: turns the exhibit's pictures into flips on a projector that comes and goes.
 ///
-/// Without a projector pictures are taken and shown to nobody; when one comes, the next picture lights it.
+/// Without a projector, pictures are accepted and not shown; when one comes, the next picture lights it.
 ///
 /// A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
 /// picture is scaled on its way into memory.
@@ -8,7 +8,7 @@
 /// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
 /// Threads  the render thread.
 /// Errors   a card that is back after it was gone, or that takes no picture for `stuck_given_up`, or a
-///          projector at another card: only a new start can take it up.
+///          projector at another card: the program must be started again.
 #pragma once
 
 #include "firmware_host/base/sentence.h"
@@ -34,18 +34,18 @@ class Presenter {
 public:
     Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request);
 
-    /// What is connected, whenever it was looked at anew.
+    /// Takes what is connected, after each new look.
     void connected(CardSeen seen);
-    /// Shows the picture, where there is a projector: the time at which it flips, else now. `changed`: of the
-    /// picture, since the call before. `may_set`: this is a good moment to set a mode, because nobody else is
-    /// asking the card.
+    /// Shows the picture where there is a projector; returns the time at which it flips, else now. `changed`:
+    /// the part of the picture that changed since the call before. `may_set`: this is a good moment to set a
+    /// mode, because nobody else is asking the card.
     [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
     /// The first picture is shown, or it is known that no projector takes one now.
     [[nodiscard]] bool settled() const { return lit_ ? lit_->shown : looked_ && !about_to_light(); }
-    /// The first pixels of the top row of the framebuffer whose flip was the last that was seen, RGBA codes;
-    /// false: none is lit.
+    /// Reads the first pixels of the top row of the framebuffer that flipped last, RGBA codes; false: none is
+    /// lit.
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
     [[nodiscard]] std::string_view state() const { return state_.view(); }
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
@@ -73,7 +73,7 @@ private:
     }
     void wait_for_flip();
     void take(const Flipped& flipped);
-    /// Is what is lit still what should be?
+    /// Is what is lit still what should be lit?
     [[nodiscard]] bool still_right() const;
     void darken();
     void light();
@@ -83,7 +83,7 @@ private:
     [[nodiscard]] bool make_scanout(PixelSize size);
     /// Brings the framebuffer that is not shown up to date.
     [[nodiscard]] FramebufferId fill();
-    /// What an answer other than Done means.
+    /// Acts on an answer other than Done.
     void went_wrong(KmsAnswer answer);
     void lose(std::string_view why);
     void say_lit();
@@ -94,19 +94,19 @@ private:
     CardSeen seen_;
     std::unique_ptr<ScanoutPair> scanout_;
     std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown
-    std::array<PixelRectangle, 2> stale_{};     ///< of the picture, what each framebuffer has not yet
+    std::array<PixelRectangle, 2> stale_{};     ///< the part of the picture that each framebuffer lacks
     std::optional<Lit> lit_;
     std::optional<Queued> queued_;
     FlipClock clock_;
     std::optional<MonotonicTime> try_again_;   ///< not before
     std::optional<MonotonicTime> stuck_since_; ///< the card took no picture since
     bool looked_ = false;                      ///< what is connected is known
-    bool card_scales_ = true;                  ///< not known yet to refuse
+    bool card_scales_ = true;                  ///< true until it refuses
     Sentence no_memory_;            ///< why the last framebuffers could not be made; empty: they could
     std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown
-    bool late_ = false; ///< the flip queued was waited for in vain
+    bool late_ = false; ///< the queued flip did not come in time
     bool master_ = true;
     bool darken_ = false; ///< what was lit is to be turned off
     Sentence state_;

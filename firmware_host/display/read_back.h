@@ -1,9 +1,8 @@
-/// The way of the picture into memory that the GPU that draws cannot reach: drawn into a renderbuffer of the
-/// screen's size and read back from there.
+/// Brings the picture into memory that the drawing GPU cannot reach: draws it into a renderbuffer of the
+/// screen's size and reads it back.
 ///
 /// Shape    memory as KMS wants it: rows from the top, `stride` bytes each, pixels of four bytes: blue,
-/// green,
-///          red, nothing.
+///          green, red, nothing.
 /// Threads  the copying's context is current in every call and at the end.
 /// Errors   the driver does not read back in this order, or has no memory.
 /// Source   EXT_read_format_bgra.
@@ -22,7 +21,7 @@ class ReadBack {
 public:
     [[nodiscard]] static Result<ReadBack> create(PixelSize screen);
 
-    /// Writes into `memory` what it has not yet: `part` of the picture.
+    /// Writes `part` of the picture, which `memory` lacks.
     void fill(const PictureCopy& copy, const PictureFramebuffer& picture, const PixelRectangle& part,
               std::span<std::byte> memory, std::size_t stride) const;
 

@@ -22,11 +22,11 @@ public:
     virtual ~ButtonLines() = default;
     /// True = down, one each line.
     [[nodiscard]] virtual Result<void> read(std::span<bool> down) = 0;
-    /// Until a level changes, but no longer than `timeout`.
+    /// Waits until a level changes, at most `timeout`.
     [[nodiscard]] virtual Result<void> wait(Nanoseconds timeout) = 0;
-    /// True = lit, one each button; buttons without a lamp do not mind.
+    /// True = lit, one each button; buttons without a lamp ignore it.
     [[nodiscard]] virtual Result<void> light(std::span<const bool> /*lit*/) { return {}; }
-    /// What does not work though they are there, in one sentence for a technician; empty: all works.
+    /// What does not work although the lines are there, in one sentence for a technician; empty: all works.
     [[nodiscard]] virtual std::string_view remark() const { return {}; }
 };
 
@@ -37,7 +37,7 @@ struct LineRequest {
     bool active_low = true;              ///< a pressed button pulls its line to ground
     std::vector<std::string> lamps = {}; ///< as `lines`; in the order of the buttons, as many as there are
 };
-/// Through libgpiod 1.6, the version of Debian 12; 2.x is another file of the same function.
+/// Through libgpiod 1.6, the version of Debian 12; 2.x would be another file with the same function.
 [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request);
 
 using OpenLines = std::function<Result<std::unique_ptr<ButtonLines>>()>;

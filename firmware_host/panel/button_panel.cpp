@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds look_again = std::chrono::milliseconds(500);
-constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop is heard after that
+constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop is noticed after that
 constexpr std::string_view all_well = "its buttons are there";
 
 std::string_view state_of(const Buttons& buttons, std::string_view well) {
@@ -25,7 +25,7 @@ std::string_view state_of(const Buttons& buttons, std::string_view well) {
                : well;
 }
 
-/// What the lamps show; told to them when it changes.
+/// What the lamps show; sent to them when it changes.
 class Lamps {
 public:
     explicit Lamps(std::size_t count) : count_(count), lit_(std::make_unique<bool[]>(count)) {}
@@ -64,7 +64,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
         heartbeat_.promise(monotonic_now() + longest_round);
         Result<std::unique_ptr<ButtonLines>> lines = open_();
         said_.set(lines ? serve(**lines, stop).message : lines.error().message);
-        lines = {}; // closed before it is looked for again
+        lines = {}; // the chip is closed before it is looked for again
         std::unique_lock lock(rest_mutex_);
         stopped_.wait_for(lock, stop, look_again, [] { return false; });
     }

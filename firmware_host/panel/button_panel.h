@@ -1,8 +1,7 @@
-/// A panel of real buttons. A thread of its own waits for them; a chip that is unplugged is looked for until
-/// it is back.
+/// A panel of real buttons. Its own thread waits for them, and looks for an unplugged chip until it is back.
 ///
 /// Threads  `poll`, `state`: one caller, never blocked by the device. At most `most_waiting` events wait; the
-///          oldest give way.
+///          oldest are overwritten.
 /// Time     events bear the monotonic clock's time.
 #pragma once
 
@@ -24,8 +23,8 @@ namespace frustumscreen {
 class ButtonPanel final : public Panel {
 public:
     static constexpr std::size_t most_waiting = 64;
-    /// Opening, or asking for each level: a USB bridge that does not answer costs 5 s a transfer, until the
-    /// kernel gives up, and takes some for each line.
+    /// Opening, or asking for all levels, takes no longer: a USB bridge that does not answer costs 5 s a
+    /// transfer, until the kernel gives up, and each line takes several.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
 
     ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes& times);
@@ -40,7 +39,7 @@ public:
 
 private:
     void watch(const std::stop_token& stop);
-    /// Until the device is lost.
+    /// Runs until the device is lost or `stop` is requested.
     [[nodiscard]] Error serve(ButtonLines& lines, const std::stop_token& stop);
 
     OpenLines open_;
@@ -48,7 +47,7 @@ private:
     ButtonTimes times_;
     Mailbox<PanelEvent, most_waiting> mailbox_;
     SharedSentence said_{"its buttons are not opened yet"};
-    Sentence state_;                       ///< the latest said that `poll` saw
+    Sentence state_;                       ///< the latest sentence that `poll` saw
     std::atomic<std::uint32_t> wished_{0}; ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     std::mutex rest_mutex_;

@@ -76,7 +76,8 @@ bool Buttons::edge(Button& button) {
     return too_many;
 }
 
-/// One that is still at last is as at the first sample: where it is down it says nothing until it was up.
+/// A button that became quiet is treated as at the first sample: if it is down, it reports nothing until it
+/// was up.
 void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
     if (now - button.level_since < times_.quiet) {
@@ -89,7 +90,7 @@ void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelE
     events.push_back({button.level_since + times_.quiet, static_cast<int>(which), PressKind::Freed});
 }
 
-/// What a button that stays down comes to mean.
+/// Reports what it means that a button stays down.
 void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
     if (!button.down || button.stuck || button.chatters) {

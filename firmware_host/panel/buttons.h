@@ -1,25 +1,26 @@
 /// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick or
 /// chatter.
 ///
-/// A level counts once it has held for the debounce time, from when it began. A button that is down at the
-/// first sample says nothing until it was up, but for being stuck: a chip's spurious first edge is no press,
-/// and wires that are swapped or shorted are no chord.
+/// A level counts once it has held for the debounce time; its time is when it began. A button that is down at
+/// the first sample reports nothing but being stuck until it was up: a chip's spurious first edge is no
+/// press, and wires that are swapped or shorted are no chord.
 ///
-/// A press is said at once, also of a button that may come to be held for the chord: no visitor waits for
-/// the staff. A chord began with the latest press of each of its buttons; whoever did as they
-/// said undoes it.
+/// A press is reported at once, even if the button may turn out to be held for the chord: no visitor waits
+/// for the staff. A chord begins with the latest press of each of its buttons; whoever acted on those presses
+/// undoes it.
 ///
 /// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses up to nine times a
 /// second for as long as it has power. So a button of `too_many_edges` within `chatter_window` is ignored
 /// until its level has been still for `quiet`. Forty edges are twenty presses, two a second for ten seconds,
-/// which is more than anyone has a use for: a change of artifact takes half a second, so nobody sees what he
-/// goes through so fast. A child that hammers at it (six to seven presses a second are about as fast as a
-/// finger goes) is ignored after three seconds, and heard again three seconds after it lets go. Edges are
-/// counted and not presses, since a loose contact has many more of them: it is known within a few seconds,
-/// also where it rarely holds for long enough to press.
+/// which is more than anyone needs: a change of artifact takes half a second, so nobody sees artifacts that
+/// pass so fast. A child that hammers at it (six to seven presses a second are about as fast as a finger
+/// goes) is ignored after three seconds, and counts again three seconds after it lets go. Edges are counted,
+/// not presses, because a loose contact has many more of them: it is found within a few seconds, even if it
+/// rarely holds long enough to press.
 ///
-/// Time     a parameter, monotonic; samples may come at any distance, one that is older than the last is
-/// ignored. Threads  values; any. Allocates nothing after construction but for the caller's events.
+/// Time     a parameter, monotonic; samples may come at any interval; one that is older than the last is
+///          ignored.
+/// Threads  values; any. Allocates nothing after construction but for the caller's events.
 #pragma once
 
 #include "firmware_host/panel/panel.h"
@@ -48,7 +49,7 @@ public:
 
     /// The levels at `now`, true = down, one each button. Appends what they mean, in ascending time.
     void sample(MonotonicTime now, std::span<const bool> down, std::vector<PanelEvent>& events);
-    /// When something happens though no level changes; nothing = never.
+    /// When something happens next even if no level changes; nothing = never.
     [[nodiscard]] std::optional<MonotonicTime> due() const;
     /// The button counts as broken.
     [[nodiscard]] bool ignored(std::size_t which) const {
@@ -61,7 +62,7 @@ private:
     struct Button {
         bool level = false;   ///< as sampled last
         bool down = false;    ///< as it counts
-        bool pressed = false; ///< down, after it was up: its press was said
+        bool pressed = false; ///< down, after it was up: its press was reported
         bool mute = false;    ///< no long press until it comes up
         bool stuck = false;
         bool chatters = false; ///< until it is quiet, only `level` is followed

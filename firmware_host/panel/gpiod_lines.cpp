@@ -86,9 +86,9 @@ int flags_of(const LineRequest& request) {
     return flags;
 }
 
-/// Levels are read so often, and no edges are asked for: Linux 6.1's hid-cp2112 sleeps in an atomic context
-/// when a line with edges is let go, and now and then takes the whole kernel with it. A finger takes longer,
-/// and reading three lines costs nothing to speak of.
+/// Levels are read this often instead of asking for edges: Linux 6.1's hid-cp2112 sleeps in an atomic context
+/// when a line with edges is released, and sometimes crashes the whole kernel. A finger is slower than this,
+/// and reading three lines costs almost nothing.
 constexpr Nanoseconds between_reads = std::chrono::milliseconds(20);
 
 class GpiodLines final : public ButtonLines {
@@ -100,7 +100,7 @@ public:
 
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
         std::array<int, GPIOD_LINE_BULK_MAX_LINES>
-            levels{}; // requested together, they are only read together
+            levels{}; // lines requested together can only be read together
         if (::gpiod_line_get_value_bulk(&lines_, levels.data()) < 0) {
             return lost(fmt::format("{}: {}", name_, reason(errno)));
         }

@@ -30,7 +30,7 @@ bool KeyLevels::take(const input_event& event) {
     if (event.type == EV_KEY && !dropped_) {
         for (std::size_t k = 0; k < codes_.size(); ++k) {
             if (codes_[k] == event.code) {
-                down_[k] = event.value != 0 ? 1 : 0; // 2: it repeats
+                down_[k] = event.value != 0 ? 1 : 0; // 2: the key repeats
             }
         }
     }

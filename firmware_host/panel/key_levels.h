@@ -22,7 +22,7 @@ public:
     /// `codes`: KEY_... of the keys that count, one each level.
     explicit KeyLevels(std::vector<std::uint16_t> codes) : codes_(std::move(codes)), down_(codes_.size()) {}
 
-    /// True: the kernel dropped events, `set` the levels from what it says now.
+    /// True: the kernel dropped events; `set` must be called with the levels that it reports now.
     bool take(std::span<const std::byte> bytes);
     /// As EVIOCGKEY answers: bit k of byte k / 8, from the lowest, is set where key k is down.
     void set(std::span<const std::byte> keys);

@@ -66,7 +66,7 @@ File open_device(const fs::path& path) {
     return File(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
 }
 
-/// The first of those in /dev/input that calls itself so; else why there is none.
+/// Opens the first device in /dev/input with this name; else the error number says why there is none.
 tl::expected<File, int> find(const std::string& name) {
     int trouble = ENOENT;
     std::error_code failed;
@@ -156,7 +156,7 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
                     fmt::format("keyboard {}: it is no event device; see {}", request.device, folder));
     }
     KeyLevels there(request.codes);
-    there.set(keys); // the same bits, of what it has
+    there.set(keys); // the same bits, but of the keys that it has
     for (std::size_t k = 0; k < request.codes.size(); ++k) {
         if (!there.down(k)) {
             return fail(ErrorKind::DeviceLost,

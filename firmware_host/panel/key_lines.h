@@ -1,7 +1,7 @@
 /// Keys of a keyboard in place of a panel's wires, for a bench: through the kernel's event devices (evdev).
 ///
-/// Threads, errors  as ButtonLines. While they are open, what is typed on this keyboard reaches nobody else:
-/// no console, and no Ctrl-C.
+/// Threads and errors are those of ButtonLines. While the keyboard is open, its keys reach nobody else: no
+/// console, and no Ctrl-C.
 #pragma once
 
 #include "firmware_host/panel/button_lines.h"
@@ -14,11 +14,11 @@ struct KeyRequest {
 };
 [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request);
 
-/// The same over a file that is open already, and closed by it; `name` for messages.
+/// The same over a file that is already open; it closes the file. `name` stands in messages.
 [[nodiscard]] std::unique_ptr<ButtonLines> key_lines_over(int file, std::string name,
                                                           std::vector<std::uint16_t> codes);
 
-/// Codes of names such as KEY_LEFT. Errors: BadConfiguration, a name that there is not.
+/// Codes of names such as KEY_LEFT. Errors: BadConfiguration, an unknown name.
 [[nodiscard]] Result<std::vector<std::uint16_t>> key_codes(std::span<const std::string> names);
 
 } // namespace frustumscreen

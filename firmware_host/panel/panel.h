@@ -15,15 +15,15 @@ namespace frustumscreen {
 enum class PressKind : std::uint8_t {
     Press,
     LongPress, ///< follows the press while the button is still down
-    Chord,     ///< first and last button held together: staff, as were their presses; `button` is the first
+    Chord,     ///< first and last button held together by staff, as their presses were; `button` is the first
     Stuck,     ///< down longer than anyone presses: it counts as broken and is ignored
-    Chatters,  ///< up and down more often than anyone has a use for: it counts as broken and is ignored
+    Chatters,  ///< up and down more often than anyone needs: it counts as broken and is ignored
     Freed,     ///< a stuck button came up, or one that chattered was quiet: it counts again
 };
 
 struct PanelEvent {
     MonotonicTime time;
-    int button = 0; ///< from 0; what it means is none of the panel's business
+    int button = 0; ///< from 0; the panel does not know what it means
     PressKind kind = PressKind::Press;
 };
 
@@ -33,12 +33,12 @@ public:
     /// Appends the events with time <= now that were not handed out before.
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// How the device is, or what stands in its place, in one plain sentence that stands until the next
+    /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
-    /// The buttons that do something, bit k = button k: their lamps are lit. Handed over, not waited for.
+    /// Lights the lamps of the buttons that do something, bit k = button k; it does not wait for them.
     virtual void light(std::uint32_t /*buttons*/) {}
-    /// Until when its thread has promised to be heard of again; nothing: it has none.
+    /// Until when its thread has promised to be heard from again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 

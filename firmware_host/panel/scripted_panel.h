@@ -1,6 +1,6 @@
 /// A panel whose buttons are pressed by a script.
 ///
-/// Time     presses count from `start`; with a `repeat` above zero the script begins again after that long,
+/// Time     presses count from `start`; if `repeat` is above zero the script begins again after that time,
 ///          which must be later than its last press.
 /// Threads  one caller.
 #pragma once

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Nothing but what a handler may do.
+/// Does only what a signal handler may do.
 extern "C" void say(int signal) {
     std::string_view line = "frustumscreen: crashed\n";
     switch (signal) {

@@ -1,8 +1,8 @@
-/// A last line on standard error when the process crashes: which signal. Then the crash takes
-/// its course, and the service manager starts the exhibit again.
+/// Writes a last line to standard error when the process crashes: which signal it was. Then the crash goes
+/// on, and the service manager starts the exhibit again.
 ///
 /// Threads  for the whole process; the line is written by whichever thread crashed, from its handler.
-/// Errors   none. Under a sanitizer nothing is installed: it says more.
+/// Errors   none. Under a sanitizer nothing is installed: the sanitizer says more.
 #pragma once
 
 namespace frustumscreen {

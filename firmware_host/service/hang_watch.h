@@ -1,6 +1,7 @@
-/// Tells that a thread has not been heard of for too long, from a thread of its own: one that hangs cannot.
+/// Reports a thread that was not heard from for too long. It has its own thread: one that hangs cannot
+/// report.
 ///
-/// Time     the policy's is a parameter; the watch reads the monotonic clock.
+/// Time     a parameter of the policy; the watch reads the monotonic clock.
 /// Threads  `enters`: the thread that is watched; it waits for nothing. `tell` is called on the watch's own.
 /// Errors   none.
 #pragma once
@@ -17,8 +18,8 @@
 
 namespace frustumscreen {
 
-/// When silence is a hang. A watch that was itself not run, because the machine or the process stood still,
-/// has not seen the silence and begins to count anew.
+/// Decides when silence is a hang. A watch that did not run itself, because the machine or the process stood
+/// still, has not seen the silence and starts counting again.
 class HangPolicy {
 public:
     explicit HangPolicy(Nanoseconds patience) : patience_(patience) {}
@@ -32,7 +33,7 @@ private:
     Nanoseconds patience_;
     std::optional<MonotonicTime> looked_;
     MonotonicTime watched_since_;
-    std::optional<MonotonicTime> hung_; ///< when the thread was last heard of before the hang that was told
+    std::optional<MonotonicTime> hung_; ///< when the thread was last heard from before the reported hang
 };
 
 class HangWatch {
@@ -41,7 +42,7 @@ public:
     using Tell = std::function<void(std::optional<const char*> doing)>;
     HangWatch(Nanoseconds patience, Tell tell);
 
-    /// The thread lives, and does this from now on; `doing` lives for ever.
+    /// The thread lives, and does this from now on; `doing` must live for ever.
     void enters(const char* doing);
 
 private:

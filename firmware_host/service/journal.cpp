@@ -1,4 +1,4 @@
-// The journal's own fields would name this file as where each line comes from.
+// Otherwise the journal would name this file as the source of every line.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 
 #include "firmware_host/service/journal.h"
@@ -69,7 +69,7 @@ void Journal::note(LogPriority priority, std::string_view message,
     for (const JournalField& field : fields) {
         entry.add(field.name, field.value.substr(0, longest_value));
     }
-    entry.add("MESSAGE", message); // has the rest of the room
+    entry.add("MESSAGE", message); // last: it takes the room that is left
     entry.send();
 }
 

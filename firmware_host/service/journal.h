@@ -35,7 +35,7 @@ private:
     bool in_journal_;
 };
 
-/// `journal_stream`: that environment variable, device:inode; null = not set.
+/// `journal_stream`: the value of JOURNAL_STREAM, device:inode; null = not set.
 [[nodiscard]] bool is_journal(const char* journal_stream, const struct stat& file);
 
 } // namespace frustumscreen

@@ -1,7 +1,7 @@
-/// The service manager, told how the exhibit is: sd_notify(3). Without one, everything here does nothing.
+/// Tells the service manager the exhibit's state: sd_notify(3). Without a service manager it does nothing.
 ///
 /// Threads  one caller; a call sends one datagram.
-/// Errors   none: who does not hear is not told.
+/// Errors   none: where nobody listens, a message is lost.
 #pragma once
 
 #include "firmware_host/base/sentence.h"
@@ -13,20 +13,20 @@ namespace frustumscreen {
 
 class ServiceManager {
 public:
-    /// By NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID, as they are now.
+    /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID as they are now.
     ServiceManager();
 
     /// How often its watchdog wants to be fed at least; nothing = it has none for this process.
     [[nodiscard]] std::optional<Nanoseconds> watchdog_interval() const { return watchdog_interval_; }
 
-    /// There is one.
+    /// There is a service manager.
     [[nodiscard]] bool listens() const { return listens_; }
-    /// Not ready yet, and not to be given up for so much longer.
+    /// The exhibit is not ready yet; it must not be given up for another `at_most`.
     void still_starting(Nanoseconds at_most) const;
     void ready() const;
     void feed_watchdog() const;
     void stopping() const;
-    /// For `systemctl status`: sent when it is another than before. One line.
+    /// One line for `systemctl status`; sent when it differs from the one before.
     void status(const Sentence& sentence);
 
 private:

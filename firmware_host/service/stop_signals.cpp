@@ -10,7 +10,7 @@ namespace frustumscreen {
 namespace {
 
 extern "C" void end_now(int) {
-    constexpr std::string_view line = "frustumscreen: a device did not let go; ended without it\n";
+    constexpr std::string_view line = "frustumscreen: a device did not stop in time; ended without it\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
     ::_exit(0);
 }

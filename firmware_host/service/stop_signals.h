@@ -1,7 +1,7 @@
-/// SIGTERM and SIGINT: waiting in line for the loop that looks for them, or ending the process at once while
-/// there is nothing to put away yet.
+/// SIGTERM and SIGINT: they stay pending for the loop that looks for them, or end the process at once while
+/// there is nothing to close yet.
 ///
-/// Threads  constructed before any other thread is started, so that they wait in line in all of them.
+/// Threads  constructed before any other thread is started, so that the signals stay pending in all of them.
 /// Errors   none.
 #pragma once
 
@@ -17,10 +17,10 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    /// One has come since it was last asked.
+    /// A signal has come since the last call.
     [[nodiscard]] bool received() const;
 
-    /// While it lives, a stop ends the process there and then, as if nobody had held it.
+    /// While it lives, a stop signal ends the process at once.
     class AtOnce {
     public:
         explicit AtOnce(const StopSignals& signals);
@@ -36,7 +36,7 @@ private:
     sigset_t set_{};
 };
 
-/// The process ends that much later, with status 0, even if a thread does not come back from its device.
+/// Ends the process after `time` with status 0, even if a thread does not come back from its device.
 void end_within(Nanoseconds time);
 
 } // namespace frustumscreen

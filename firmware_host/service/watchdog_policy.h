@@ -1,8 +1,8 @@
-/// When the service manager's watchdog is fed: only while the projector's picture lives.
+/// Decides when the service manager's watchdog is fed: only while the projector's picture lives.
 ///
-/// Fed      while pictures (at rest: the probe, once a second) are presented on time, and the reserved code
-///          that is read back from them is another each time, and every device thread keeps its promise.
-/// Not fed  by a device that is lost: its thread lives and says so, and the exhibit goes on without it.
+/// Fed      while pictures (at rest: the probe, once a second) are presented on time, the reserved code that
+///          is read back from them changes each time, and every device thread keeps its promise.
+/// Lost     a lost device does not stop the feeding: its thread lives and says so, and the exhibit goes on.
 /// Time     a parameter, monotonic.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
@@ -21,9 +21,9 @@ enum class Health : std::uint8_t {
     NoPicture,   ///< nothing was presented for too long
     FrozenCode,  ///< what was presented does not change, or has no code
     ThreadHangs, ///< a device's thread broke its promise
-    Hangs,       ///< the exhibit's own thread is not heard of; told by another (hang_watch.h)
+    Hangs,       ///< the exhibit's own thread is silent; another one reports it (hang_watch.h)
 };
-/// What is wrong, in one sentence; of Well too.
+/// What is wrong, in one sentence; Well has one too.
 [[nodiscard]] std::string_view sentence_of(Health health);
 /// The same in one word, for another program: well, no_picture, frozen, thread_hangs, hangs.
 [[nodiscard]] std::string_view word_of(Health health);
@@ -36,10 +36,10 @@ struct ReadBack {
 
 class WatchdogPolicy {
 public:
-    /// Three rests between probes, and a half: a flip that comes late shows the same code once more.
+    /// Three and a half rests between probes: a flip that comes late shows the same code once more.
     static constexpr Nanoseconds picture_within = std::chrono::milliseconds(3500);
 
-    /// `interval`: the service manager's; it is fed three times in it, once a second if that is more often.
+    /// `interval` is the service manager's. It is fed three times in each, and at least once a second.
     WatchdogPolicy(Nanoseconds interval, MonotonicTime start);
 
     /// A picture was presented.
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] bool wants_code(MonotonicTime now) const { return now - changed_ >= feed_every_ / 2; }
     void read_back(MonotonicTime now, const ReadBack& read);
 
-    /// `promises`: until when each device thread has promised to be heard of again.
+    /// `promises`: until when each device thread has promised to be heard from again.
     [[nodiscard]] Health health(MonotonicTime now, std::span<const MonotonicTime> promises) const;
     /// True: feed it now.
     [[nodiscard]] bool feed(MonotonicTime now, Health health);

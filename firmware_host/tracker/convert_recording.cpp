@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> columns{"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr double farthest_m = 1000.0;
-/// Longer recordings are no recordings: about 140 years.
+/// A longer time is a mistake; about 140 years.
 constexpr double longest_s = 4.5e9;
 
 using Row = std::array<double, 8>;
@@ -90,7 +90,7 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
     ConvertedRecording result;
     TextRows rows(text, name);
     std::optional<double> start_s;
-    bool turned = false; // the sign of the row before
+    bool turned = false; // the sign of the previous row was flipped
     for (bool first = true; rows.next(); first = false) {
         if (first && names_columns(rows)) {
             continue;

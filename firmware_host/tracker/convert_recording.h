@@ -1,6 +1,6 @@
-/// Recordings of other trackers as poses of ours: rows of `t x y z qx qy qz qw`, separated by commas or
-/// blanks (the form of the TUM RGB-D benchmark and of many motion capture exports), seconds and metres, the
-/// quaternion's w last, `#` comments, an optional line of column names.
+/// Converts recordings of other trackers into our poses: rows of `t x y z qx qy qz qw`, separated by commas
+/// or blanks (the form of the TUM RGB-D benchmark and of many motion capture exports), seconds and metres,
+/// the quaternion's w last, `#` comments, an optional line of column names.
 ///
 /// Time     counted from the first row, whole microseconds; rows that do not step forward are dropped.
 /// Frames   the recording's own; with `flat` the motion is laid onto the table: x and y about the middle of
@@ -27,7 +27,7 @@ struct RecordingOptions {
 struct ConvertedRecording {
     std::vector<PoseSample> samples;
     int dropped_rows = 0; ///< whose time did not go forward
-    int sign_flips = 0;   ///< times the recording's quaternions change sign; here they do not
+    int sign_flips = 0;   ///< times the recording's quaternions change sign; the converted ones do not
     double scale = 1.0;   ///< flat: of the positions
 };
 

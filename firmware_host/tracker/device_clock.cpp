@@ -8,16 +8,16 @@ namespace frustumscreen {
 namespace {
 
 constexpr double block_ns = 1e9;
-/// Before this many seconds a slope says more of the delays than of the clock.
+/// Before this many seconds a slope says more about the delays than about the clock.
 constexpr std::size_t fewest_blocks = 4;
-/// Quartz is within 1e-4. This is far outside, so that a slope measured on a busy machine is within, and yet
-/// no clock of another rate.
+/// Quartz is within 1e-4. This limit is much wider, so that a slope measured on a busy machine passes, but a
+/// clock of another rate does not.
 constexpr double most_drift = 0.02;
 /// No arrival is this early, and none stays this late: the device's clock has jumped.
 constexpr double jump_ns = 0.5e9;
 constexpr Nanoseconds longest_late = std::chrono::milliseconds(500);
-/// A clock that has run for so long without a jump is one. A rate so wrong that it is not seen by its slope,
-/// after `fewest_blocks` seconds, makes the clock jump sooner than this.
+/// A clock that has run this long without a jump is believed. A rate that is too wrong to be seen by its
+/// slope, which takes `fewest_blocks` seconds, makes the clock jump sooner.
 constexpr Nanoseconds settled = std::chrono::seconds(6);
 
 } // namespace
@@ -38,7 +38,8 @@ DeviceClock::Point DeviceClock::point_of(std::int64_t ticks, MonotonicTime arriv
     return {device_ns, static_cast<double>((arrival - first_arrival_).count()) - device_ns};
 }
 
-/// Early at once; late only after a while, since a stalled transfer is late too and catches up.
+/// An early arrival is a jump at once; a late one only after a while, because a stalled transfer is late too
+/// and catches up.
 bool DeviceClock::jumped(const Point& point, MonotonicTime arrival) {
     const double above_line = height_of(point) - height_ns_;
     if (above_line <= jump_ns) {
@@ -81,7 +82,7 @@ void DeviceClock::fit() {
         std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
         drift_ = std::clamp(*middle, -most_drift, most_drift);
         wrong_rate_ = drift_ != *middle;
-        block_count_ = wrong_rate_ ? 0 : block_count_; // what is not believed is no past to be outvoted
+        block_count_ = wrong_rate_ ? 0 : block_count_; // a doubted past must not outvote what follows
     }
     height_ns_ = height_of(blocks_[0]);
     for (std::size_t k = 1; k < count; ++k) {
@@ -90,7 +91,7 @@ void DeviceClock::fit() {
 }
 
 void DeviceClock::restart(std::uint32_t tick, MonotonicTime arrival) {
-    restarts_ += believed() ? 1U : 0U; // one that is no clock jumps all the time
+    restarts_ += believed() ? 1U : 0U; // a clock that is not believed jumps all the time
     quick_restarts_ = arrival - first_arrival_ < settled ? quick_restarts_ + 1 : 1;
     begin(tick, arrival);
 }
@@ -100,9 +101,9 @@ MonotonicTime DeviceClock::line_at(double device_ns) const {
 }
 
 MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
-    const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device does
+    const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device's tick does
     const bool doubted = !believed();
-    bool same = false; // as the time before
+    bool same = false; // the same tick as the time before
     if (!last_time_) {
         begin(tick, arrival);
     } else if (step < 0 || jumped(point_of(ticks_ + step, arrival), arrival)) {
@@ -116,7 +117,7 @@ MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
         }
     }
     take(point_of(ticks_, arrival));
-    if (doubted && believed()) { // its line is of the time in which it was no clock
+    if (doubted && believed()) { // the line was fitted while the clock was not believed
         begin(tick, arrival);
         take(point_of(0, arrival));
     }

@@ -1,15 +1,15 @@
-/// A device's clock (a timestamp or a frame counter) on the monotonic clock.
+/// Maps a device's clock (a timestamp or a frame counter) to the monotonic clock.
 ///
 /// Units    ticks of the device; nanoseconds.
 /// Threads  one caller; allocates nothing.
-/// Errors   none; a clock that jumps is begun again; one that runs at another rate, or stands still, is not
+/// Errors   none. A clock that jumps is fitted anew. One that runs at another rate, or stands still, is not
 ///          believed: then a time is that of the arrival, until the clock has run as it should for some
 ///          seconds.
 /// Method   Every arrival is late by at least the shortest way through device and USB, so the line under the
 ///          points (device time, arrival) is the clock. Its slope, the drift, is the median of the slopes
 ///          between the earliest arrivals of each second (Theil 1950; Sen 1968), its height the lowest
-///          point's: one late transfer, or a second of them, moves neither. What is the same for every frame,
-///          the device's own latency, cannot be seen here.
+///          point's: one late transfer, or a second of them, moves neither. A delay that is the same for
+///          every frame, the device's own latency, cannot be seen here.
 #pragma once
 
 #include "firmware_host/base/time.h"
@@ -25,10 +25,10 @@ class DeviceClock {
 public:
     explicit DeviceClock(double tick_ns) : tick_ns_(tick_ns) {}
 
-    /// When the device's `tick` was, in our time. Ascending for ascending ticks; the same for the same while
-    /// the clock is believed.
+    /// The device's `tick` in our time. It ascends with the ticks; while the clock is believed, the same tick
+    /// gives the same time.
     [[nodiscard]] MonotonicTime time_of(std::uint32_t tick, MonotonicTime arrival);
-    /// Our seconds for each of the device's, less 1; 0 until some seconds were seen.
+    /// Our seconds for each of the device's, minus 1; 0 until some seconds were seen.
     [[nodiscard]] double drift() const { return drift_; }
     /// How often the device's clock jumped.
     [[nodiscard]] std::uint64_t restarts() const { return restarts_; }
@@ -37,7 +37,7 @@ public:
 private:
     struct Point {
         double device_ns = 0.0; ///< since the first tick
-        double late_ns = 0.0;   ///< arrival less device time, both since the first
+        double late_ns = 0.0;   ///< arrival minus device time, both since the first
     };
     static constexpr std::size_t most_blocks = 32;
     static constexpr int most_quick_restarts = 3;
@@ -60,8 +60,8 @@ private:
     std::optional<MonotonicTime> late_since_;
     std::optional<MonotonicTime> last_time_;  ///< what was answered last; none before the first tick
     std::array<Point, most_blocks> blocks_{}; ///< earliest arrival of each second; a ring
-    std::size_t block_count_ = 0;             ///< ever
-    std::optional<Point> block_;              ///< of the second that is going on
+    std::size_t block_count_ = 0;             ///< so far
+    std::optional<Point> block_;              ///< of the current second
     std::int64_t block_number_ = 0;
     double drift_ = 0.0;
     double height_ns_ = 0.0;

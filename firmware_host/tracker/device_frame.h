@@ -1,4 +1,4 @@
-/// What a tracker sends at one instant, whoever made it: the meeting point of the codecs and the policy.
+/// What a tracker of any make sends at one instant: codecs make it, the policy uses it.
 ///
 /// Frame    tracker K, metres, quaternion w x y z.
 /// Threads  values.
@@ -30,19 +30,19 @@ struct DeviceFrame {
     std::array<SensorPose, most_sensors> sensors;
     std::size_t count = 0;    ///< of `sensors`
     bool units_as_set = true; ///< false: not metres and quaternions; no pose of this frame is usable
-    bool fault = false;       ///< the device's own test has found one; that says nothing of the poses
+    bool fault = false;       ///< the device's own test has found one; that says nothing about the poses
 };
 
 /// Why bytes were thrown away.
 enum class Refusal {
     Garbage,  ///< no frame begins here
-    Length,   ///< a header whose size cannot be
+    Length,   ///< a header with an impossible size
     Checksum, ///< a whole frame whose CRC is wrong
     Content,  ///< fields that contradict each other
 };
 
-/// A rotation within what 32-bit numbers and a bent sensor may do, and a place that a magnetic tracker
-/// reaches.
+/// Whether the rotation has length 1, as nearly as 32-bit numbers and a bent sensor allow, and a magnetic
+/// tracker reaches the position.
 [[nodiscard]] inline bool is_pose(const glm::dvec3& position_m, const glm::dquat& rotation) {
     constexpr double farthest_m = 10.0;
     constexpr double quaternion_tolerance = 0.01;

@@ -1,8 +1,8 @@
-/// One device's talk from the moment it is opened: set-up, verification, streaming. Bytes in, bytes out; no
+/// The dialogue with one device after it is opened: set-up, verification, streaming. Bytes in, bytes out; no
 /// I/O.
 ///
 /// Time     a parameter throughout, so that a session runs under a simulated clock.
-/// Threads  one caller; allocates nothing once `samples` has its room.
+/// Threads  one caller; allocates nothing once `samples` has enough room.
 #pragma once
 
 #include "firmware_host/tracker/frame_intake.h"
@@ -15,8 +15,7 @@ namespace frustumscreen {
 
 /// What is asked of a tracker, whatever its make.
 struct UsbTrackerSetUp {
-    /// Towards the half space of the source in which the sensors are; the tracker cannot tell it from the
-    /// other.
+    /// Points into the half space of the source that holds the sensors; the tracker cannot find it out.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
     /// Half the table along X and Y: a SpaceMouse stays within.
     glm::dvec2 table_half_m{0.4, 0.25};

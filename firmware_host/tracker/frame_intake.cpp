@@ -4,22 +4,23 @@ namespace frustumscreen {
 
 namespace {
 
-/// A counter this far off is a broken one, or a device that began anew.
+/// A counter this far off is broken, or the device started again.
 constexpr std::int32_t far_off = 1000;
-/// So many later ones in a row, and it did begin anew.
+/// After so many consistent ones in a row the device has started again.
 constexpr int enough_to_believe = 4;
-/// How long a fault must be gone, or the prop's sensor unheard, before the state says so; longer if the
-/// device's pace is so slow.
+/// How long a fault must be gone, or the prop's sensor silent, before the state says so; longer for a device
+/// of a slower pace.
 constexpr Nanoseconds settling = std::chrono::milliseconds(500);
-/// A device that has not shown its pace yet may take so long to its second frame.
+/// The patience with a device whose pace is not known yet: so long until its second frame.
 constexpr Nanoseconds unknown_pace = std::chrono::milliseconds(1500);
 constexpr int gaps_of_patience = 3;
 constexpr Nanoseconds least_patience = std::chrono::milliseconds(250);
 constexpr Nanoseconds most_patience = std::chrono::seconds(4);
 constexpr int frames_to_forget = 10; ///< a long gap
-/// A pose this old when it comes shows the prop where it was.
+/// A pose that is this old when it comes is too old to show where the prop is.
 constexpr Nanoseconds old_age = std::chrono::milliseconds(500);
-/// Of 255. Sensors in clean surroundings stay near 0; to be set by a real device beside real metal.
+/// Of 255. Sensors in clean surroundings stay near 0; a test with a real device beside metal must still
+/// confirm the figure.
 constexpr int metal_near_distortion = 64;
 
 } // namespace
@@ -85,7 +86,7 @@ bool FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
     }
     if (time || frame.count == 0) {
         ++counts_.frames;
-        if (latest_ && frame.counter != latest_counter_) { // else another sensor's of the same instant
+        if (latest_ && frame.counter != latest_counter_) { // else it is another sensor of the same instant
             longest_gap_ = std::max(arrival - *latest_, longest_gap_ - longest_gap_ / frames_to_forget);
         }
         latest_ = arrival;

@@ -1,8 +1,8 @@
-/// Frames of a device into samples: the sequence is checked, the device's time becomes ours.
+/// Turns a device's frames into samples: checks their sequence and converts the device's time to ours.
 ///
 /// Frame    tracker K.
 /// Time     `arrival` is when the bytes came; a sample's time is the device's, on the monotonic clock.
-/// Threads  one caller; allocates nothing once `samples` has its room.
+/// Threads  one caller; allocates nothing once `samples` has enough room.
 #pragma once
 
 #include "firmware_host/tracker/device_clock.h"
@@ -17,14 +17,14 @@ class FrameIntake {
 public:
     explicit FrameIntake(double tick_ns) : clock_(tick_ns) {}
 
-    /// Whether any of it was taken; nothing of a frame that came twice, late or from nowhere is.
+    /// True if any pose of it was taken. Those that came twice, late or with a strange counter are refused.
     bool take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples);
     void count_refusal() { ++counts_.broken; }
     /// Of this one device.
     [[nodiscard]] TrackerCounts counts() const;
     /// When a frame was taken last.
     [[nodiscard]] std::optional<MonotonicTime> latest() const { return latest_; }
-    /// Without a frame for longer than this it has fallen silent: by its own pace, which its frames tell.
+    /// A device without a frame for longer than this is silent; it follows from the pace of its frames.
     [[nodiscard]] Nanoseconds patience() const;
     /// Streaming, SensorMissing, DeviceFault, PosesUnusable, PosesLate or MetalNear.
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const;
@@ -40,7 +40,7 @@ private:
     };
     DeviceClock clock_;
     std::array<Sequence, 129> sequences_; ///< by sensor; 7 bits, from 1
-    TrackerCounts counts_;                ///< but for the clock's
+    TrackerCounts counts_;                ///< without the clock's
     std::optional<MonotonicTime> latest_;
     std::uint32_t latest_counter_ = 0;
     Nanoseconds longest_gap_{0}; ///< between two of the latest frames

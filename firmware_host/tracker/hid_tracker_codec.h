@@ -12,10 +12,10 @@
 
 namespace frustumscreen {
 
-/// What its top-level collection calls itself; vendor and product id are the maker's.
+/// The usage of its top-level collection; vendor and product id are the maker's.
 inline constexpr std::uint16_t hid_tracker_usage_page = 0xFF46;
 inline constexpr std::uint16_t hid_tracker_usage = 0x53;
-/// Of the feature report, asked for when the device is opened.
+/// The id of the feature report, which is asked for when the device is opened.
 inline constexpr std::uint8_t hid_tracker_info_report = 2;
 inline constexpr int hid_tracker_version = 1;
 
@@ -33,7 +33,8 @@ struct HidTrackerPose {
 };
 using HidTrackerMessage = std::variant<Refusal, HidTrackerInfo, HidTrackerPose>;
 
-/// `report` is one report, its id in front. Another version is information too, whatever else it says.
+/// `report` is one report, its id in front. One of another version still gives a HidTrackerInfo, whatever
+/// else it says.
 [[nodiscard]] HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report);
 
 } // namespace frustumscreen

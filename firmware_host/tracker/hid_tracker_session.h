@@ -1,4 +1,4 @@
-/// The HID tracker's session: what the device says of itself is checked, then it streams unasked.
+/// The HID tracker's session: what the device says about itself is checked, then it streams unasked.
 ///
 /// The feature report is the first that the transport hands over. Frame, time, threads: see device_session.h.
 #pragma once

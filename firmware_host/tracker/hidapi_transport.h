@@ -1,9 +1,8 @@
 /// HID trackers through hidapi on the kernel's hidraw devices.
 ///
 /// Threads  one; hidapi is not even initialised before the first search. Reading waits no longer than told.
-/// The
-///          one feature report that is asked for when a HID tracker is opened may take the kernel's own 5 s,
-///          if the device hangs just then.
+///          The one feature report, which is asked for when a HID tracker is opened, may take the kernel's
+///          own 5 s if the device hangs just then.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"

@@ -1,4 +1,4 @@
-/// Several ways to look for a tracker as one: the first that finds one has it.
+/// Several buses as one: the first that finds a tracker opens it.
 ///
 /// Threads  one.
 #pragma once
@@ -13,7 +13,7 @@ class JoinedBus final : public UsbBus {
 public:
     explicit JoinedBus(std::vector<std::unique_ptr<UsbBus>> buses) : buses_(std::move(buses)) {}
 
-    /// What is in the way of a device that is there counts more than that another is not.
+    /// Trouble with a device that is there is reported before the absence of another one.
     [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
     find(std::span<const std::string> but_not) override {
         UsbTrackerState trouble = UsbTrackerState::NotConnected;

@@ -82,7 +82,7 @@ public:
             return static_cast<std::size_t>(std::max(count, 0)); // a timeout may have brought a part
         }
         if (error == LIBUSB_ERROR_PIPE && libusb_clear_halt(handle_.get(), endpoints_.in) == LIBUSB_SUCCESS) {
-            return 0U; // if it stays halted, nothing comes, and the policy begins anew
+            return 0U; // if it stays halted, nothing comes, and the policy starts again
         }
         return lost("reading", error);
     }
@@ -91,12 +91,12 @@ public:
         const int size = static_cast<int>(bytes.size());
         int error = send(bytes, timeout);
         if (error == LIBUSB_SUCCESS && endpoints_.out_packet > 0 && size % endpoints_.out_packet == 0) {
-            error = send({}, timeout); // says that the transfer ends with a full packet
+            error = send({}, timeout); // an empty packet tells that the transfer ended with a full one
         }
         if (error != LIBUSB_SUCCESS && error != LIBUSB_ERROR_TIMEOUT) {
             return lost("writing", error);
         }
-        return {}; // one that takes nothing in time does not answer either, and the session says so
+        return {}; // a device that takes nothing in time does not answer either, and the session says so
     }
 
     void close() override {
@@ -136,7 +136,7 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
             return UsbTrackerState::InUse;
         case LIBUSB_ERROR_NO_DEVICE:
             return UsbTrackerState::NotConnected;
-        default: // of this one device: its descriptors, its hub, its cable
+        default: // trouble of this one device: its descriptors, its hub, its cable
             return UsbTrackerState::CannotBeOpened;
         }
     };
@@ -156,7 +156,7 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
     return std::make_unique<LibusbTransport>(std::move(handle), endpoints);
 }
 
-/// The port's way from the bus on.
+/// The bus and the chain of ports.
 std::string place_of(libusb_device* device) {
     std::array<std::uint8_t, 7> ports{}; // as deep as hubs may be
     const int count = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));

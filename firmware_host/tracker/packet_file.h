@@ -1,7 +1,8 @@
 /// Recordings of a tracker's packets; docs/packet_recording.md has every byte.
 ///
 /// Errors   a recording that was cut off, or damaged, is played up to there; only a wrong beginning is an
-/// error. Threads  pure; any. The bytes must outlive the reader.
+///          error.
+/// Threads  pure; any. The bytes must outlive the reader.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -14,12 +15,12 @@ namespace frustumscreen {
 inline constexpr std::size_t longest_packet = std::size_t{1} << 16;
 
 struct Packet {
-    PacketKind kind = PacketKind::Received; ///< one of a later version is passed over by the reader
-    MonotonicTime time;                     ///< never before the packet before
+    PacketKind kind = PacketKind::Received; ///< the reader skips kinds of later versions
+    MonotonicTime time;                     ///< never earlier than the packet before
     std::span<const std::byte> payload;
 };
 
-/// Whether `file` begins as a recording does, of whatever version.
+/// Whether `file` begins like a recording of any version.
 [[nodiscard]] bool is_packet_recording(std::span<const std::byte> file);
 
 void append_packet_header(Bytes& file);
@@ -35,7 +36,7 @@ public:
 
     /// The next packet; nothing at the end, or where the recording is cut off or damaged.
     [[nodiscard]] std::optional<Packet> next();
-    /// Bytes that no packet was made of; 0 at the end of a whole recording.
+    /// Bytes that were not read as packets; 0 at the end of a whole recording.
     [[nodiscard]] std::size_t left() const { return rest_.size(); }
 
 private:

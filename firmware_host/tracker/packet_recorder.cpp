@@ -100,7 +100,7 @@ void PacketRecorder::say() {
     }
 }
 
-/// What the disk does holds up the writing thread alone; the lock is held for no longer than a copy.
+/// A slow disk delays only the writing thread; the lock is held no longer than a copy takes.
 std::string_view PacketRecorder::state() {
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
         say();

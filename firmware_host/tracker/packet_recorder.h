@@ -1,11 +1,9 @@
 /// Writes a tracker's packets into a recording while the exhibit runs.
 ///
 /// Threads  `packet` on the device's thread: it copies into a bounded queue and returns. The file is written
-/// on
-///          a thread of this class's own, and made safe against a power cut once a second. The rest: any.
+///          on the class's own thread, and made safe against a power cut once a second. The rest: any.
 /// Errors   none to the caller. A disk that is too slow makes gaps, which the recording itself and `state`
-/// name;
-///          one that is full, or gone, ends the recording, and `state` says so.
+///          name; one that is full, or gone, ends the recording, and `state` says so.
 /// Memory   twice `most_waiting_bytes`, allocated at the beginning.
 #pragma once
 
@@ -22,17 +20,17 @@ namespace frustumscreen {
 
 class PacketRecorder final : public PacketTap {
 public:
-    /// Minutes of any device.
+    /// Enough for minutes of any device.
     static constexpr std::size_t most_waiting_bytes = std::size_t{4} << 20;
 
     /// `about`: which program records, and when.
     PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now);
 
     void packet(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) override;
-    /// How the recording goes, in one sentence; stands until the next call. Says how many packets are missing
-    /// only when they have become twice as many, so that it can go to a journal at each change.
+    /// The recording's state in one sentence, valid until the next call. The number of missing packets
+    /// changes in it only when it has doubled, so that it can go to a journal at each change.
     [[nodiscard]] std::string_view state();
-    /// Takes nothing more, writes what waits and makes it safe, closes nothing. Errors: what ended the
+    /// Takes nothing more, writes what waits and syncs it; it does not close the file. Errors: what ended the
     /// recording.
     [[nodiscard]] Result<void> finish();
 

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Between the end of a round and the beginning of the next; also what keeps the shortest round from being 0.
+/// Between the end of a round and the beginning of the next; it also keeps the shortest round above 0.
 constexpr Nanoseconds between_rounds = std::chrono::seconds(1);
 
 } // namespace
@@ -29,7 +29,7 @@ Result<PacketReplay> PacketReplay::open(Bytes file, std::string_view name) {
     return replay;
 }
 
-/// False: no device in it.
+/// False: the recording has no device.
 bool PacketReplay::survey() {
     PacketReader reader = first_;
     std::optional<UsbTrackerModel> model;
@@ -70,8 +70,8 @@ TrackerCounts PacketReplay::counts() const {
     return counts;
 }
 
-/// A session is asked for what is due before each call, as it was then: with the time of the call when it
-/// sent, and with the latest time at which it certainly had nothing to send when it did not.
+/// As then, the session is asked for due commands before each call: with the time of the call if it sent
+/// something then, else with the latest time at which it certainly had nothing to send.
 void PacketReplay::feed(const Packet& packet, std::vector<PoseSample>& samples) {
     switch (packet.kind) {
     case PacketKind::Opened: {

@@ -1,9 +1,8 @@
-/// A recording of packets through the very sessions that the devices had, and as a tracker.
+/// Plays a recording of packets through the sessions that the devices had, also as a tracker.
 ///
 /// Frame    the device's; a SpaceMouse's is the table's.
-/// Time     the replay itself runs on the recording's clock and gives the samples that the exhibit had then,
-/// to the
-///          bit. The tracker maps them to ours at any speed, as late as they came.
+/// Time     the replay runs on the recording's clock and gives exactly the samples that the exhibit had then.
+///          The tracker maps them to our clock at any speed, as late as they came.
 /// Threads  one caller.
 #pragma once
 
@@ -28,7 +27,7 @@ public:
     [[nodiscard]] MonotonicTime end() const { return end_; }
     [[nodiscard]] UsbTrackerModel model() const { return model_; } ///< of the first device
     [[nodiscard]] bool reports_table_frame() const { return model_ == UsbTrackerModel::SpaceMouse; }
-    /// The state that the exhibit was in, as it said it then; stands until the next `play`.
+    /// The tracker's state as the exhibit said it then; valid until the next `play`.
     [[nodiscard]] std::string_view state() const { return state_.view(); }
     /// What the sessions counted up to where it has played, in this round.
     [[nodiscard]] TrackerCounts counts() const;
@@ -43,7 +42,7 @@ private:
     void end_session();
     void feed(const Packet& packet, std::vector<PoseSample>& samples);
 
-    Bytes file_; ///< its heap stays where it is when this moves
+    Bytes file_; ///< its heap memory stays in place when this moves
     PacketReader first_;
     PacketReader rest_;
     std::optional<Packet> next_;

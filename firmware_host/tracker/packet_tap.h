@@ -1,7 +1,7 @@
 /// What passes between a tracker's transport and its session, for whoever records it.
 ///
-/// Calls    in the order in which the session is called, with the very times that it is given: fed to another
-///          session in the same way they give the same samples.
+/// Calls    in the order in which the session is called, with the same times: fed to another session in the
+///          same way they give the same samples.
 /// Threads  the device's own; a tap returns at once.
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace frustumscreen {
 
-/// The numbers stand in recordings.
+/// The numbers are written into recordings.
 enum class PacketKind : std::uint32_t {
     About = 1,    ///< text: which program recorded, and when
     Opened = 2,   ///< OpenedDevice: a session begins
-    Received = 3, ///< bytes of the device; none: nothing came in time
-    Sent = 4,     ///< bytes of the session for the device
+    Received = 3, ///< bytes from the device; none: nothing came in time
+    Sent = 4,     ///< bytes from the session to the device
     Closed = 5,   ///< nothing: the session is over
     State = 6,    ///< text: the sentence of the new state
     Dropped = 7,  ///< u64: so many packets are missing here

@@ -14,7 +14,7 @@ constexpr std::size_t whole_bytes = header_bytes + payload_bytes;
 constexpr double metres_per_centimetre = 0.01;
 constexpr std::array<std::array<char, 2>, 3> tags{{{'P', 'A'}, {'L', 'Y'}, {'L', 'U'}}};
 
-/// Whether a header may stand here, as far as it is there. Checks every field whose value is known.
+/// Whether the bytes that are there may begin a header. Checks every field whose value is known.
 bool may_be_header(std::span<const std::byte> stream) {
     const auto at = [&](std::size_t k) { return static_cast<unsigned>(stream[k]); };
     const bool tag = std::any_of(tags.begin(), tags.end(), [&](const std::array<char, 2>& letters) {
@@ -63,7 +63,7 @@ PatriotStep parse_patriot(std::span<const std::byte> stream) {
     pose.distortion = std::clamp(distortion, 0, 255);
     const bool good = stream[4] == std::byte{' '};
     pose.usable = good && is_pose(pose.position_m, pose.rotation);
-    if (good && !pose.usable) { // what a good frame never has: bytes were lost or changed
+    if (good && !pose.usable) { // a good frame never has such a pose: bytes were lost or changed
         return refuse(stream, Refusal::Content);
     }
     return {whole_bytes, frame};

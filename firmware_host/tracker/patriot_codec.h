@@ -8,7 +8,7 @@
 ///          are checked here, the counter by the policy; a changed low digit of a position cannot be noticed
 ///          beyond what USB's own CRC does.
 /// Threads  pure functions; they allocate nothing.
-/// Source   public drivers. Not held against a device yet: the text that answers `U` and `H`.
+/// Source   public drivers. Not yet compared with a device: the text that answers `U` and `H`.
 #pragma once
 
 #include "firmware_host/tracker/viper_codec.h"

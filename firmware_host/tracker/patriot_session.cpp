@@ -7,7 +7,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double tick_ns = 1e6; ///< the timestamp counts milliseconds
-/// Between commands that are not answered, and for the rest of an interrupted stream to arrive.
+/// The pause after a command that is not answered, in which the rest of an interrupted stream arrives.
 constexpr Nanoseconds between_commands = std::chrono::milliseconds(20);
 constexpr int centimetres = 1;
 
@@ -16,7 +16,7 @@ constexpr int centimetres = 1;
 std::vector<PatriotSession::Step> PatriotSession::steps(const UsbTrackerSetUp& set_up) {
     const glm::dvec3 half = glm::normalize(set_up.hemisphere);
     return {
-        {"P", Need::Nothing}, // whatever an earlier program left running
+        {"P", Need::Nothing}, // stops a stream that an earlier program left running
         {"F0\r", Need::Nothing},
         {"\x16\r", Need::AnyText}, // ^V: who are you
         {"U1\r", Need::Nothing},
@@ -102,7 +102,7 @@ void PatriotSession::receive(std::span<const std::byte> bytes, MonotonicTime arr
             read_answer(arrival);
         }
         if (taken == 0) {
-            stream_.clear(); // an answer without an end
+            stream_.clear(); // an answer that does not end
         }
     }
 }

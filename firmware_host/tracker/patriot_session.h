@@ -1,8 +1,8 @@
 /// A PATRIOT's or LIBERTY's session: text for the set-up, the units read back, then binary frames.
 ///
-/// The family answers no command that it accepts; only the questions are answered. What was set besides the
-/// units shows in the frames: their size is the chosen fields', their quaternion has length 1. Frame, units,
-/// time, threads: see device_session.h.
+/// These devices do not answer a command that they accept; they answer only questions. Settings other than
+/// the units show in the frames: their size is that of the chosen fields, their quaternion has length 1.
+/// Frame, units, time, threads: see device_session.h.
 #pragma once
 
 #include "firmware_host/tracker/device_session.h"

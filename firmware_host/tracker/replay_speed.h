@@ -1,4 +1,4 @@
-/// A length of time, longer or shorter.
+/// Scales a length of time.
 #pragma once
 
 #include "firmware_host/base/time.h"

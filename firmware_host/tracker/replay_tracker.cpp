@@ -29,7 +29,7 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
     }
 }
 
-/// Whole rounds that would come at once, more than anybody could have seen, are left out.
+/// Leaves out whole rounds that would come at once and that nobody could have seen.
 void ReplayTracker::pass_over_rounds(MonotonicTime now) {
     constexpr auto most_at_once = static_cast<Nanoseconds::rep>(most_rounds_samples);
     if (recording_.empty() || length_ <= Nanoseconds::zero()) {

@@ -1,8 +1,8 @@
-/// A tracker that replays poses, normally of a pose file, at the speed they were taken or another.
+/// A tracker that replays poses, normally of a pose file, at their own speed or another.
 ///
 /// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
-///          end. A poll so late that more than `most_rounds_samples` of repeated rounds are due leaves whole
-///          rounds out: a recording of microseconds would fill the memory.
+///          end. If a poll is so late that more than `most_rounds_samples` samples of repeated rounds are
+///          due, whole rounds are left out: a recording of microseconds would fill the memory.
 /// Threads  one caller.
 #pragma once
 

@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool may_send(MonotonicTime now) const {
         return !failed_ && !sent_ && !streaming() && now >= pause_;
     }
-    /// What to say of a device that did not answer.
+    /// What to say about a device that did not answer.
     [[nodiscard]] UsbTrackerState trouble_without_answer() const {
         return trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_;
     }
@@ -48,7 +48,7 @@ public:
         pause_ = now + pause;
         awake_ = now;
     }
-    /// The same step again later, without a try spent.
+    /// Does the same step again later; this does not count as a try.
     void put_off(UsbTrackerState why, MonotonicTime until) {
         sent_.reset();
         trouble_ = why;
@@ -60,7 +60,7 @@ public:
         trouble_ = trouble;
         failed_ = ++tries_ >= SessionTimes::tries;
     }
-    /// A frame came as it should: what was before is forgiven.
+    /// A frame came as it should: resets the tries and the last trouble.
     void well() {
         tries_ = 0;
         trouble_ = UsbTrackerState::SettingUp;
@@ -72,7 +72,7 @@ private:
     int tries_ = 0;
     std::optional<MonotonicTime> sent_; ///< the step's command
     MonotonicTime pause_{};             ///< nothing is sent before
-    MonotonicTime awake_{};             ///< the last step was done
+    MonotonicTime awake_{};             ///< when the last step was done
     UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
     bool failed_ = false;
 };

@@ -55,7 +55,7 @@ double progress(std::uint64_t seed, std::int64_t slot, double seconds, double sl
     return minimum_jerk(std::clamp((within - begin) / length, 0.0, 1.0));
 }
 
-/// Only odd movements may be turns on the spot, so that where the prop stands needs no history.
+/// Only odd movements may be turns on the spot, so that the prop's place needs no history.
 bool turns_only(std::uint64_t seed, std::int64_t slot) {
     return slot % 2 != 0 && random(seed, Purpose::TurnOnly, slot) < 0.5;
 }
@@ -106,7 +106,7 @@ PoseSample simulated_prop(const SimulatedVisitor& visitor, MonotonicTime start, 
 }
 
 PoseSample simulated_head(const SimulatedVisitor& visitor, MonotonicTime start, Nanoseconds since_start) {
-    // The head has movements of its own: another seed.
+    // The head has its own movements, hence another seed.
     SimulatedVisitor other = visitor;
     other.seed = visitor.seed ^ 0xA5A5A5A5A5A5A5A5U;
     const double seconds = to_seconds(since_start);

@@ -1,4 +1,4 @@
-/// A visitor who is not there: slides the prop about, rests, turns it, and moves the head.
+/// A simulated visitor, who slides the prop about, rests, turns it, and moves the head.
 ///
 /// Frame    table T. The prop stands upright on the table; the head's rotation turns its +Y towards the prop.
 /// Time     everything is a function of the seed and of the time since `start`: polls at any rhythm hand out

@@ -6,7 +6,7 @@
 /// Frame    the codec turns them into the table's: x right, y away from the person, z up.
 /// Errors   values; any bytes are safe.
 /// Threads  pure functions; they allocate nothing.
-/// Source   public drivers. Not held against a device yet: the axes' signs.
+/// Source   public drivers. Not yet compared with a device: the axes' signs.
 #pragma once
 
 #include "firmware_host/tracker/device_frame.h"
@@ -17,12 +17,12 @@
 
 namespace frustumscreen {
 
-/// In counts; what the report does not say is not there.
+/// In counts; empty where the report says nothing.
 struct SpaceMouseMotion {
     std::optional<glm::dvec3> push;
     std::optional<glm::dvec3> turn;
 };
-/// Buttons, battery: nothing of ours.
+/// Buttons, battery: not used here.
 struct SpaceMouseOther {};
 using SpaceMouseMessage = std::variant<Refusal, SpaceMouseOther, SpaceMouseMotion>;
 

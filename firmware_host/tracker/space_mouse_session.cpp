@@ -4,10 +4,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// A longer pause between two calls is none of a person's: the machine slept. No samples are made up for it.
+/// A longer pause between two calls means that the machine slept. No samples are made for it.
 constexpr Nanoseconds longest_pause = std::chrono::seconds(1);
 
-/// Counts into a share of full deflection; the dead zone is taken off, so that motion begins from rest.
+/// Counts into a share of full deflection; the dead zone is subtracted, so that motion begins from rest.
 glm::dvec3 deflection(const glm::dvec3& counts) {
     constexpr double range = SpaceMouseSession::full_deflection - SpaceMouseSession::dead_zone;
     const glm::dvec3 beyond = glm::max(glm::abs(counts) - SpaceMouseSession::dead_zone, glm::dvec3(0.0));
@@ -59,7 +59,7 @@ void SpaceMouseSession::receive(std::span<const std::byte> report, MonotonicTime
     }
     const SpaceMouseMessage message = parse_space_mouse(report);
     if (const auto* motion = std::get_if<SpaceMouseMotion>(&message)) {
-        advance(arrival); // by what held until now
+        advance(arrival); // with the motion that held until now
         if (motion->push) {
             push_ = {full_push_m_per_s * deflection(*motion->push), arrival + report_holds};
         }

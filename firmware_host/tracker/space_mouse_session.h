@@ -1,9 +1,9 @@
 /// A SpaceMouse as a stand-in for a tracker at the bench: the prop moves while the cap is held.
 ///
 /// Frame    table T: the prop begins at the table's centre and stays on and above the table.
-/// Time     samples lie on a grid of 8 ms from the first call on, so they depend on what came when, and on
-///          nothing else: rest has samples too. A report holds until the next one of its kind, and no longer
-///          than 100 ms, since a mouse that is moved repeats itself and one that hangs does not.
+/// Time     samples lie on a grid of 8 ms from the first call on, also at rest, so they depend only on what
+///          came when. A report holds until the next one of its kind, and no longer than 100 ms: a mouse that
+///          is moved repeats its reports, and one that hangs does not.
 /// Threads  see device_session.h.
 /// Method   velocities are constant between reports, so the integral is exact: p + v t within the table's
 ///          box, exp(w t) R with w in the table's axes.
@@ -50,9 +50,9 @@ private:
     glm::dquat rotation_{1.0, 0.0, 0.0, 0.0};
     Motion push_;
     Motion turn_;
-    MonotonicTime at_{}; ///< for which the pose holds
+    MonotonicTime at_{}; ///< the time of the pose
     std::optional<MonotonicTime> next_sample_;
-    FrameIntake intake_; ///< counts what was refused, no more
+    FrameIntake intake_; ///< only counts what was refused
 };
 
 } // namespace frustumscreen

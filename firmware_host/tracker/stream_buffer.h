@@ -1,4 +1,4 @@
-/// The bytes that came and were not understood yet, in memory of its own.
+/// The bytes that came and are not parsed yet, in memory of fixed size.
 ///
 /// Threads  one caller; allocates nothing.
 #pragma once
@@ -15,7 +15,7 @@ class StreamBuffer {
 public:
     static constexpr std::size_t capacity = 8192;
 
-    /// As many of `bytes` as fit; returns how many.
+    /// Appends as many of `bytes` as fit; returns how many.
     std::size_t append(std::span<const std::byte> bytes) {
         const std::size_t count = std::min(bytes.size(), capacity - size_);
         if (count > 0) {

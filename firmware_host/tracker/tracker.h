@@ -35,13 +35,13 @@ struct TrackerCounts {
     std::uint64_t lost = 0;           ///< numbers missing between two taken frames of a sensor
     std::uint64_t duplicated = 0;     ///< came twice; refused
     std::uint64_t reordered = 0;      ///< came after a later one; refused
-    std::uint64_t strange = 0;        ///< a counter far from what was due; refused
-    std::uint64_t unusable = 0;       ///< poses that are none, or that the device disowns
+    std::uint64_t strange = 0;        ///< a counter far from the expected one; refused
+    std::uint64_t unusable = 0;       ///< invalid poses, or ones that the device marks as bad
     std::uint64_t broken = 0;         ///< times that bytes were thrown away, most for a wrong checksum
     std::uint64_t clock_restarts = 0; ///< times that the device's clock jumped
-    double clock_drift = 0.0;         ///< our seconds for each of the latest device's, less 1
+    double clock_drift = 0.0;         ///< our seconds for each of the latest device's, minus 1
 
-    /// What a later device counted; the drift is the later one's.
+    /// Adds what a later device counted; the drift is the later one's.
     TrackerCounts& operator+=(const TrackerCounts& later) {
         connections += later.connections;
         frames += later.frames;
@@ -65,12 +65,12 @@ public:
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual bool reports_table_frame() const { return true; }
-    /// How the device is, or what stands in its place, in one plain sentence that stands until the next
+    /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// As they stood at the latest `poll`.
     [[nodiscard]] virtual TrackerCounts counts() const { return {}; }
-    /// Until when its thread has promised to be heard of again; nothing: it has none.
+    /// Until when its thread has promised to be heard from again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 

@@ -14,8 +14,7 @@ inline constexpr std::uint16_t polhemus_vendor = 0x0f44;
 struct KnownTracker {
     std::uint16_t product = 0;
     UsbTrackerModel model = UsbTrackerModel::Viper;
-    bool firmware_loaded =
-        true; ///< false: the id that the device has before its volatile firmware was loaded
+    bool firmware_loaded = true; ///< false: the device's id before its volatile firmware is loaded
 };
 
 inline constexpr std::array<KnownTracker, 9> known_trackers{{

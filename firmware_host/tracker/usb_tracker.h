@@ -1,9 +1,8 @@
-/// A USB tracker as the exhibit sees it: the device has a thread of its own, `poll` only looks into the
-/// mailbox.
+/// A USB tracker as the exhibit sees it: the device has its own thread, `poll` only reads the mailbox.
 ///
 /// Frame    tracker K; VIPER, PATRIOT and LIBERTY by default have +Z pointing down. A SpaceMouse: table T.
-/// Threads  everything of USB happens on the thread that this class starts and joins; `poll` and `state` wait
-///          for nothing, whatever the device does. The destructor waits for the one USB call under way.
+/// Threads  all USB work happens on the thread that this class starts and joins; `poll` and `state` wait for
+///          nothing, whatever the device does. The destructor waits for the one USB call under way.
 /// Errors   none; `state` says what is the matter.
 #pragma once
 
@@ -22,7 +21,8 @@ namespace frustumscreen {
 class UsbTracker final : public Tracker {
 public:
     static constexpr std::size_t most_waiting = 256;
-    /// Opening, writing, reading: what the kernel itself gives up after, 5 s for a control transfer, twice.
+    /// Opening, writing and reading take no longer: the kernel gives up after 5 s for a control transfer,
+    /// twice.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
     /// `tap`, if any, outlives the tracker and is called on the device's thread.

@@ -1,9 +1,9 @@
-/// The policy above a USB tracker: searching, setting up, streaming; lost, and searching again. Of several
-/// trackers the first that can be opened has it until it fails; then it is tried last. A tap, if there is
-/// one, sees everything that passes between transport and session.
+/// The policy above a USB tracker: it searches, sets up and streams, and searches again after a loss. Of
+/// several trackers it takes the first that can be opened until that fails; then that one is tried last. A
+/// tap, if there is one, sees everything that passes between transport and session.
 ///
-/// Time     read from the clock handed in, since a read takes its time. A device that is back is found within
-///          `between_searches` and streams one set-up later, together well below 2 s.
+/// Time     read from `clock`, because a read takes time. A device that is back is found within
+///          `between_searches` and streams after one set-up, together well below 2 s.
 /// Threads  one caller; a step blocks for at most one write and one read.
 /// Errors   none; `state` says what is the matter.
 #pragma once

@@ -74,8 +74,7 @@ enum class UsbTrackerState {
                "the sensor's cable if it stays so";
     case UsbTrackerState::PosesLate:
         return "the tracker runs, but its poses come late, or at another pace than it says; switch it off "
-               "and "
-               "on, and try another port if it stays so";
+               "and on, and try another port if it stays so";
     case UsbTrackerState::MetalNear:
         return "the tracker's field is distorted; take metal away from its source and sensors";
     }

@@ -1,8 +1,7 @@
 /// The way to a USB tracker: bytes in, bytes out, and how one is found.
 ///
 /// Bytes    of a bulk endpoint: a stream. Of a HID device: one whole report a read, its id in front; the
-/// feature
-///          report that the transport asks for when it opens a HID tracker is the first.
+///          feature report that the transport asks for when it opens a HID tracker comes first.
 /// Threads  the device's own thread; every call may block for as long as it is told, and no longer.
 /// Errors   DeviceLost: unplugged or unusable; close it and look for one again.
 #pragma once
@@ -30,20 +29,20 @@ public:
     virtual void close() = 0;
 };
 
-/// The numbers stand in recordings.
+/// The numbers are written into recordings.
 enum class UsbTrackerModel : std::uint32_t { Viper = 1, Patriot = 2, Liberty = 3, Hid = 4, SpaceMouse = 5 };
 
 struct FoundTracker {
-    std::unique_ptr<UsbTransport> transport; ///< open; must go before its bus does
+    std::unique_ptr<UsbTransport> transport; ///< open; must be destroyed before its bus
     UsbTrackerModel model = UsbTrackerModel::Viper;
-    std::string place; ///< where it is plugged in: the same for the same device, another for another
+    std::string place; ///< where it is plugged in; differs between devices
 };
 
 class UsbBus {
 public:
     virtual ~UsbBus() = default;
-    /// Opens the first tracker that can be opened; else says what is in the way. What is at the places
-    /// `but_not` is passed over.
+    /// Opens the first tracker that can be opened; else says what prevents it. Devices at the places
+    /// `but_not` are skipped.
     [[nodiscard]] virtual tl::expected<FoundTracker, UsbTrackerState>
     find(std::span<const std::string> but_not) = 0;
     /// Whether its devices' poses are in the table's frame, not in the device's own.

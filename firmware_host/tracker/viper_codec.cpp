@@ -16,7 +16,7 @@ constexpr std::size_t crc_bytes = 4;
 constexpr std::size_t pose_head_bytes = 16;
 constexpr std::size_t sensor_bytes = 32;
 constexpr std::size_t command_head_bytes = 20;
-constexpr std::uint32_t standard_mode = 0; ///< the other has accelerations, and shorter quaternions
+constexpr std::uint32_t standard_mode = 0; ///< the other mode has accelerations and shorter quaternions
 /// The longest reply known is a single pose of 16 sensors.
 constexpr std::size_t most_reply_payload = 1024;
 
@@ -28,7 +28,7 @@ bool is_preamble(std::uint32_t word) {
     return word == pose_preamble || word == command_preamble;
 }
 
-/// Bytes before the next place at which a preamble stands or may yet come to stand; at least 1.
+/// Bytes before the next place where a preamble stands, or where one may begin; at least 1.
 std::size_t bytes_to_next_preamble(std::span<const std::byte> stream) {
     for (std::size_t at = 1; at < stream.size(); ++at) {
         const std::size_t left = std::min<std::size_t>(stream.size() - at, 4);
@@ -104,7 +104,8 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
     if (size < head + crc_bytes || size > head + most + crc_bytes) {
         return refuse(stream, Refusal::Length);
     }
-    // Size and sensor count say the same twice: a wrong size is known before a stream waits for its end.
+    // The sensor count gives the size again, so a wrong size is found before the parser waits for the frame's
+    // end.
     if (poses && stream.size() >= header_bytes + pose_head_bytes) {
         const std::size_t count = u32_at(stream, header_bytes + 12);
         if (count > DeviceFrame::most_sensors || size != head + count * sensor_bytes + crc_bytes) {

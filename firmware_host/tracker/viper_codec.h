@@ -7,7 +7,8 @@
 /// Errors   values; any bytes are safe, nothing is read past the span.
 /// Threads  pure functions; they allocate nothing.
 /// Source   ViperInterface.h, revision 200519a, of Polhemus, as published in sailboy1025/viper_linux, commit
-///          db416f71; tests/tracker/fixtures/viper.txt has bytes made with it. Not held against a device yet.
+///          db416f71; tests/tracker/fixtures/viper.txt has bytes made with it. Not yet compared with a
+///          device.
 #pragma once
 
 #include "firmware_host/tracker/crc.h"
@@ -39,11 +40,10 @@ enum class ViperFilterTarget : std::uint32_t { Both = 0, Orientation = 1, Positi
 /// The first number in a Nak's payload.
 enum class ViperNak : std::uint32_t { General = 0, Booting = 1, Command = 2, BuiltInTest = 3 };
 
-inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU; ///< to set; what is asked is asked of one
+inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU; ///< not for Get, which asks one
 inline constexpr std::uint32_t viper_metres = 3;
 inline constexpr std::uint32_t viper_quaternion = 2;
 
-/// What the stream begins with, and how many bytes of it are then done with.
 struct ViperReply {
     std::uint32_t command = 0;
     std::uint32_t action = 0;
@@ -51,6 +51,7 @@ struct ViperReply {
 };
 struct NeedMore {};
 using ViperMessage = std::variant<NeedMore, Refusal, DeviceFrame, ViperReply>;
+/// What the stream begins with, and how many of its bytes that used up.
 struct ViperStep {
     std::size_t consumed = 0; ///< 0 only with NeedMore
     ViperMessage message;

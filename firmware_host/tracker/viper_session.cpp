@@ -51,7 +51,7 @@ std::vector<ViperSession::Step> ViperSession::steps(const std::array<float, 3>& 
         add(name, A::Set, Need::Ack, Failing::TriesAgain, payload, sensor);
         add(name, A::Get, Need::Same, Failing::TriesAgain); // of sensor 0, the prop's
     };
-    add(C::Continuous, A::Reset, Need::Ack, Failing::GoesOn); // whatever an earlier program left running
+    add(C::Continuous, A::Reset, Need::Ack, Failing::GoesOn); // an earlier program's stream may run
     add(C::WhoAmI, A::Get, Need::Ack, Failing::TriesAgain);
     set(C::Units, bytes_of(units));
     set(C::Hemisphere, bytes_of(half), viper_all_sensors);
@@ -83,7 +83,7 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
         stream_stale_ = false;
     }
     if (progress_.step() == 0) {
-        filter_stays_on_ = false; // until it is known
+        filter_stays_on_ = false; // until the device shows otherwise
         doubtful_ = false;
     }
     progress_.sent(now);
@@ -97,7 +97,7 @@ void ViperSession::fail_step(std::size_t back_to, UsbTrackerState trouble, Monot
         return;
     }
     filter_stays_on_ = filter_stays_on_ || step.name == ViperCommand::Filter;
-    do { // what was not set is not read back either
+    do { // a setting that was not made is not read back either
         progress_.next(now);
     } while (steps_[progress_.step()].need == Need::Same);
 }
@@ -137,12 +137,12 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
 void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
     if (!progress_.waits_for_answer() ||
         reply.command != static_cast<std::uint32_t>(steps_[progress_.step()].name)) {
-        return; // late, or not asked for
+        return; // a late reply, or one that was not asked for
     }
     const Step& step = steps_[progress_.step()];
     if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
         if (step.need == Need::Same && reply.payload.empty()) {
-            return; // late, to what was set
+            return; // a late reply to the Set before
         }
         if (step.need == Need::Same && !repeats_what_was_set(reply)) {
             const bool units = step.name == ViperCommand::Units;
@@ -163,9 +163,10 @@ void ViperSession::refused(const ViperReply& reply, MonotonicTime now) {
     ByteReader reader(reply.payload);
     const auto code = static_cast<ViperNak>(reader.read<std::uint32_t>());
     if (reader.ok() && code == ViperNak::Booting) {
-        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // for as long as it takes
+        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // as often as needed
     } else if (steps_[progress_.step()].action == ViperAction::Get) {
-        // It does as it was told, perhaps, and does not say so; its name is nobody's doubt.
+        // It may have accepted the setting without saying so, which leaves doubt. WhoAmI is no setting and
+        // leaves none.
         doubtful_ = doubtful_ || steps_[progress_.step()].need == Need::Same;
         progress_.next(now);
     } else {

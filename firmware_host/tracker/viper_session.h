@@ -1,5 +1,5 @@
-/// A VIPER's session: every setting is sent, then read back; the frame rate so confirmed is the clock's tick.
-/// Its filters, which lag, are switched off; where they stay on, or an answer is refused, or comes with a
+/// A VIPER's session: every setting is sent, then read back; the confirmed frame rate is the clock's tick.
+/// Its filters, which lag, are switched off. Where they stay on, or an answer is refused or comes with a
 /// warning, it streams all the same and says so.
 ///
 /// Frame, units, time, threads: see device_session.h.
@@ -49,7 +49,7 @@ private:
     SetUpProgress progress_;
     bool filter_stays_on_ = false;
     bool doubtful_ = false;     ///< it warned, or did not say how it is set
-    bool stream_stale_ = false; ///< what came before is worth nothing; cleared with the next command
+    bool stream_stale_ = false; ///< what came before is useless; cleared with the next command
     StreamBuffer stream_;
     FrameIntake intake_;
 };

@@ -1,4 +1,4 @@
-/// A hand made of a mouse: the prop is slid about by dragging it, and turned by the wheel.
+/// Moves the prop with a mouse: dragging slides it about, the wheel turns it.
 ///
 /// Frame    table T, metres, radians; the prop stands upright on the table.
 /// Threads  values.
@@ -19,7 +19,7 @@ public:
     /// The prop's centre stays within `half_extent_m` of the table's.
     explicit MouseHand(const glm::dvec2& half_extent_m) : half_extent_m_(half_extent_m) {}
 
-    /// Takes hold where the mouse points to on the table; the prop does not jump under it.
+    /// Takes hold at the mouse's place on the table; the prop does not jump there.
     void take(const glm::dvec2& at_m) { grip_m_ = centre_m_ - at_m; }
     void let_go() { grip_m_.reset(); }
     void move(const glm::dvec2& at_m) {

@@ -27,7 +27,8 @@ tl::unexpected<Error> no_window(const char* what) {
     return fail(ErrorKind::BadConfiguration, fmt::format("window: {}: {}", what, SDL_GetError()));
 }
 
-/// SDL falls back to drivers that show nothing, where there is nothing else; a person asks for one by name.
+/// Where there is nothing else, SDL falls back to drivers that show nothing; a person may ask for one by
+/// name.
 bool unseen_unasked(std::string_view driver) {
     const char* const asked = std::getenv("SDL_VIDEODRIVER");
     return (driver == "offscreen" || driver == "dummy") &&
@@ -88,7 +89,7 @@ Result<void> SdlWindow::open() {
     if (copying_ == nullptr) {
         return no_window("the desktop has no OpenGL ES 3");
     }
-    SDL_GL_SetSwapInterval(0); // the exhibit has a pace of its own
+    SDL_GL_SetSwapInterval(0); // the exhibit sets its own pace
     Result<PictureCopy> copy = PictureCopy::create();
     if (!copy) {
         return tl::unexpected<Error>(copy.error());
@@ -138,7 +139,7 @@ PixelSize SdlWindow::drawable() const {
     return {std::max(size.width, 1), std::max(size.height, 1)};
 }
 
-/// The mouse is in the window's own units, which need not be pixels.
+/// The mouse's position is in the window's own units, which need not be pixels.
 std::optional<glm::dvec2> SdlWindow::on_table(int x, int y) const {
     PixelSize window;
     SDL_GetWindowSize(window_, &window.width, &window.height);

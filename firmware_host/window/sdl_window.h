@@ -2,8 +2,7 @@
 /// place of the buttons. Never in the kiosk's program.
 ///
 /// Input    drag = slide the prop; wheel or right drag = turn it; keys 1, 2, 3 = buttons; Esc, or closing the
-/// window,
-///          raises SIGTERM.
+///          window, raises SIGTERM.
 /// Frame    table T; `table_from_picture` says where on the table a pixel of the picture lies.
 /// Threads  one: the display, the tracker and the panel share it and the window.
 /// Errors   no desktop, no OpenGL ES 3 on it.

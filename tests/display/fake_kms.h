@@ -1,4 +1,4 @@
-// A graphics card and its memory as the kernel's KMS behaves, on a clock of its own.
+// A fake graphics card and its memory that behave like the kernel's KMS, on their own clock.
 #pragma once
 
 #include "firmware_host/display/kms_device.h"
@@ -114,8 +114,8 @@ public:
     std::optional<Shown> screen; ///< what the projector shows
     std::vector<ModeTiming> refused;
     std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
-    std::string_view lacks;           ///< what is told of what is lit
-    bool scales = false;              ///< framebuffers of another size than the mode's
+    std::string_view lacks;           ///< the shortcoming that it reports
+    bool scales = false;              ///< it can scale framebuffers to the mode's size
     bool no_scaled_flips = false;
     int scalings_refused = 0;
     bool gone = false;
@@ -124,7 +124,7 @@ public:
     bool hangs = false;     ///< no flip is ever done
     bool keeps_time = true; ///< flips are done at refreshes; else at once
     MonotonicTime flipped;  ///< the last time
-    int busy = 0;           ///< so many calls are answered so
+    int busy = 0;           ///< so many calls are answered Busy
     int lights = 0;
     int flips = 0;
     int darkenings = 0;
@@ -158,7 +158,7 @@ private:
     bool setting_a_mode_ = false;
 };
 
-/// Counts the pictures that are filled in; every pair has framebuffers of its own.
+/// Counts the pictures that are filled in; every pair has its own framebuffers.
 struct FakeMemory {
     int pairs = 0;
     int alive = 0;

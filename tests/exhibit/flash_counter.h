@@ -3,7 +3,7 @@
 // WCAG 2.2, success criterion 2.3.1 and 'general flash': a flash is a pair of opposing changes in relative
 // luminance, an increase and then a decrease or the other way round, of 10 % or more of the maximum each,
 // where the darker image is below 0.80; more than three within any one second are a failure. ITU-R BT.1702
-// counts likewise. The areas that they let pass as too small are not made use of: one pixel counts as all.
+// counts likewise. The exceptions for small areas are not used: one pixel counts as the whole picture.
 #pragma once
 
 #include "firmware_host/base/time.h"
@@ -21,11 +21,11 @@ struct Luminance {
     double value = 0.0; ///< relative, 0..1
 };
 
-/// Flashes in these samples. A change lasts for as long as the luminance goes on in one direction, less than
-/// 10 % of the other way left out of account.
+/// Flashes in these samples. A change lasts as long as the luminance goes in one direction; less than 10 % in
+/// the other direction does not end it.
 inline int flashes_in(std::span<const Luminance> samples) {
     constexpr double least_change = 0.10 - 1e-9;
-    std::vector<double> turns; // where changes begin and end
+    std::vector<double> turns; // luminances at which changes begin and end
     double low = samples.empty() ? 0.0 : samples.front().value;
     double high = low;
     int direction = 0; // nothing has changed yet
@@ -42,7 +42,7 @@ inline int flashes_in(std::span<const Luminance> samples) {
             direction = -1;
             low = value;
         } else if (direction > 0) {
-            low = high; // of the way back, only what begins at its top counts
+            low = high; // the way back is counted from the top
         } else if (direction < 0) {
             high = low;
         }

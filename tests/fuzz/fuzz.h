@@ -1,4 +1,4 @@
-/// What the fuzz targets share: the entry that libFuzzer calls, and how a target says that something is
+/// What the fuzz targets share: the entry that libFuzzer calls, and how a target reports that something is
 /// wrong.
 ///
 /// A target is pure functions over bytes: no files, no threads, no clock. `./test fuzz` builds it with
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace frustumscreen::fuzz {
 
-/// Ends the program: the input at hand breaks a promise.
+/// Ends the program if the input breaks a promise.
 inline void require(bool holds, std::string_view promise, std::string_view detail = "") {
     if (!holds) {
         std::fprintf(stderr, "broken promise: %.*s: %.*s\n", static_cast<int>(promise.size()), promise.data(),

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Fuzzes each target for some seconds, two at a time; ./test fuzz builds them before.
+# Fuzzes each target for some seconds, two at a time; ./test fuzz builds them first.
 #
 #   tests/fuzz/fuzz.sh SECONDS [TARGET...]
 #
-# Begins with tests/fuzz/corpus/TARGET, keeps what is new in out/fuzz/TARGET/corpus. An input that breaks a promise
-# stays as out/fuzz/TARGET/crash-*, beside the log; the closing lines say which.
+# It begins with tests/fuzz/corpus/TARGET and keeps new inputs in out/fuzz/TARGET/corpus. An input that breaks
+# a promise stays as out/fuzz/TARGET/crash-*, beside the log; the last lines of the output name it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Takes from out/fuzz the few small inputs that together with the corpora's named ones reach the most code.
+# Takes from out/fuzz the few small inputs that, together with the corpora's named ones, reach the most code.
 #
 #   tests/fuzz/keep_found.sh [TARGET...]     after ./test fuzz
 set -euo pipefail

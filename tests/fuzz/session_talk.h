@@ -1,7 +1,8 @@
-/// Plays the device that a session talks to, by a script that the fuzzer writes, and holds the session to its
-/// promises: poses finite, times never back and never from the future, a state that can be said.
+/// Plays the device that a session talks to, from a script that the fuzzer writes, and checks the session's
+/// promises: poses are finite, times never go back and never come from the future, every state has a
+/// sentence.
 ///
-/// Script   u8 what to do, then its numbers, little-endian; a script that ends in the middle reads zeros.
+/// Script   u8 what to do, then its numbers, little-endian; after its end a script reads as zeros.
 #pragma once
 
 #include "firmware_host/base/byte_reader.h"
@@ -13,7 +14,7 @@ namespace frustumscreen::fuzz {
 class SessionTalk {
 public:
     using Check = void (*)(const PoseSample&);
-    /// `check` is asked about every sample besides.
+    /// `check` is called for every sample as well.
     explicit SessionTalk(
         DeviceSession& session, Check check = [](const PoseSample&) {})
         : session_(session), check_(check) {
@@ -23,7 +24,7 @@ public:
     /// The session's latest command; empty if it sent none.
     [[nodiscard]] const Bytes& command() const { return command_; }
     [[nodiscard]] bool over() const { return session_.failed() || wire_.size() > most_wire; }
-    /// All that was delivered.
+    /// All bytes that were delivered.
     [[nodiscard]] const Bytes& wire() const { return wire_; }
 
     void wait(Nanoseconds duration) {

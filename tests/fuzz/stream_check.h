@@ -24,7 +24,7 @@ inline void require_sound(const DeviceFrame& frame) {
     }
 }
 
-/// All of a frame, NaN equal to NaN.
+/// Compares all of a frame; NaN equals NaN.
 inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
     const auto bits = [](const SensorPose& p) {
         return std::bit_cast<std::array<std::uint64_t, 7>>(
@@ -42,7 +42,7 @@ inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
     return same;
 }
 
-/// Every frame that `parse` finds in what has come so far; refused bytes are passed over.
+/// Takes every frame that `parse` finds in what has come so far; skips refused bytes.
 template <typename Parse>
 void take_frames(StreamBuffer& stream, Parse parse, std::vector<DeviceFrame>& frames) {
     while (true) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Bakes the two artifacts that the guest shows: few triangles, small images, in seconds.
 #
-#   bake_packs.sh BIN FOLDER    BIN: where our programs are; what is newer than they are stays
+#   bake_packs.sh BIN FOLDER    BIN: where our programs are; a pack newer than they are stays
 set -euo pipefail
 bin=$1 folder=$2
 mkdir -p "$folder"

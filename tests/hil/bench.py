@@ -1,7 +1,7 @@
 """The test bench: the emulated kiosk, the mocked devices at its USB ports, and what a test asks of them.
 
 Frame    poses are of the table; pixels of the picture, the top left pixel's centre at (0.5, 0.5).
-Time     time-outs: seconds that the host granted the guest (Machine.granted_s), times how slow that guest is.
+Time     time-outs: seconds that the host granted the guest (Machine.granted_s), multiplied by how slow the guest is.
 Threads  one caller.
 """
 
@@ -26,16 +26,16 @@ WIDTH, HEIGHT = 640, 400  # as in CONFIG
 SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
-CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # write off: unplugged; detect: as it is
+CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # takes the words off (unplugged) and detect (the real state)
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
-PLACE_TOLERANCE_M = 0.0005  # what is presented is filtered: it comes to rest this near to what was sent
+PLACE_TOLERANCE_M = 0.0005  # presented poses are filtered: they come to rest this near to those that were sent
 TURN_TOLERANCE = math.radians(0.2)
-OTHER_TRACKERS = ("patriot", "hid")  # beside the VIPER that most tests use; unplugged until a test wants them
+OTHER_TRACKERS = ("patriot", "hid")  # besides the VIPER that most tests use; unplugged until a test needs them
 
 
 class Mock:
-    """A mocked USB device: a program of its own, told what to do through a socket."""
+    """A mocked USB device: a separate program that takes commands through a socket."""
 
     def __init__(self, program, name, sockets, logs, *options):
         self.usb = sockets / name
@@ -58,7 +58,7 @@ class Mock:
 
 
 class Patience:
-    """How long to wait: by the time that the guest was granted, and longer where it took longer to start."""
+    """How long to wait: measured in time that the guest was granted, and longer if its start took longer."""
 
     usual_start_s = 30.0
     factor = 1.0
@@ -86,7 +86,7 @@ def near(placed, pose, eye_m):
 
 
 class Bench:
-    """`root`, `payload`: from image.py; `build`: where the programs are; `out`: an empty folder for what is found."""
+    """`root`, `payload`: from image.py; `build`: where the programs are; `out`: an empty folder for the results."""
 
     def __init__(self, root, payload, build, packs, out):
         self.out = out
@@ -130,7 +130,7 @@ class Bench:
     # The exhibit's own words.
 
     def status(self):
-        """The status file; None: there is none, or not now."""
+        """The status file; None: there is none now."""
         ran = self.machine.run(f"cat {STATUS_FILE}")
         try:
             return json.loads(ran.output) if ran.status == 0 else None
@@ -170,8 +170,8 @@ class Bench:
         return screen.probe(self.screendump())
 
     def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0):
-        """The picture on the screen once the exhibit says that it presented one of this pose, with nothing fading: that
-        one or a later one."""
+        """Waits until the exhibit says that it presented this pose with nothing fading; returns that picture or a
+        later one from the screen."""
         last = [None]
 
         def presented():
@@ -219,11 +219,11 @@ class Bench:
     # Evidence.
 
     def evidence_of(self, test):
-        """The folder for what a test that fails has seen."""
+        """The folder for what a failed test has seen."""
         return self.out / test.id().split(".")[-1]
 
     def keep_evidence(self, folder):
-        """What the machine shows and says now, as far as it still answers."""
+        """Keeps what the machine shows and says now, as far as it still answers."""
         shutil.copy(self.out / "serial.log", folder)
         try:
             for number in range(3):

@@ -1,7 +1,6 @@
-"""The processes that a program starts, and those that they start: none outlives it, however it ends.
+"""Ends all processes that a program starts, and those that they start, however the program ends.
 
-Signals  SIGINT, SIGTERM and SIGHUP raise Ended in the main thread, which unittest lets through as it does
-         KeyboardInterrupt.
+Signals  SIGINT, SIGTERM and SIGHUP raise Ended in the main thread, which unittest does not catch, like KeyboardInterrupt.
 Threads  the main thread.
 Source   prctl(2), PR_SET_CHILD_SUBREAPER; proc(5), /proc/PID/stat.
 """
@@ -23,7 +22,7 @@ class Ended(KeyboardInterrupt):
 
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
-        self.status = 128 + number  # as a shell has it
+        self.status = 128 + number  # as in a shell
 
 
 def _raise_ended(number, _frame):
@@ -31,7 +30,7 @@ def _raise_ended(number, _frame):
 
 
 def descendants():
-    """The process numbers of all that live, orphans too, since they come to the subreaper."""
+    """The process numbers of all living descendants, orphans too, because the subreaper gets them."""
     children = {}
     for file in pathlib.Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):
@@ -64,7 +63,7 @@ def _end_all():
 
 
 class Family:
-    """`with Family() as family`: what was started inside ends with it. `family.keep = True`: unless it ended by itself."""
+    """`with Family() as family`: ends what was started inside; after `family.keep = True` only if it is interrupted."""
 
     def __init__(self):
         self.keep = False

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the image that lies over the guest's Debian: what a kiosk has installed, two small packs, and what this
-# folder's guest/ adds for the tests.
+# Makes the image that lies over the guest's Debian: what is installed on a kiosk, two small packs, and this
+# folder's guest/ for the tests.
 #
 #   guest_payload.sh BUILD PACKS OUT.squashfs    BUILD: a build folder; PACKS: a folder of *.fspack
 set -euo pipefail

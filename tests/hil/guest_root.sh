@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Makes the guest's Debian: a root file system with the stock kernel and the libraries that our programs need, and
-# nothing of ours in it.
+# Makes the guest's Debian: a root file system with the stock kernel and the libraries that our programs need,
+# without our programs.
 #
 #   guest_root.sh FOLDER PACKAGE...    leaves FOLDER/{vmlinuz,initrd.img,root.squashfs}; PACKAGE: libraries of ours
 #
-# Three files instead of a disk: QEMU loads kernel and initrd itself. The initrd lays the first drive (this root), the
-# second (our programs, guest_payload.sh) and a RAM disk over one another, so that every start begins afresh.
-# Uncompressed, because a processor that is emulated unpacks slowly and the host keeps the file in memory anyway.
+# Three files instead of a disk: QEMU loads kernel and initrd itself. The initrd lays the first drive (this
+# root), the second (our programs, guest_payload.sh) and a RAM disk over one another, so that every start
+# begins from the same state. They are uncompressed, because an emulated processor unpacks slowly and the host
+# keeps the file in memory anyway.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 folder=$1
@@ -16,13 +17,13 @@ folder=$(readlink -f "$folder")
 
 packages=(
     systemd systemd-sysv udev dbus kmod util-linux procps qemu-guest-agent
-    # what our programs open by name at run time, where ldd does not see it
+    # libraries that our programs open by name at run time, which ldd does not see
     libegl-mesa0 libgl1-mesa-dri libgbm1
     # for a person with a shell
     gpiod usbutils less
     "$@"
 )
-# The stock kernel's drivers that the tests meet; what these need comes along by itself.
+# The stock kernel's drivers that the tests meet; modules that they need are added.
 modules=(
     virtio_pci virtio_blk virtio_console virtio_rng squashfs overlay
     bochs virtio-gpu
@@ -34,8 +35,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chmod 777 "$work" # without root, mmdebstrap works as another user
 
-# Runs inside mmdebstrap with the new root as $1: the kernel's package is unpacked, not installed, because installing
-# it would build an initrd of its own.
+# Runs inside mmdebstrap with the new root as $1: the kernel's package is unpacked, not installed, because
+# installing it would build its own initrd.
 cat >"$work/kernel_hook" <<HOOK
 set -eu
 root=\$1
@@ -73,7 +74,8 @@ chroot "\$root" depmod "\$version"
 cp "kernel/boot/vmlinuz-\$version" vmlinuz
 HOOK
 
-# The new root as \$1: a machine that starts fast, keeps nothing, and lets root in on its serial line.
+# Runs with the new root as \$1: makes a machine that starts fast, keeps nothing, and lets root in on its
+# serial line.
 cat >"$work/settings_hook" <<'HOOK'
 set -eu
 root=$1

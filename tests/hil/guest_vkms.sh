@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Builds the kernel's virtual display (vkms), which Debian leaves out of its kernel, for the guest's kernel: a card with
-# real vblanks, whose modeset takes as long as a test says (module parameter modeset_ms), as some projectors' does.
+# Builds the kernel's virtual display (vkms), which Debian leaves out of its kernel, for the guest's kernel: a
+# card with real vblanks, whose modeset is as slow as a test says (module parameter modeset_ms), as some
+# projectors' is.
 #
 #   guest_vkms.sh VERSION OUT.ko    VERSION: as in /lib/modules; APT_CONFIG: whose packages
 #
-# Downloads 150 MB, most of it the kernel's whole source, which Debian has in no smaller piece.
+# Downloads 150 MB, most of it the kernel's whole source, because Debian has no smaller package.
 set -euo pipefail
 version=$1 out=$2
 abi=${version%-*} # 6.1.0-1-amd64: headers for all flavours are in 6.1.0-1-common

@@ -8,7 +8,7 @@ import watch
 from bench import CONNECTOR, UNIT, UPRIGHT, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
-PIXELS = 2.0  # between what is shown and what is rendered offline
+PIXELS = 2.0  # largest distance between what is shown and what is rendered offline
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
 
 
@@ -23,10 +23,10 @@ def is_long(test):
 
 
 class HilTest(unittest.TestCase):
-    """All tests share one machine; each begins with every device well, the first artifact, the prop at the centre."""
+    """All tests share one machine; each begins with all devices working, the first artifact, the prop at the centre."""
 
     bench: Bench
-    longest_s = 0.0  # that a picture stood in any of them while it should move
+    longest_s = 0.0  # the longest time that a picture stood in any test while it should move
 
     def setUp(self):
         bench = self.bench
@@ -50,11 +50,11 @@ class HilTest(unittest.TestCase):
             self.bench.status_says("artifact", artifact)
 
     def hang(self, what, ms=""):
-        """guest_hang.cpp makes the next call that is named so wait: so long, or for ever."""
+        """Makes guest_hang.cpp delay the next call of this name: for `ms`, or for ever."""
         self.bench.machine.check(f"echo {ms} > /run/hil/new; mv /run/hil/new /run/hil/hang-{what}")
 
     def watch(self, seconds, rests=False):
-        """Looks at the screen for so long: no picture may stand too long."""
+        """Looks at the screen for `seconds`: no picture may stand too long."""
         seen = watch.watch(self.bench, seconds)
         if not rests:
             HilTest.longest_s = max(HilTest.longest_s, seen.stood().granted_s)
@@ -63,7 +63,7 @@ class HilTest(unittest.TestCase):
         return seen
 
     def assert_at(self, place_m, rotation=UPRIGHT, artifact=None):
-        """The prop lies there: the picture is where `render` draws it."""
+        """With the prop there, the picture is where `render` draws it."""
         pose = (*place_m, *rotation)
         picture = self.bench.picture_of(pose)
         artifact = artifact or self.bench.status()["artifact"]

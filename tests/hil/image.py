@@ -1,4 +1,4 @@
-"""What the guest starts from: Debian's root, kept between runs, and our programs over it, made anew each time.
+"""What the guest starts from: Debian's root, kept between runs, and over it our programs, packed again each time.
 
 Errors   subprocess.CalledProcessError from the scripts that do the work.
 """
@@ -19,13 +19,13 @@ def library_packages(program):
     listed = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
     paths = [word for line in listed.splitlines() for word in line.split() if word.startswith("/")]
     files = {str(pathlib.Path(path).resolve()) for path in paths}
-    files |= {file.removeprefix("/usr") for file in files}  # dpkg knows each by the name in its package
+    files |= {file.removeprefix("/usr") for file in files}  # dpkg knows each file by its name in the package
     found = subprocess.run(["dpkg-query", "--search", *sorted(files)], check=False, capture_output=True, text=True)
     return sorted({line.split(":")[0] for line in found.stdout.splitlines()})
 
 
 def root(program, say):
-    """The folder with vmlinuz, initrd.img and root.squashfs; made if its recipe or the libraries changed."""
+    """The folder with vmlinuz, initrd.img and root.squashfs; made again if its recipe or the libraries changed."""
     packages = [*library_packages(program), FONTS]
     recipe = b"".join((HERE / name).read_bytes() for name in ("guest_root.sh", "guest_vkms.sh", "guest_init"))
     key = hashlib.sha256(recipe + " ".join(packages).encode()).hexdigest()[:16]

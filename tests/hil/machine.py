@@ -3,7 +3,7 @@
 Frame    one machine for a whole test run; every start begins with the same file systems.
 Time     seconds that the host granted (`granted_s`), where nothing else is said.
 Threads  one caller.
-Errors   MachineError, with the folder in which the serial log is.
+Errors   MachineError, which names the folder of the serial log.
 Source   QEMU Machine Protocol and Guest Agent protocol references, docs of QEMU 7.2.
 """
 
@@ -59,7 +59,7 @@ class JsonLines:
         return json.loads(line.lstrip(b"\xff"))
 
     def answer(self, message):
-        """Sends a command and returns its answer; events in between are left out."""
+        """Sends a command and returns its answer; skips events in between."""
         self.send(message)
         while True:
             answer = self.receive()
@@ -71,15 +71,15 @@ class JsonLines:
 
 @dataclass
 class Given:
-    """Two clocks of the guest that stand while a busy host lets it wait."""
+    """Two clocks of the guest that stand while a busy host makes it wait."""
 
-    granted_s: float  # none of its processors waited for the host's
-    rested_s: float  # of that: none of its processors had anything to do
+    granted_s: float  # time in which none of its processors waited for the host's
+    rested_s: float  # the part of it in which none of its processors had work
 
 
 @dataclass
 class Ran:
-    """What a command in the guest left."""
+    """The result of a command in the guest."""
 
     status: int
     output: str
@@ -104,7 +104,7 @@ class Machine:
     def start(self):
         self.logs.mkdir(parents=True, exist_ok=True)
         with open(self.logs / "qemu.log", "w", encoding="utf-8") as log:
-            # a session of its own, so that it outlives the tests where a person wants to keep it
+            # a new session, so that it outlives the tests if a person wants to keep it
             self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                              start_new_session=True)
         self.pid = self._process.pid
@@ -148,7 +148,7 @@ class Machine:
         return [str(word) for word in command]
 
     def _connect_agent(self):
-        """The agent answers once the guest's user space is there; what was sent before that may be lost."""
+        """The agent answers once the guest's user space runs; what was sent earlier may be lost."""
         agent = JsonLines(self.sockets / "agent", 1.0)
         deadline = self.granted_s() + START_S
         token = int(time.monotonic() * 1000) & 0x7FFFFFFF
@@ -172,15 +172,15 @@ class Machine:
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
     def _scheduled(self):
-        """Now, and for each of the guest's processors the seconds that it ran, and those that it was ready to run while
+        """The time now, and for each of the guest's processors the seconds that it ran and those that it was ready but
         the host's were all busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
         files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
         words = [file.read_text(encoding="ascii").split() for file in files]
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """What the host has given the guest so far. Asked every 50 ms or so, processors that wait one after another, not at
-        once, are seen to do so; more often is worse, since a wait is counted when it ends, and until then is taken for rest.
+        """What the host has given the guest so far. Call it about every 50 ms: then processors that wait one after
+        another are told from those that wait at once. More often is worse: a wait counts as rest until it ends.
         """
         now, scheduled = self._scheduled()
         before, self._asked = self._asked, (now, scheduled)
@@ -216,19 +216,19 @@ class Machine:
         return Ran(state.get("exitcode", -1), output.decode(errors="replace"))
 
     def check(self, command, timeout_s=60.0):
-        """As `run`, but a status other than 0 is an error; returns the output."""
+        """Like `run`, but a status other than 0 is an error; returns the output."""
         ran = self.run(command, timeout_s)
         if ran.status != 0:
             raise MachineError(f"in the guest: {command}: status {ran.status}: {ran.output.strip()}")
         return ran.output
 
     def write(self, path, text):
-        """A small file into the guest."""
+        """Writes a small file in the guest."""
         encoded = base64.b64encode(text.encode()).decode()
         self.check(f"echo {encoded} | base64 -d > {shlex.quote(path)}")
 
     def screendump(self, path, screen="screen"):
-        """What a screen shows now, as a PPM file on the host."""
+        """Writes what a screen shows now to a PPM file on the host."""
         self.monitor("screendump", device=screen, filename=os.fspath(path))
 
     def stop(self):

@@ -2,8 +2,7 @@
 /// there.
 ///
 /// Threads  one caller.
-/// Errors   the process's are the test's failures; a socket that is not there is a tracker that is not
-/// connected.
+/// Errors   an error of the process fails the test; without a socket no tracker is connected.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"
@@ -16,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// A folder of its own under the system's temporary folder, removed at the end: sockets want short paths.
+/// A new folder under the system's temporary folder, removed at the end; sockets need short paths.
 class ScratchFolder {
 public:
     ScratchFolder();
@@ -37,7 +36,7 @@ public:
     MockProcess(const MockProcess&) = delete;
     MockProcess& operator=(const MockProcess&) = delete;
 
-    /// Its answer, one JSON object; empty: it did not answer.
+    /// Sends a command and returns the answer, one JSON object; empty: it did not answer.
     [[nodiscard]] std::string tell(const std::string& command) const;
 
 private:

@@ -1,4 +1,4 @@
-"""The same tests again and again, beside a busy machine: what must be clean every time."""
+"""Runs the same tests again and again on a busy machine; every run must be clean."""
 
 import subprocess
 import sys
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 
 class Load:
-    """`with Load(loops)`: so many busy loops beside it."""
+    """`with Load(loops)`: runs so many busy loops meanwhile."""
 
     def __init__(self, loops):
         self._loops = loops
@@ -26,14 +26,14 @@ class Load:
 class Run:
     """One run of the tests."""
 
-    load_average: float  # of the last five minutes, at the end
+    load_average: float  # the average of the last five minutes, at the end
     took_s: float
     stood_s: float  # the longest that a picture stood while it should move
     wrong: list = field(default_factory=list)  # names of tests
 
 
 def as_text(table):
-    """`table`: of (busy loops, number, Run)."""
+    """`table`: rows of (busy loops, number, Run)."""
     lines = ["busy loops  run  load average  seconds  longest picture  failed"]
     for loops, number, run in table:
         lines.append(f"{loops:10}  {number:3}  {run.load_average:12.1f}  {run.took_s:7.0f}  {1e3 * run.stood_s:12.0f} ms  "

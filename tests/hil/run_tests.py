@@ -16,7 +16,7 @@ from family import Ended, Family
 from hil_test import HilTest, is_long
 from repeat import Load, Run, as_text
 
-# in this order: what the later ones rely on comes first
+# in this order, because later tests rely on earlier ones
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "display", "vblank",
            "restart", "kernel")
 
@@ -34,7 +34,7 @@ def flat(suite):
 
 
 class Verdicts(unittest.TextTestResult):
-    """Says how long each test took, and keeps what the machine shows when one has failed, before the next begins."""
+    """Says how long each test took; after a failure keeps what the machine shows, before the next test begins."""
 
     def startTest(self, test):
         self._begun = time.monotonic()
@@ -88,7 +88,7 @@ def parse_arguments():
 
 
 def chosen(arguments):
-    """The tests to run, made anew: unittest forgets those that it ran."""
+    """The tests to run, made again for each run, because unittest drops tests that it ran."""
     tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
     if arguments.only:
         return [test for test in tests if any(name in test.id() for name in arguments.only.split(","))]
@@ -98,7 +98,7 @@ def chosen(arguments):
 def made(build):
     """What the guest starts from: root, payload, packs."""
     making = ThreadPoolExecutor().submit(image.root, build / "bin" / "frustumscreen", say)
-    packs = image.packs(build, say)  # the one waits for the network, the other for the processor
+    packs = image.packs(build, say)  # at the same time: one waits for the network, the other for the processor
     return making.result(), image.payload(build, packs), packs
 
 
@@ -155,5 +155,5 @@ if __name__ == "__main__":
             status = main(whole)
     except Ended as ended:
         print(f"hil: ended by {ended}", file=sys.stderr, flush=True)
-        os._exit(ended.status)  # a thread that waited for a program might go on to the next one
+        os._exit(ended.status)  # at once: a thread that waited for a program might start the next one
     sys.exit(status)

@@ -2,7 +2,7 @@
 
 Shape    row 0 at the top; 8-bit sRGB codes, three bytes a pixel.
 Outline  a picture's lit part is a list of integers, one for each row, whose bits are its pixels, the leftmost the
-         highest; so that shifting and counting pixels is integer arithmetic.
+         highest; so shifting and counting pixels is integer arithmetic.
 Errors   ValueError.
 Source   netpbm's ppm(5); PNG specification (W3C, 2003), section 9 (filters).
 """
@@ -68,7 +68,7 @@ def _unfilter(kind, row, above, step):
 
 
 def read_png(path):
-    """8-bit RGB and RGBA, not interlaced: what our programs write."""
+    """Reads 8-bit RGB and RGBA, not interlaced, as our programs write it."""
     with open(path, "rb") as file:
         data = file.read()
     width = height = step = 0
@@ -100,7 +100,7 @@ def read_png(path):
 
 
 def write_png(path, picture):
-    """Uncompressed enough to be quick, small enough to keep."""
+    """Compresses a little: quick to write, small enough to keep."""
     lines = b"".join(
         b"\0" + picture.rgb[3 * picture.width * y : 3 * picture.width * (y + 1)] for y in range(picture.height)
     )
@@ -118,7 +118,7 @@ _DIGIT = bytes(ord("1") if code > LIT else ord("0") for code in range(256))
 
 
 def lit(picture):
-    """The lit part, row by row."""
+    """The lit part of the picture, row by row."""
     rows = []
     for y in range(picture.height):
         start = 3 * picture.width * y
@@ -160,7 +160,7 @@ def box(rows, width):
 
 
 def grown(rows, pixels, width):
-    """Every pixel within so many pixels, along a row, a column or both, of a lit one."""
+    """Every pixel that is at most `pixels` away from a lit one, along a row, a column or both."""
     full = (1 << width) - 1
     wide = []
     for row in rows:
@@ -177,7 +177,7 @@ def grown(rows, pixels, width):
 
 
 def share_outside(rows, allowed):
-    """Which share of the lit pixels is not in `allowed`."""
+    """The share of the lit pixels that is not in `allowed`."""
     total = count(rows)
     return count([row & ~other for row, other in zip(rows, allowed)]) / total if total else 0.0
 

@@ -20,7 +20,7 @@ class Buttons(HilTest):
         self.assert_shown(amphora)
         self.bench.buttons.tell("press", NEXT, "300ms")
         self.assert_shown(nautilus)
-        self.bench.buttons.tell("bounce", NEXT, "300ms")  # one press, however often its contacts meet
+        self.bench.buttons.tell("bounce", NEXT, "300ms")  # one press, however often its contacts bounce
         self.assert_shown(amphora)
         time.sleep(3.0)
         self.assert_shown(amphora)

@@ -1,5 +1,5 @@
-"""Another graphics card, whose driver comes late and whose projector comes, goes and wants another mode: virtio-gpu, at
-which the window of a viewer is the projector. The kernel tells of it by uevent."""
+"""Another graphics card, whose driver comes late and whose projector comes, goes and wants another mode: virtio-gpu, with
+a viewer's window as the projector. The kernel reports it by uevent."""
 
 import time
 
@@ -11,9 +11,9 @@ from machine import SECOND_SLOT
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
 CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
-WAITED_S = 4.0  # for a driver, without giving up
+WAITED_S = 4.0  # how long it waits for a driver without giving up
 BACK_S = 15.0
-LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # the picture as large as it fits
+LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # a larger mode, with the picture as large as it fits
 
 
 @long

@@ -1,4 +1,4 @@
-"""After all of it: the guest's kernel has nothing to complain of."""
+"""After all tests the guest's kernel has reported no fault."""
 
 from hil_test import HilTest
 

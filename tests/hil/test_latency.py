@@ -1,4 +1,4 @@
-"""From the tracker's packet to the picture on the screen: measured and reported, not limited."""
+"""Measures and reports the time from the tracker's packet to the picture on the screen; there is no limit."""
 
 import json
 import statistics

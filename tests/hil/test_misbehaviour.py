@@ -1,4 +1,4 @@
-"""The tracker misbehaves: the picture does not freeze, shows no pose that was not sent, and the state is told.
+"""The tracker misbehaves: the picture does not freeze, shows no pose that was not sent, and the state is reported.
 
 The prop goes to and fro on a straight line through the table's centre all the while. So whatever is shown must be one of the
 pictures that `render` draws along this line; and where the poses stop, the artifact that turns at the table's centre.
@@ -17,17 +17,17 @@ ARTIFACT = "amphora"
 REACH_M = 0.12
 STROKE_S = 3.0
 PLAYED_HZ = 240
-OVERSHOOT_M = 0.02  # of the prediction, where the prop turns back
+OVERSHOOT_M = 0.02  # by the prediction, where the prop turns back
 STEP_M = 0.002  # between two pictures along the line: 1.6 pixels
 TURNS = 24
-BESIDE_PX = 2  # between what is shown and the nearest of the pictures
-BESIDE_SHARE = 0.01  # of the lit pixels
+BESIDE_PX = 2  # largest distance between what is shown and the nearest of the pictures
+BESIDE_SHARE = 0.01  # the share of the lit pixels that may be further away
 FAULT_S = 4.0
 AFTER_S = 2.0
 CALM_S = 1.5
 
 RUNNING = "is running"
-# what the tracker does, what the status says of it, and whether poses still come
+# what the tracker does, what the status says about it, and whether poses still come
 FAULTS = {
     "drop": (("drop 0.3",), RUNNING, True),
     "corrupt": (("corrupt 0.2",), RUNNING, True),
@@ -50,7 +50,7 @@ LONG = ("reorder", "warn", "nak_questions", "filter_stays", "wrong_units")  # th
 
 
 def write_strokes(path):
-    """To and fro at constant speed, as a pose file; the mock plays its rows as they are."""
+    """Writes a pose file that goes to and fro at constant speed; the mock plays its rows as they are."""
     rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
     samples = round(2 * STROKE_S * PLAYED_HZ)
     for number in range(samples):
@@ -88,7 +88,7 @@ class Allowed:
         return screen.count(rows) > 0 and screen.share_outside(rows, allowed) <= BESIDE_SHARE
 
     def sent(self, rows):
-        """It is the picture of a place on the line, neither more nor less."""
+        """True if it is exactly the picture of a place on the line."""
         if not any(rows):
             return False
         x = screen.centroid(rows, self._width)[0]
@@ -100,7 +100,7 @@ class Allowed:
         return self._inside(rows, self._turning)
 
     def fading(self, rows):
-        """One of the two, or a darker picture of either, of which less is seen."""
+        """True if it is one of the two, or a darker picture of either, of which less is seen."""
         return screen.share_outside(rows, self._anywhere) <= BESIDE_SHARE
 
 
@@ -138,7 +138,7 @@ class Misbehaviour(HilTest):
         eventually(lambda: is_right(screen.lit(self.bench.screendump())), 10.0, otherwise)
 
     def look(self, seconds, is_right, rests=False):
-        """No picture freezes meanwhile, and each is right."""
+        """Looks for `seconds`: no picture freezes, and each is right."""
         for picture in self.watch(seconds, rests).pictures:
             if not is_right(screen.lit(picture)):
                 folder = self.bench.evidence_of(self)

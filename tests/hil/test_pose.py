@@ -1,4 +1,4 @@
-"""The tracker's pose, through USB, filter, renderer and display, against the same pose rendered offline."""
+"""Compares the tracker's pose, through USB, filter, renderer and display, with the same pose rendered offline."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Whatever stops the exhibit, systemd brings it back: told to stop, killed, stopped, a device's thread or the renderer hung."""
+"""Systemd brings the exhibit back whatever stops it: SIGTERM, SIGKILL, SIGSTOP, a hung device thread or renderer."""
 
 import time
 
@@ -40,7 +40,7 @@ class Restart(HilTest):
         eventually(lit_anew, BACK_S, "it runs again, but no new picture comes")
 
     def test_told_to_stop(self):
-        """Clean, and within STOPPED_S."""
+        """It stops cleanly, within STOPPED_S."""
         self.bench.machine.write("/tmp/stop.sh", STOP)
         begun, begun_s = time.monotonic(), self.bench.machine.granted_s()
         took_ns, code = self.bench.machine.check(f"sh /tmp/stop.sh {self.process}").split()
@@ -82,7 +82,7 @@ class Restart(HilTest):
         self.assertEqual(self.bench.main_process(), waiting, "it ended in place of waiting")
 
     def test_hung_renderer(self):
-        """Another thread tells of it before the service manager ends it."""
+        """Another thread reports it before the service manager ends the exhibit."""
         self.hang("gl")
         eventually(lambda: "the picture hangs" in self.bench.journal(), BACK_S, "nobody tells that the picture hangs")
         self.assert_restarted()

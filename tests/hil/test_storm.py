@@ -1,5 +1,5 @@
 """Storms: plugs that come and go faster than a hand can, floods of frames and of noise, descriptors that lie, contacts that
-never rest. The exhibit stays the same process, its picture lives on, and all is well after."""
+never rest. The exhibit stays the same process, its picture goes on, and all works afterwards."""
 
 import time
 
@@ -10,7 +10,7 @@ ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
 REPLUGS, REPLUG_S = 100, 0.1
 STORM_S = 10.0
-# what the tracker does; what the status says of it meanwhile, where that is certain
+# what the tracker does; what the status says about it meanwhile, if that is certain
 STORMS = {
     "replugged_100_times": ("replug 10", None),
     "8_khz": ("rate 8000", None),
@@ -23,7 +23,7 @@ STORMS = {
     "late_poses": ("rate 2", "its poses come late, or at another pace"),
 }
 DESCRIPTORS = ("no-endpoints", "absurd-endpoints", "absurd-lengths", "wrong-configuration")  # read when it is plugged in
-CHATTER_S = 30.0  # by when it must be known
+CHATTER_S = 30.0  # by then the chatter must be noticed
 BACK_S = 30.0
 
 
@@ -63,7 +63,7 @@ class Storms(HilTest):
         self.assert_well()
 
     def test_button_that_chatters(self):
-        """It is ignored, and told; what is shown stays; it counts again once it is quiet."""
+        """It is ignored and reported; the shown artifact stays; the button counts again once it is quiet."""
 
         def chatter():
             for _ in range(15):

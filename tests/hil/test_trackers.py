@@ -5,7 +5,7 @@ from hil_test import HilTest, long
 
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
-FOUND_S = 20.0  # it is to be found within 2 s; the kernel's own enumeration is slow here
+FOUND_S = 20.0  # it must be found within 2 s; the kernel's own enumeration is slow here
 
 
 class Trackers(HilTest):

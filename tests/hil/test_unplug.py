@@ -1,4 +1,4 @@
-"""Plugs pulled and put back: tracker, panel, projector. The picture goes on, says so, and all is well again after."""
+"""Tracker, panel and projector are unplugged and plugged in: the picture goes on, the status says so, all works again."""
 
 import time
 
@@ -7,7 +7,7 @@ from bench import CONNECTOR, eventually
 from hil_test import HilTest
 
 ARTIFACT = "amphora"
-BACK_S = 15.0  # a device is to be back within 2 s; the kernel's own enumeration is slow here
+BACK_S = 15.0  # a device must be back within 2 s; the kernel's own enumeration is slow here
 
 
 class Unplug(HilTest):

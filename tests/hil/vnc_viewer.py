@@ -1,5 +1,5 @@
-"""A viewer at the emulated second screen, as far as it tells the graphics card how large its window is: for the guest
-that is a projector which comes, goes, or wants another mode.
+"""A viewer of the emulated second screen that only tells the graphics card how large its window is: for the guest it is
+a projector that comes, goes, or wants another mode.
 
 Source   RFC 6143 (RFB 3.8), and its pseudo-encoding ExtendedDesktopSize (github.com/rfbproto/rfbproto, 7.7.10 and 7.4.3).
 """
@@ -19,7 +19,7 @@ class VncViewer:
         self._socket = socket.socket(socket.AF_UNIX)
         self._socket.settimeout(20.0)
         self._socket.connect(str(path))
-        self._read(12)  # its version
+        self._read(12)  # the server's version
         self._socket.sendall(b"RFB 003.008\n")
         if NO_SECURITY not in self._read(self._read(1)[0]):
             raise ConnectionError("the emulated screen asks for a password")
@@ -40,7 +40,7 @@ class VncViewer:
         return data
 
     def resize(self, width, height):
-        """The window is so large now; 0 x 0: nothing can be shown in it."""
+        """Tells that the window has this size now; 0 x 0: nothing can be shown in it."""
         self._socket.sendall(struct.pack(">BxHHBxIHHHHI", SET_DESKTOP_SIZE, width, height, 1, 0, 0, 0, width, height, 0))
 
     def close(self):

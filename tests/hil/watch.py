@@ -1,4 +1,4 @@
-"""Looking at the screen for a while: which pictures came, how long one of them stood, and what some of them lit.
+"""Looks at the screen for a while: which pictures came, how long one of them stood, and what some of them lit.
 
 A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
 different codes are two pictures, even where nothing moves.
@@ -8,8 +8,8 @@ Freeze   a picture that stands while the guest rests, or while the guest is give
          The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
          that saw it to the beginning of the last one, however slow the looks themselves are.
 Pause    a host that stands still as a whole (a virtual machine that its own host takes off the processor) stops none of
-         these clocks. It shows as one long step between two looks: no step counts for more than SURE_S, so that a freeze
-         is one that several looks saw.
+         these clocks. It shows as one long step between two looks. No step counts for more than SURE_S, so that only a
+         freeze that several looks saw counts.
 """
 
 import statistics
@@ -22,22 +22,22 @@ from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
-SURE_S = 0.1  # from one look to the next: longer, and nobody knows what happened meanwhile
-RESTING_S = 1.0  # where nothing moves, a picture comes after so long, with another code
+SURE_S = 0.1  # of a longer step between two looks nobody knows what happened meanwhile
+RESTING_S = 1.0  # where nothing moves, a picture with another code comes after this time
 FROZEN_S = 0.25
 FROZEN_PACES = 4.0
 
 
 @dataclass
 class Look:
-    time_s: float  # by the monotonic clock, at its end
+    time_s: float  # of the monotonic clock, at the look's end
     begin: Given
     end: Given
     code: int  # None: none can be read
 
 
 def plus(stood, before, now):
-    """`stood`, and what was given from one look to the next."""
+    """`stood` plus what was given from one look to the next."""
     return Given(stood.granted_s + min(SURE_S, now.granted_s - before.granted_s),
                  stood.rested_s + min(SURE_S, now.rested_s - before.rested_s))
 
@@ -68,7 +68,7 @@ class Watch:
                          for look in self.looks)
 
     def pace_s(self):
-        """How long the guest took for a picture: the median; 0: hardly any was seen."""
+        """How long the guest took for a picture, as the median; 0: too few were seen."""
         coded = [look for look in self.looks if look.code is not None]
         first = [look for before, look in zip(coded, coded[1:]) if look.code != before.code]
         paces = [(b.end.granted_s - a.end.granted_s) / ((b.code - a.code) % CODES) for a, b in zip(first, first[1:])]
@@ -76,7 +76,7 @@ class Watch:
 
 
 def watch(bench, seconds):
-    """The exhibit is left alone meanwhile."""
+    """Only looks for `seconds` and does nothing to the exhibit."""
     looks, pictures, given = [], [], bench.machine.given
     begun = time.monotonic()
     kept = begun - KEPT_S
@@ -92,7 +92,7 @@ def watch(bench, seconds):
 
 
 def froze(seen, rests=False):
-    """Why a picture is said to have frozen; empty: none did. Says the figures."""
+    """Says why a picture counts as frozen; empty: none did. Prints the figures."""
     stood, pace_s = seen.stood(rests), seen.pace_s()
     figures = (f"{'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
                f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; "

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Draws a fixed set of pictures with the programs of one build: two artifacts in both set-ups at 20 poses and every
-# level, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two builds that draw
-# alike leave folders that are equal byte for byte:
+# Draws a fixed set of pictures with the programs of one build: two artifacts in both set-ups at 20 poses and
+# every level, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two
+# builds that draw the same pictures leave folders that are equal byte for byte:
 #
 #   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: made anew; BAKER: where those are
 #                                                    that bake the packs, if others
@@ -15,7 +15,7 @@ folder=$(realpath "$folder")
 packs=$folder/packs
 "$root/tests/hil/bake_packs.sh" "$(realpath "${3:-$1}")" "$packs"
 
-# Pictures, and what was counted: all columns but the time that a frame took.
+# Keeps pictures and counts: all columns except the time that a frame took.
 keep() {
     cut -d , -f 1,2,4- "$1/frames.csv" >"$1/counts.csv"
     rm "$1/frames.csv"

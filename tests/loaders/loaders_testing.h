@@ -1,4 +1,4 @@
-/// Helpers of the loaders' tests: files made on the spot, plain measures of a mesh, the index of the shared
+/// Helpers of the loaders' tests: files made by the tests, plain measures of a mesh, the index of the shared
 /// models.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace frustumscreen::testing {
 
-/// A folder of its own for each test program's run; removed at the end.
+/// A new folder for each run of a test program; removed at the end.
 class TemporaryFolder {
 public:
     TemporaryFolder();

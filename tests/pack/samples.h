@@ -1,4 +1,5 @@
-/// Small packs made in memory, and packs taken apart and put together again with the right hashes.
+/// Small packs made in memory, and functions that take packs apart and put them together again with correct
+/// hashes.
 #pragma once
 
 #include "app/pack/manifest.h"
@@ -53,7 +54,7 @@ inline ReliefAtlas relief_atlas() {
     return atlas;
 }
 
-/// Where pack.h says that a texel lies, spelt out for the two directions used here.
+/// Where a texel lies according to pack.h, written out for the two directions used here.
 inline PackVertex vertex_at(const ReliefAtlas& atlas, const ReliefChart& chart, int x, int y,
                             const glm::dvec3& box) {
     const double u = static_cast<double>(chart.u0_box) + 0.125 * (x - chart.x);
@@ -105,7 +106,7 @@ inline Image8 texture(int width, int height, unsigned seed, bool opaque) {
     return image;
 }
 
-/// Everything that a pack can hold, on few bytes.
+/// A pack with everything that a pack can hold, in few bytes.
 inline Pack pack() {
     Pack pack;
     pack.title = "Amphora \xC3\xA0 colonnettes";
@@ -156,7 +157,7 @@ struct Entries {
     }
 };
 
-/// Throws where it is no pack: a fuzzer's may claim any size.
+/// Throws if it is no pack: a fuzzer's bytes may claim any size.
 inline Entries take_apart(const Bytes& bytes) {
     constexpr std::uint64_t most_bytes = 1U << 28U;
     auto zip = pack_format::ZipReader::open(bytes);
@@ -175,7 +176,7 @@ inline Entries take_apart(const Bytes& bytes) {
     return entries;
 }
 
-/// As they are, around this text as the manifest.
+/// Packs the parts unchanged, with this text as the manifest.
 inline Bytes put_together(const std::string& manifest,
                           const std::vector<std::pair<std::string, Bytes>>& parts) {
     pack_format::ZipWriter zip;

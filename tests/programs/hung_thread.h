@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// Waited for: a thread names itself when it first runs.
+/// Waits for the name: a thread names itself when it first runs.
 inline std::optional<pid_t> thread_named(pid_t process, const std::string& wanted) {
     using Clock = std::chrono::steady_clock;
     for (const auto end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;) {
@@ -31,8 +31,8 @@ inline std::optional<pid_t> thread_named(pid_t process, const std::string& wante
     return std::nullopt;
 }
 
-/// Stops a child's thread; from here on it is traced, and its end has to be waited for before the child's.
-/// False: this machine lets nobody trace.
+/// Stops a child's thread; from here on it is traced, and the test must wait for its end before the child's.
+/// False: this machine does not allow tracing.
 inline bool hang(pid_t thread) {
     int status = 0;
     return ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&

@@ -1,4 +1,4 @@
-// A folder of its own in which a test runs our programs as a person would.
+// A new folder in which a test runs our programs as a person would.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -22,7 +22,8 @@ protected:
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
-    /// `command` begins with a program's name; the exit status. What it printed is in out.txt and err.txt.
+    /// `command` begins with a program's name; returns the exit status. Its output goes to out.txt and
+    /// err.txt.
     [[nodiscard]] int run(const std::string& command) const {
         const int status =
             std::system(fmt::format("cd '{}' && ASAN_OPTIONS=detect_leaks=0 '{}'/{} >out.txt 2>err.txt",

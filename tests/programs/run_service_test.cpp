@@ -159,7 +159,7 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     ::kill(process, SIGTERM);
     ::waitpid(*tracker, nullptr, __WALL); // the tracer sees each thread's end first
     EXPECT_EQ(ending(), 0);               // though the thread could not be joined
-    EXPECT_NE(errors().find("a device did not let go"), std::string::npos) << errors();
+    EXPECT_NE(errors().find("a device did not stop in time"), std::string::npos) << errors();
 }
 
 TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {

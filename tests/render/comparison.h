@@ -1,4 +1,4 @@
-/// Places that the renderer drew against those of a ray cast.
+/// Compares the places that the renderer drew with those of a ray cast.
 #pragma once
 
 #include "app/image/image.h"
@@ -16,23 +16,23 @@ namespace frustumscreen::synthetic {
 
 struct Comparison {
     std::size_t both = 0;
-    std::size_t mismatched = 0; ///< hit in one alone
+    std::size_t mismatched = 0; ///< hit in only one of the two
     std::size_t unexcused = 0;  ///< of them, far from any outline
-    /// Over pixels hit in both whose neighbourhood is smooth: the distance between the two places, beyond
-    /// that which the true one goes within a step of the rasterizer's grid.
+    /// Over pixels hit in both whose neighbourhood is smooth: the distance between the two places, minus what
+    /// the true one moves within a step of the rasterizer's grid.
     double worst_mm = 0.0;
 };
 
 /// The length of such a step, pixels: a GPU moves each vertex, with what it carries, to the nearest point of
-/// that grid (NVIDIA's does; OpenGL ES 3.1, 2.5.9 and 13.2). Mesa's llvmpipe moves outlines alone: nothing is
-/// excused there.
+/// that grid (NVIDIA's does; OpenGL ES 3.1, 2.5.9 and 13.2). Mesa's llvmpipe moves only outlines, so nothing
+/// is excused there.
 inline double grid_step_px() {
     GLint bits = 4;
     glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
     return draws_on_processor(gl_driver_name()) ? 0.0 : std::ldexp(1.0, -bits);
 }
 
-/// How far the true place goes where the pixel's centre moves by `step_px`, the most of eight directions.
+/// How far the true place moves when the pixel's centre moves by `step_px`: the most of eight directions.
 template <typename Cast>
 double moves_mm(const Cast& cast, const Stage& stage, const glm::dvec2& centre,
                 const ReferenceCast::Hit& truth, double step_px) {

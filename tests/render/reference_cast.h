@@ -52,7 +52,7 @@ public:
         return hit;
     }
 
-    /// What the pixel (u, v) shows, prop frame.
+    /// What `pixel` shows, in the prop frame.
     [[nodiscard]] Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
         const RigidTransform prop_from_projector =
             stage.table_from_prop.inverse() * stage.table_from_projector;

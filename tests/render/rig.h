@@ -11,7 +11,7 @@
 
 namespace frustumscreen::synthetic {
 
-/// Of opaque artifacts, in plain and in even light, and captions.
+/// What opaque artifacts, in plain and in even light, and captions need.
 [[nodiscard]] inline RenderNeeds needs(int samples, bool fades = false) {
     RenderNeeds needs{samples, {{ShaderKey::Pass::TablePicture}}};
     for (const bool even_light : {false, true}) {
@@ -49,7 +49,7 @@ struct Rig {
         }
         return result;
     }
-    /// After a change of `pack`.
+    /// Call it after a change of `pack`.
     void upload_again() {
         renderer->store().release(level.drawable);
         level.drawable = renderer->store().upload(pack, 0).value();

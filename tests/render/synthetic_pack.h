@@ -1,4 +1,4 @@
-/// A small pack made in memory, and the stage that the render tests play on.
+/// A small pack made in memory, and the stage of the render tests.
 #pragma once
 
 #include "app/geometry/prop_shape.h"
@@ -122,7 +122,7 @@ inline double metres_per_box(const Pack& pack, const PropShape& prop) {
     return largest_scale_inside(prop, corners);
 }
 
-/// A projector above the table that looks straight down; near: the prop covers about a quarter of the
+/// A projector above the table that looks straight down; if `near`, the prop covers about a quarter of the
 /// picture.
 struct Stage {
     PropShape prop = make_frustum({});

@@ -22,7 +22,7 @@ inline Settings parsed(const std::string& text) {
     return settings ? **settings : Settings();
 }
 
-/// The refusal of `text`; empty if it was taken.
+/// The error message for `text`; empty if it was accepted.
 inline std::string refusal(const std::string& text) {
     const auto settings = parse_settings(text, "set/kiosk.toml");
     if (settings) {

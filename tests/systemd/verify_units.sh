@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the kiosk's part of the build folder $1 into a root of its own and holds the units, users, folders and
-# udev rules in it against systemd's own tools. Exit status 77: a tool is missing, and what it checks was left out.
+# Installs the kiosk's part of the build folder $1 into a new root and checks its units, users, folders and
+# udev rules with systemd's own tools. Exit status 77: a tool is missing, and its check was left out.
 set -euo pipefail
 build=$1
 
@@ -33,9 +33,9 @@ DESTDIR=$root cmake --install "$build" --component kiosk >/dev/null
 grep -q "museum's own" "$root$settings" || die "a museum's own settings were overwritten"
 
 if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; then
-    cp --no-clobber --recursive /usr/lib/systemd/system/. "$units" # the targets that it hangs on
+    cp --no-clobber --recursive /usr/lib/systemd/system/. "$units" # the targets that it depends on
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
-    # The tool says little about keys that it does not know but a warning.
+    # For a key that it does not know the tool only prints a warning.
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
     systemd-analyze security --offline=true --threshold=20 --root="$root" frustumscreen.service >/dev/null ||
         die "the service is locked in less than it was; see systemd-analyze security"

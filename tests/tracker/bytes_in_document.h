@@ -11,7 +11,8 @@
 
 namespace frustumscreen::wire {
 
-/// The bytes in the block of docs/`document` that begins with `start`, whatever text follows them in a line.
+/// The bytes in the block of docs/`document` that begins with `start`, without the text that follows them in
+/// a line.
 inline Wire bytes_in_document(const std::string& document, const std::string& start) {
     const Result<Bytes> file = read_file(std::string(FRUSTUMSCREEN_SOURCE_DIR "/docs/") + document);
     const std::string text = file ? std::string(as_text(*file)) : std::string();

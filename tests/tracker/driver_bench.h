@@ -1,4 +1,4 @@
-/// The driver at a fake tracker, under the fake's clock.
+/// The driver with a fake tracker, on the fake's clock.
 #pragma once
 
 #include "firmware_host/tracker/usb_tracker_driver.h"
@@ -15,14 +15,14 @@ public:
         device.model = model;
     }
 
-    /// Runs on; what came meanwhile is in `samples`, checked against what was sent.
+    /// Runs for `length`; what came is in `samples`, checked against what was sent.
     void run(Nanoseconds length) {
         const MonotonicTime end = device.now + length;
         while (device.now < end) {
             step();
         }
     }
-    /// Until it streams; how long that took, or nothing within `longest`.
+    /// Runs until it streams; returns how long that took, or nothing if it took longer than `longest`.
     std::optional<Nanoseconds> until_streaming(Nanoseconds longest) {
         const MonotonicTime start = device.now;
         while (device.now - start < longest) {

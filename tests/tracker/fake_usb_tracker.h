@@ -1,5 +1,5 @@
-/// A tracker on a fake bus under a fake clock, spoken to in the wire formats' own bytes; it misbehaves as it
-/// is told.
+/// A tracker on a fake bus with a fake clock, which speaks the real wire formats; it misbehaves as it is
+/// told.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"
@@ -13,15 +13,15 @@
 
 namespace frustumscreen {
 
-/// What a VIPER makes of the command that switches its filters off.
+/// How a VIPER reacts to the command that switches its filters off.
 enum class FakeFilter { Obeys, Refuses, SaysNothing, StaysOn, TurnStaysOn };
-/// What a VIPER answers besides.
+/// How a VIPER answers other commands.
 enum class FakeAnswers { Plain, WarnsOfSettings, WarnsOfQuestions, RefusesQuestions, FailsItsTest };
 
 struct FakeUsbTracker {
     UsbTrackerModel model = UsbTrackerModel::Viper;
     MonotonicTime now = from_microseconds(1'000'000);
-    UsbTrackerState in_the_way = UsbTrackerState::NotConnected; ///< what a search says while not plugged in
+    UsbTrackerState in_the_way = UsbTrackerState::NotConnected; ///< what a search says while it is unplugged
     bool plugged = true;
     MonotonicTime boots_until{}; ///< until then commands are answered with 'still booting'
     bool keeps_inches = false;   ///< answers that units were set, and does not set them
@@ -30,16 +30,16 @@ struct FakeUsbTracker {
     FakeFilter filter = FakeFilter::Obeys;
     FakeAnswers manner = FakeAnswers::Plain;
     Nanoseconds answers_after{}; ///< VIPER
-    double slower = 1.0;         ///< so many times less often than it says, its clock too
+    double slower = 1.0;         ///< it sends so many times less often than it says; its clock is as slow
     bool clock_stands = false;   ///< PATRIOT, HID
     bool streaming = false;
     std::uint32_t counter = 0;
     std::uint32_t highest = 0; ///< counter of all that were sent
     std::vector<int> connectors{1, 2};
     unsigned distortion = 0;
-    unsigned fault = 0; ///< of its own test
+    unsigned fault = 0; ///< the result of its own test
     unsigned position_units = 3;
-    /// What becomes of a frame on its way; empty: nothing.
+    /// What happens to a frame on its way; empty: nothing.
     std::function<std::vector<wire::Wire>(wire::Wire)> mischief;
 
     std::deque<wire::Wire> to_host;
@@ -53,7 +53,7 @@ struct FakeUsbTracker {
         return Nanoseconds(
             std::llround(slower * (model == UsbTrackerModel::Patriot ? 16'666'667 : 8'333'333)));
     }
-    /// Different in every frame and sensor, exact in 32 bits; metres.
+    /// A position that differs in every frame and sensor and is exact in 32 bits; metres.
     [[nodiscard]] static glm::dvec3 position_of(std::uint32_t frame, int connector) {
         return {static_cast<double>(frame % 1024) / 1024.0, static_cast<double>(frame / 1024 % 64) / 64.0,
                 connector / 16.0};
@@ -173,7 +173,8 @@ struct FakeUsbTracker {
             wire::put(payload, std::uint32_t{2});
             return say(4, payload);
         }
-        // Nobody documents a question to all sensors, and the filters of turns (1) and places (2) are two.
+        // A question to all sensors is not documented, and orientation (1) and position (2) have separate
+        // filters.
         const bool question = action == 1;
         const bool of_all = command <= 1 && word(20) == 0xFFFFFFFFU;
         const bool of_both = command == 1 && word(24) == 0;
@@ -277,7 +278,7 @@ public:
         if (!device_.plugged) {
             return tl::unexpected(device_.in_the_way);
         }
-        if (device_.deaf && device_.model == UsbTrackerModel::Hid) { // its feature report cannot be had
+        if (device_.deaf && device_.model == UsbTrackerModel::Hid) { // its feature report cannot be read
             return tl::unexpected(UsbTrackerState::SetUpRefused);
         }
         device_.opened();

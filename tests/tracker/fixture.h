@@ -1,4 +1,5 @@
-/// Bytes in tests/tracker/fixtures, by their names: of independent making, read by the mocks' tests too.
+/// Bytes in tests/tracker/fixtures by their names. They were made independently; the mocks' tests read them
+/// too.
 #pragma once
 
 #include "firmware_host/base/file.h"

@@ -1,4 +1,4 @@
-/// What a codec makes of a whole stream of bytes: for the codecs' tests.
+/// The result of a codec for a whole stream of bytes, for the codecs' tests.
 #pragma once
 
 #include "firmware_host/tracker/viper_codec.h" // NeedMore
@@ -18,7 +18,7 @@ struct ParsedStream {
     std::size_t left = 0; ///< bytes that wait for more
 };
 
-/// All that the bytes give, each step of `parse` checked for what every step must keep.
+/// Parses all the bytes and checks of each step of `parse` what must always hold.
 template <typename Parse> ParsedStream parsed_stream(std::span<const std::byte> stream, Parse parse) {
     ParsedStream parsed;
     while (true) {

@@ -1,4 +1,4 @@
-/// Bytes as the wire formats' descriptions have them, written without the codecs: for tests and fake devices.
+/// Bytes of the wire formats, written from their descriptions without the codecs: for tests and fake devices.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// Rotations the long way, in long double, to hold the program's against.
+/// Rotations by the textbook, in long double, to compare the program's with.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -17,7 +17,7 @@ inline Quaternion about(const Vector& axis, Real angle) {
     return {std::cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]};
 }
 
-/// The textbook's: sin((1 - s) O) / sin O and sin(s O) / sin O, O the angle between, by the shorter way.
+/// Weights sin((1 - s) O) / sin O and sin(s O) / sin O, where O is the angle between them on the shorter way.
 inline Quaternion slerp(const Quaternion& a, Quaternion b, Real share) {
     Real cosine = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -42,7 +42,7 @@ inline glm::dquat rounded(const Quaternion& q) {
             static_cast<double>(q[3])};
 }
 
-/// Angle between, radians, whatever the signs; good where it is small, too.
+/// The angle between the two in radians, whatever the signs; exact for small angles too.
 inline double angle(const glm::dquat& a, const Quaternion& b) {
     const std::array<Real, 4> q{a.w, a.x, a.y, a.z};
     Real less = 0;

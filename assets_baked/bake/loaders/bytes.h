@@ -1,4 +1,4 @@
-/// Numbers out of raw bytes, bounds checked.
+/// Reads numbers from raw bytes, with bounds checked.
 #pragma once
 
 #include "assets_baked/bake/loaders/refusal.h"

@@ -35,7 +35,7 @@ Result<Image8> blank_image(std::int64_t width, std::int64_t height, std::int64_t
     return Image8(static_cast<int>(width), static_cast<int>(height));
 }
 
-/// Only the chunks that make texels: colour notes must not be followed, and text needs no unpacking.
+/// Keeps only the chunks that make texels: colour notes must be ignored, and text need not be unpacked.
 Bytes essential_png_chunks(ByteView png) {
     constexpr std::array kept = {std::string_view("IHDR"), std::string_view("PLTE"), std::string_view("tRNS"),
                                  std::string_view("IDAT"), std::string_view("IEND")};
@@ -89,7 +89,7 @@ struct JpegCloser {
     void operator()(void* handle) const { tjDestroy(handle); }
 };
 
-/// Some cameras leave padding before the end marker; everything else that libjpeg complains of is damage.
+/// Some cameras leave padding before the end marker; every other warning of libjpeg means damage.
 bool is_harmless(std::string_view warning) {
     return warning.find("extraneous bytes before marker 0xd9") != std::string_view::npos;
 }

@@ -1,4 +1,4 @@
-/// A texture's bytes into 8-bit sRGB with alpha. PNG (any depth), JPEG and WebP, told apart by their first
+/// Decodes a texture into 8-bit sRGB with alpha: PNG (any depth), JPEG or WebP, told apart by the first
 /// bytes.
 ///
 /// Colour   profiles and gamma notes inside the files are ignored, as glTF 2.0 (3.8.1) asks: texels are sRGB.

@@ -1,5 +1,5 @@
 /// The numbers at the front of a Draco stream, read before the library sees it: the library allocates what a
-/// stream claims, so the claims are held against the stream's size first.
+/// stream claims, so the claims are first compared with the stream's size.
 ///
 /// Errors   throws Refusal.
 /// Source   Draco 3D Graphics, Bitstream Specification 2.2, "Header", "Metadata", "Connectivity".

@@ -1,6 +1,6 @@
 /// One accessor, read element by element straight from its bytes: strides, normalised integers and sparse
-/// replacements as glTF 2.0, 3.6.2 has them. Nothing is unpacked that is not asked for, so a small file
-/// cannot make large arrays.
+/// replacements as in glTF 2.0, 3.6.2. Only what is asked for is unpacked, so a small file cannot make large
+/// arrays.
 ///
 /// Lifetime  points into GltfBuffers.
 /// Errors    throws Refusal: an element that is not finite, sparse indices out of order.
@@ -20,7 +20,7 @@ namespace frustumscreen {
 class GltfAttribute {
 public:
     GltfAttribute(const GltfModel& model, GltfBuffers& buffers, std::size_t accessor);
-    /// Numbers decoded elsewhere, `components` to an element, that stand for the accessor's own.
+    /// Uses numbers decoded elsewhere, `components` for each element, in place of the accessor's own.
     GltfAttribute(const GltfModel& model, std::size_t accessor,
                   std::shared_ptr<const std::vector<double>> numbers, std::size_t components);
 
@@ -28,11 +28,11 @@ public:
     [[nodiscard]] std::size_t components() const { return components_; }
     [[nodiscard]] ComponentType type() const { return type_; }
     [[nodiscard]] bool normalised() const { return normalised_; }
-    /// Elements come from data, not only from the file's word for how many zeros there are.
+    /// Elements come from data; without data a file may claim any number of zeros.
     [[nodiscard]] bool has_data() const { return !bytes_.empty() || numbers_ != nullptr; }
     [[nodiscard]] const std::string& place() const { return place_; }
 
-    /// Integers of these types mean fractions even where the file forgets to say so (colours, weights).
+    /// Treats integers as fractions even where the file forgets to say so (colours, weights).
     void normalise();
 
     [[nodiscard]] double value(std::size_t element, std::size_t component) const;

@@ -44,9 +44,9 @@ Bytes base64_decoded(std::string_view text, std::string_view place) {
     return bytes;
 }
 
-/// The decoder needs its output allocated first, so a count must be one that the packed bytes can hold at
-/// all: a vertex block spends at least four header bytes on 256 vertices of each byte of a vertex; an index
-/// spends a byte on a triangle or on an index.
+/// The decoder needs its output allocated first, so a count must be one that the packed bytes can hold: a
+/// vertex block uses at least four header bytes for each byte of a vertex and 256 vertices; index data use at
+/// least a byte for each triangle or index.
 bool is_plausible(const GltfMeshopt& meshopt) {
     const std::uint64_t packed = meshopt.byte_length;
     switch (meshopt.mode) {
@@ -59,7 +59,7 @@ bool is_plausible(const GltfMeshopt& meshopt) {
     }
 }
 
-/// The decoder and the filters assert what is checked here.
+/// Checks what the decoder and the filters would assert.
 void check_form(const GltfMeshopt& meshopt, const std::string& place) {
     const std::size_t stride = meshopt.byte_stride;
     const bool attributes = meshopt.mode == MeshoptMode::Attributes;

@@ -24,8 +24,8 @@ public:
     [[nodiscard]] ByteView view(std::size_t index);
     /// Elements that a sparse accessor replaces, ascending.
     [[nodiscard]] const std::vector<std::uint32_t>& sparse_elements(std::size_t accessor);
-    /// To be called before `bytes` packed ones are unpacked. Every packed byte serves once, so that no file
-    /// can have the same ones unpacked over and over.
+    /// Call this before `bytes` packed bytes are unpacked. Every packed byte may be used once, so that no
+    /// file can make us unpack the same ones again and again.
     void spend_packed(std::uint64_t bytes, const std::string& place);
 
 private:

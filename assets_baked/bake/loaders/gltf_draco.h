@@ -1,6 +1,6 @@
 /// KHR_draco_mesh_compression, decoded by the Draco library.
 ///
-/// Errors   throws Refusal. The library is handed streams whose counts were checked (draco_counts.h).
+/// Errors   throws Refusal. The library gets only streams whose counts were checked (draco_counts.h).
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"

@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 /// Extensions that are followed, and those that change neither shape nor base colour: a file that requires
-/// one of the latter is still shown rightly here.
+/// one of the latter is still shown correctly here.
 constexpr std::array known_extensions = {
     std::string_view("KHR_draco_mesh_compression"),
     std::string_view("EXT_meshopt_compression"),
@@ -290,7 +290,7 @@ GltfModel gltf_model_from(const JsonPlace& document) {
     check_header(document);
     GltfModel model;
     model.quantised = declares(document, "KHR_mesh_quantization");
-    // In the order of reference: each part is checked against what it points to.
+    // In the order of their references, because each part is checked against what it points to.
     read_all(document, "buffers", model, model.buffers, buffer_from);
     read_all(document, "bufferViews", model, model.views, view_from);
     read_all(document, "accessors", model, model.accessors, accessor_from);

@@ -4,7 +4,7 @@
 /// Frames   node transforms are parent_from_node.
 /// Errors   throws Refusal naming the JSON place.
 /// Source   Khronos, glTF 2.0 Specification (ISO/IEC 12113:2022), and the extensions named beside the
-/// members.
+///          members.
 #pragma once
 
 #include "assets_baked/bake/loaders/json_place.h"
@@ -23,7 +23,7 @@ namespace frustumscreen {
 struct GltfBuffer {
     std::optional<std::string> uri; ///< none: the GLB's binary chunk
     std::uint64_t byte_length = 0;
-    bool fallback = false; ///< EXT_meshopt_compression: stands for decoded data and may have none
+    bool fallback = false; ///< EXT_meshopt_compression: a place for decoded data, may have none
 };
 
 enum class MeshoptMode { Attributes, Triangles, Indices };
@@ -83,7 +83,7 @@ struct GltfImage {
 };
 
 struct GltfTexture {
-    std::optional<std::size_t> image; ///< none: only in a form that cannot be read
+    std::optional<std::size_t> image; ///< none: its image has a form that cannot be read
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
 };

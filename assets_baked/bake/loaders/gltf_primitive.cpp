@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t mode_triangles = 4;
 constexpr std::uint64_t mode_strip = 5;
 constexpr std::uint64_t mode_fan = 6;
-/// A sparse accessor may stand on zeros; an honest one is not larger than this.
+/// A sparse accessor may replace values of an all-zero array; a genuine one is not larger than this.
 constexpr std::size_t most_positions_without_data = std::size_t{1} << 20U;
 
 bool is_small_integer(ComponentType type) {
@@ -72,7 +72,7 @@ std::size_t triangles_in(std::uint64_t mode, std::size_t corners) {
 
 } // namespace
 
-/// The arrays of one primitive, all of one length but the indices.
+/// The arrays of one primitive, all of the same length except the indices.
 struct GltfPrimitives::Streams {
     std::string place;
     std::string vertex_place; ///< for messages about one vertex
@@ -226,7 +226,7 @@ std::uint32_t GltfPrimitives::corner(const Streams& streams, std::size_t i) cons
 
 namespace {
 
-/// The weighted mean of the joints' transforms at one vertex. Weights that do not add up to 1 are made to.
+/// The weighted mean of the joints' transforms at one vertex. Weights are scaled to add up to 1.
 glm::dmat4 blended(const std::vector<std::pair<GltfAttribute, GltfAttribute>>& joints_and_weights,
                    std::span<const glm::dmat4> transforms, std::uint32_t element, const std::string& place) {
     glm::dmat4 sum(0.0);
@@ -281,7 +281,7 @@ std::uint32_t GltfPrimitives::vertex(const Streams& streams, const GltfPlacement
 
 void GltfPrimitives::draw_corners(const Streams& streams, const GltfPlacement& placement,
                                   std::uint32_t material) {
-    // A node that mirrors turns counter-clockwise into clockwise (glTF 2.0, 3.7.4).
+    // A mirroring node turns counter-clockwise into clockwise (glTF 2.0, 3.7.4).
     const glm::dmat4& transform = streams.joints_and_weights.empty()
                                       ? placement.scene_from_mesh
                                       : placement.scene_from_mesh_by_joint.front();

@@ -1,5 +1,5 @@
 /// Draws glTF primitives into a MeshAssembly: triangles, strips and fans, morph targets at their given
-/// weights, skins in the pose that the file's nodes are in. Points and lines are left out.
+/// weights, skins in the pose of the file's nodes. Points and lines are left out.
 ///
 /// Frames   scene coordinates.
 /// Errors   throws Refusal naming the primitive or the accessor.
@@ -20,21 +20,21 @@ namespace frustumscreen {
 /// Where one instance of a mesh goes.
 struct GltfPlacement {
     glm::dmat4 scene_from_mesh{1.0};
-    /// Of a skin, one for each joint; then scene_from_mesh is not used (glTF 2.0, 3.7.3.3).
+    /// For a skin, one for each joint; then scene_from_mesh is not used (glTF 2.0, 3.7.3.3).
     std::span<const glm::dmat4> scene_from_mesh_by_joint;
     std::span<const double> morph_weights;
 };
 
 class GltfPrimitives {
 public:
-    /// `material_of` gives the mesh's material for one of the file, or for none.
+    /// `material_of` gives the mesh's material for the file's material, or for none.
     using MaterialOf = std::function<std::uint32_t(std::optional<std::size_t>)>;
 
     GltfPrimitives(const GltfModel& model, GltfBuffers& buffers, MeshAssembly& mesh, MaterialOf material_of)
         : model_(model), buffers_(buffers), mesh_(mesh), material_of_(std::move(material_of)) {}
 
     void draw(const GltfPrimitive& primitive, const GltfPlacement& placement);
-    /// By its accessors' counts, before any data are touched.
+    /// The number from its accessors' counts, before any data are touched.
     [[nodiscard]] std::size_t declared_triangles(const GltfPrimitive& primitive) const;
 
 private:
@@ -57,9 +57,9 @@ private:
     MeshAssembly& mesh_;
     MaterialOf material_of_;
     std::map<std::pair<std::size_t, std::map<std::string, std::uint32_t, std::less<>>>, DracoMesh> draco_;
-    /// Element of the primitive -> vertex of the mesh; of this primitive where `drawn_in_` is `drawing_`.
-    /// Only the vertices that triangles use are made, and nothing is cleared between primitives that share
-    /// long accessors.
+    /// Element of the primitive -> vertex of the mesh; valid where `drawn_in_` is `drawing_`. Only the
+    /// vertices that triangles use are made, and nothing is cleared between primitives that share long
+    /// accessors.
     std::vector<std::uint32_t> vertex_of_;
     std::vector<std::uint32_t> drawn_in_;
     std::uint32_t drawing_ = 0;

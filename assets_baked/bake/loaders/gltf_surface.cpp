@@ -94,7 +94,7 @@ void read_colour(const JsonPlace& place, const char* factor_key, const char* tex
 
 GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     GltfMaterial material;
-    // The older workflow, still common in museums' downloads; its diffuse colour is the nearest to a base
+    // The older workflow is still common in museums' downloads; its diffuse colour comes nearest to a base
     // colour.
     if (const auto glossiness = extension_of(place, "KHR_materials_pbrSpecularGlossiness")) {
         read_colour(*glossiness, "diffuseFactor", "diffuseTexture", model, material);
@@ -109,8 +109,8 @@ GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
 } // namespace
 
 glm::dvec2 GltfTextureUse::transformed(const glm::dvec2& uv) const {
-    // Scale, then turn counter-clockwise as seen with v downwards, then shift: the extension's words, its
-    // example and its test model say so; the GLSL beside them turns the other way.
+    // Scale, then turn counter-clockwise as seen with v downwards, then shift: the extension's text, its
+    // example and its test model say so; its GLSL code turns the other way.
     const double c = std::cos(rotation);
     const double s = std::sin(rotation);
     const glm::dvec2 scaled = uv * scale;

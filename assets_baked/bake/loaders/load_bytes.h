@@ -1,4 +1,4 @@
-/// load_mesh for bytes that are in memory already; tests and fuzzers need no file then.
+/// load_mesh for bytes that are already in memory, so that tests and fuzzers need no file.
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"

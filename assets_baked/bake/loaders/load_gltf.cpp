@@ -161,7 +161,8 @@ std::vector<std::size_t> root_nodes(const GltfModel& model) {
     return roots;
 }
 
-/// Every node below `roots`, parents first. With one parent each, what no root reaches runs in a circle.
+/// Every node below `roots`, parents first. As each node has one parent, nodes that no root reaches form a
+/// cycle.
 std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots) {
     std::vector<bool> seen(model.nodes.size(), false);
     std::vector<std::size_t> order;

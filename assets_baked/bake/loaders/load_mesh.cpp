@@ -38,8 +38,8 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// By content first: a file may have been renamed. STL and OBJ have no sure mark, so the extension decides
-/// there.
+/// The content decides first, because a file may have been renamed. STL and OBJ have no certain mark, so
+/// there the extension decides.
 Format format_of(ByteView file, const std::filesystem::path& path) {
     const std::string_view head =
         as_text(file.subspan(0, std::min<std::size_t>(file.size(), std::size_t{64} * 1024)));
@@ -85,7 +85,7 @@ SourceMesh load(ByteView file, const std::filesystem::path& path) {
     }
 }
 
-/// Names out of the file may hold anything; an error is one printable line.
+/// Names from the file may hold anything, but an error is one printable line.
 std::string one_line(std::string message) {
     constexpr std::size_t most = 500;
     for (char& c : message) {
@@ -107,7 +107,7 @@ Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& p
         return refused(refusal.message);
     } catch (const std::bad_alloc&) {
         return refused("the model does not fit into this computer's memory; simplify it first");
-    } catch (const std::exception& error) { // out of a library
+    } catch (const std::exception& error) { // thrown by a library
         return refused(std::string("cannot be read: ") + error.what());
     }
 }

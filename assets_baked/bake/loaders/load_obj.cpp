@@ -41,7 +41,7 @@ public:
         }
     }
 
-    /// An unknown name is white.
+    /// A material with an unknown name is white.
     std::uint32_t number_of(const std::string& name) {
         if (const auto used = used_.find(name); used != used_.end()) {
             return used->second;
@@ -76,7 +76,7 @@ private:
         }
         if (textured) {
             made.texture = texture(source.diffuse_texname, source.diffuse_texopt.clamp);
-            // Writers that leave Kd black beside a picture mean the picture.
+            // A writer that leaves Kd black beside a picture means the picture alone.
             made.base_colour =
                 glm::vec3(made.base_colour) == glm::vec3(0.0F) ? glm::vec4(1.0F) : made.base_colour;
         }
@@ -189,7 +189,7 @@ private:
         }
     }
 
-    /// 1 is the first, -1 the last so far; below `size` afterwards.
+    /// In the file 1 is the first and -1 the last so far; the result is below `size`.
     std::uint32_t index_from(std::string_view word, std::size_t size, const char* what) {
         const std::optional<std::int64_t> number = whole_from(word);
         if (!number) {
@@ -238,7 +238,7 @@ private:
         }
         triangulate_polygon(points_, triangles_);
         if (triangles_.empty()) {
-            return; // fewer than three corners show nothing
+            return; // a face of fewer than three corners shows nothing
         }
         const std::uint32_t material = materials_.number_of(material_);
         for (const auto& [a, b, c] : triangles_) {
@@ -256,7 +256,7 @@ private:
     std::string material_;
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
-    std::vector<glm::vec4> colours_; ///< of the first positions; may be shorter than they
+    std::vector<glm::vec4> colours_; ///< of the first positions; there may be fewer of them
     std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The values after the header, one after the other, whatever way they are written.
+/// Reads the values after the header one by one, text or binary.
 class PlyValues {
 public:
     PlyValues(ByteView file, const PlyHeader& header)
@@ -107,7 +107,7 @@ public:
     SourceMesh read() {
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) {
-                continue; // whatever its count, it has no data
+                continue; // it has no data, whatever its count
             }
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    /// Faces, strips, and elements that are skipped value by value.
+    /// Reads faces and strips; skips other elements value by value.
     void read_lists(const PlyElement& element) {
         const bool faces = element.name == "face";
         const bool strips = element.name == "tristrips";
@@ -200,7 +200,7 @@ private:
         }
         std::size_t begin = 0;
         for (std::size_t i = 2; i < corners.size(); ++i) {
-            if (corners[i] < 0) { // the strip starts afresh
+            if (corners[i] < 0) { // a new strip starts
                 begin = i + 1;
                 i += 2;
             } else {
@@ -210,7 +210,7 @@ private:
         }
     }
 
-    /// Kept until the vertices are known: faces may come first.
+    /// Polygons are kept until the vertices are known, because faces may come first.
     void add_polygon(const std::vector<std::int64_t>& corners, std::uint64_t row) {
         for (const std::int64_t corner : corners) {
             if (corner < 0 || corner >= static_cast<std::int64_t>(most_vertices)) {

@@ -1,5 +1,5 @@
 /// PLY: ASCII and both byte orders; vertices with optional colours, faces as lists of any whole type,
-/// polygons cut into triangles, Stanford's triangle strips. Elements and properties of other names are
+/// polygons cut into triangles, Stanford's triangle strips. Elements and properties with other names are
 /// skipped.
 ///
 /// Frame    the file's; up is y.

@@ -1,4 +1,4 @@
-/// STL, binary and ASCII. A binary file may begin with "solid" too: its length gives it away.
+/// STL, binary and ASCII. A binary file may begin with "solid" too: its length tells.
 ///
 /// Frame    the file's; up is z.
 /// Errors   throws Refusal: truncated, a facet without three vertices. Normals and colour bits are left out.
@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// 84 bytes and 50 for each triangle that they declare, exactly.
+/// Exactly 84 bytes, and 50 for each triangle that they declare.
 [[nodiscard]] bool has_length_of_binary_stl(ByteView file);
 [[nodiscard]] SourceMesh load_stl(ByteView file);
 

@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Fractions of a texel at 16k survive up to here in 32 bits; a UV beyond it, or none at all, carries no
+/// Up to here 32 bits hold fractions of a texel at 16k; a larger UV, or one that is no number, carries no
 /// picture.
 constexpr double largest_uv = 1e6;
 

@@ -10,8 +10,8 @@
 
 namespace frustumscreen {
 
-/// What a curator's computer can still bake: 50 million triangles are 2 GiB of mesh. A small file that
-/// repeats its parts without end meets these limits too.
+/// The limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a
+/// small file that repeats its parts without end.
 inline constexpr std::size_t most_triangles = 50'000'000;
 inline constexpr std::size_t most_vertices = 100'000'000;
 /// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.
@@ -23,7 +23,7 @@ public:
 
     /// `place` names the vertex's origin in messages, for example "vertex".
     std::uint32_t add_vertex(const glm::dvec3& position, const char* place, std::size_t number);
-    /// Last vertex added. Vertices without get (0, 0) and white.
+    /// For the last vertex added. The default is (0, 0) and white.
     void set_uv(const glm::dvec2& uv);
     void set_colour(const glm::vec4& linear);
 

@@ -1,4 +1,4 @@
-/// Decodes the pictures of one model, within one allowance of texels for all of them.
+/// Decodes the pictures of one model, with one limit of texels for all of them.
 ///
 /// Errors   throws Refusal.
 #pragma once

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t most_corners_for_ears = 64;
 
-/// Newell's normal: right for any planar polygon, concave ones too.
+/// Newell's normal: correct for any planar polygon, concave ones too.
 glm::dvec3 normal_of(std::span<const glm::dvec3> corners) {
     glm::dvec3 normal(0.0);
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -68,7 +68,7 @@ private:
         }
         return true;
     }
-    /// A polygon that crosses itself may have no ear: then its first corner is as good as any.
+    /// A polygon that crosses itself may have no ear; then the first corner is cut.
     [[nodiscard]] std::size_t find_ear() const {
         for (std::size_t tip = 0; tip < left_.size(); ++tip) {
             if (is_ear(tip)) {

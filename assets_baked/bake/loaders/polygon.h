@@ -1,8 +1,9 @@
-/// A planar polygon into triangles.
+/// Cuts a planar polygon into triangles.
 ///
 /// Shape    corners in order; the result's numbers count the polygon's own corners, orientation kept.
 /// Method   a fan where the polygon is convex; otherwise ears are cut off one after the other (Meisters,
-///          Polygons have ears, 1975). More than 64 corners are always fanned: cutting ears takes their cube.
+///          Polygons have ears, 1975). A polygon of more than 64 corners is always cut as a fan: the time for
+///          ears grows with their cube.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// n - 2 triangles appended to `triangles`; none for fewer than three corners.
+/// Appends n - 2 triangles to `triangles`; none for fewer than three corners.
 void triangulate_polygon(std::span<const glm::dvec3> corners,
                          std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -1,6 +1,6 @@
-/// How the readers of this room give up on a file: one sentence, thrown, and turned into an Error at the
-/// room's door (load_mesh.cpp). A reader makes hundreds of checks in nested places; a throw keeps each of
-/// them one line. Nothing leaves the room by exception.
+/// How the readers of this room refuse a file: they throw one sentence, which load_mesh.cpp turns into an
+/// Error. A reader makes hundreds of checks in nested places; a throw keeps each of them one line. No
+/// exception leaves the room.
 #pragma once
 
 #include <fmt/format.h>

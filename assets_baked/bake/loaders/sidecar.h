@@ -24,8 +24,8 @@ public:
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name, std::string_view place) const;
 
-    /// The model names this file and nothing of it is read, such as a map of normals. A name that `read`
-    /// would refuse is passed over.
+    /// Notes a file that the model names but that is not read, such as a map of normals. A name that `read`
+    /// would refuse is ignored.
     void mention(std::string_view name);
     /// Every file that was read or mentioned, by its path.
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
@@ -37,7 +37,7 @@ private:
     std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_; ///< null: only mentioned
 };
 
-/// %20 and its like turned into bytes (RFC 3986, 2.1).
+/// Turns %20 and the like into bytes (RFC 3986, 2.1).
 [[nodiscard]] std::string percent_decoded(std::string_view uri, std::string_view place);
 /// The same; empty where a % is without two hexadecimal digits.
 [[nodiscard]] std::string percent_decoded_if_valid(std::string_view uri);

@@ -1,4 +1,4 @@
-/// Words and numbers out of text files, independent of the locale.
+/// Reads words and numbers from text files, independent of the locale.
 #pragma once
 
 #include <cstdint>

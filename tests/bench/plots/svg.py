@@ -1,4 +1,4 @@
-"""What stands where in an SVG that the plots are, read without the code that drew it."""
+"""Finds what stands where in a plot's SVG, without the code that drew it."""
 import re
 from xml.etree import ElementTree
 
@@ -7,7 +7,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 class Svg:
     def __init__(self, path):
-        self.root = ElementTree.parse(path).getroot()  # fails where the XML is not well-formed
+        self.root = ElementTree.parse(path).getroot()  # fails if the XML is not well-formed
         self.groups = {group.get("id"): group for group in self.root.iter(f"{SVG}g") if group.get("id")}
 
     def texts(self):
@@ -22,7 +22,7 @@ class Svg:
         return places
 
     def marks(self, name):
-        """Centres of a series' marks; none where it has none."""
+        """The centres of a series' marks; empty if it has none."""
         group = self.groups.get(name)
         return [] if group is None else [(float(use.get("x")), float(use.get("y"))) for use in group.iter(f"{SVG}use")]
 

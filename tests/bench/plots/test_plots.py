@@ -1,4 +1,4 @@
-"""The plots against made-up tables: what is read back from the SVG stands where the tables say."""
+"""Tests the plots with made-up tables: what is read back from the SVG stands where the tables say."""
 import csv
 import json
 import math
@@ -17,8 +17,8 @@ from draw_plots import main, median_attainment, pareto_front  # noqa: E402
 from panels import Failure, Panel, Series, save_column, save_sheet  # noqa: E402
 from svg import Svg  # noqa: E402
 
-# Three levels of a pack and three simplified meshes, the middle one dearer and worse than the first; the first
-# two-pass picture is bettered by the second one.
+# Three levels of a pack and three simplified meshes, the middle one dearer and worse than the first; of the
+# two-pass pictures the second one is better than the first.
 TECHNIQUES = (  # technique, kind, triangles, cost, error, best eye image
     ("floor", "floor", 0, 1.0, None, 1), ("mesh 0", "pack level", 1000, 2.0, 0.4, 1),
     ("mesh 1", "pack level", 2000, 3.0, 0.2, 1), ("mesh 2", "pack level", 3000, 5.0, 0.1, 1),
@@ -26,7 +26,7 @@ TECHNIQUES = (  # technique, kind, triangles, cost, error, best eye image
     ("LOD 9k", "LOD", 9000, 4.0, 0.3, 1), ("two-pass 640", "two-pass", 9000, 8.0, 0.7, 0),
     ("two-pass 1024", "two-pass", 9000, 9.0, 0.08, 1), ("new", "a kind of 2050", 9, 9.0, 0.08, 1))
 COLUMNS = ("silhouette_percent", "geometric_mean_mm", "rmse_16_rays")
-FACTORS = (1.0, 1.0, 20.0)  # of the error, for each column
+FACTORS = (1.0, 1.0, 20.0)  # multiply the error, one for each column
 
 
 def error_time_rows(set_up):
@@ -250,7 +250,7 @@ class Panels(Plots):
         words = "a label of some length"
         points = [(1 + 0.01 * k, 1 + 0.005 * k, words) for k in range(12)] + [(10, 10)]
         places = self.drawn([Panel("crowd", "x", "y", [Series("s", points)])]).place_of_texts(words)
-        self.assertGreaterEqual(len(places), 6)  # what finds no place is left out
+        self.assertGreaterEqual(len(places), 6)  # words that find no place are left out
         for a in range(len(places)):
             for b in range(a):
                 away = [abs(p - q) for p, q in zip(places[a], places[b])]
@@ -262,7 +262,7 @@ class Panels(Plots):
         for file in files:
             save_column(file, [panel])
         self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
-        self.assertEqual(len(list(self.folder.iterdir())), 2)  # no part of a file stays
+        self.assertEqual(len(list(self.folder.iterdir())), 2)  # no partial file stays
 
 
 class WhatIsBroken(Plots):

@@ -1,1 +1,1 @@
-"""Tests of the mocks: bytes against bytes put together by hand."""
+"""Tests of the mocks: compare their bytes with bytes put together by hand."""

@@ -65,7 +65,7 @@ class SpecialCommand(unittest.TestCase):
         for pin, byte in ((7, 1), (0, 3), (1, 7)):
             self.console.execute(f"special {pin}")
             self.assertEqual(get(self.device, 2, 5), bytes([2, 0, 0, byte, 0]))
-        self.assertEqual(set_report(self.device, b"\x02\x04\xff\x07\x00"), b"")  # as the driver: it stays
+        self.assertEqual(set_report(self.device, b"\x02\x04\xff\x07\x00"), b"")  # as the driver writes: it stays on
         self.assertEqual(self.device.special_pins(), 0x83)
         self.device.start_anew()
         self.assertEqual(get(self.device, 2, 5), bytes([2, 0, 0, 0, 0]))

@@ -1,4 +1,4 @@
-"""What a test run starts ends with it: SIGTERM reaches it in the midst of a test, and in the midst of making the guest."""
+"""What a test run starts ends with it, even if SIGTERM comes during a test or while the guest is made."""
 
 import pathlib
 import signal
@@ -7,7 +7,7 @@ import sys
 import unittest
 
 HIL = pathlib.Path(__file__).resolve().parent.parent
-# a process, one of a session of its own, and an orphan
+# a process, one in its own session, and an orphan
 STARTED = """
 import subprocess, sys
 from family import Ended, Family
@@ -31,7 +31,7 @@ def work():
     start()
     def wait_for_it():
         program = subprocess.Popen(["sleep", "1003"])
-        print("ready", flush=True)  # not before: what starts while all is ended would be waited for
+        print("ready", flush=True)  # only now: a process that starts while all are ended would be waited for
         program.wait()
     ThreadPoolExecutor().submit(wait_for_it).result()
 """
@@ -52,7 +52,7 @@ SOON_S = 20.0
 
 
 def sleepers(family):
-    """The processes whose environment says that they are of it."""
+    """The processes whose environment says that they belong to the family."""
     mark = f"HIL_FAMILY={family}".encode()
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):

@@ -1,4 +1,4 @@
-"""The mocks against bytes that were made with others' headers; the driver's tests read the same files."""
+"""Compares the mocks with bytes that were made with the makers' headers; the driver's tests read the same files."""
 
 import os
 import unittest

@@ -1,4 +1,4 @@
-"""What the watch calls a freeze, on looks that are made up here: no machine, no clock."""
+"""Tests what the watch calls a freeze, with made-up looks: no machine, no clock."""
 
 import unittest
 
@@ -9,7 +9,7 @@ STEP_S = 0.05
 
 
 def looks(pictures, pause_at_s=None, pause_s=0.0):
-    """`pictures`: (code, seconds that it stands); the guest rests all the while; the host stands still once."""
+    """`pictures`: (code, seconds that it stands); the guest always rests; the host stands still once."""
     made, now_s, end_s = [], 0.0, 0.0
     for code, stands_s in pictures:
         end_s += stands_s

@@ -9,7 +9,7 @@ from mocks.pose import Pose
 from mocks.usb_device import IN, Request
 from mocks.viper import Viper, split_commands
 
-# Put together by hand; the CRCs by long division over the bits.
+# Put together by hand; the CRCs come from long division over the bits.
 CONTINUOUS_SET = bytes.fromhex("56505243 18000000 FFFFFFFF 13000000 00000000 FFFFFFFF 00000000 761D0000")
 UNITS_SET = bytes.fromhex("56505243 20000000 FFFFFFFF 07000000 00000000 FFFFFFFF 00000000 03000000 02000000 AB820000")
 
@@ -29,7 +29,7 @@ def command(number, action, payload=b"", arg1=0, arg2=0):
 
 
 class Talk:
-    """A device without a link: what it has to say waits in its queue."""
+    """A device without a link: what it sends waits in its queue."""
 
     def __init__(self, kind, endpoint_out=2):
         self.player = Player()

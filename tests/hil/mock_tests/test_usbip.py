@@ -59,7 +59,7 @@ class Usbip(unittest.IsolatedAsyncioTestCase):
         await self.hears(reader, answer.format(3, 12, 0, 3) + "030201")
         writer.write(bytes.fromhex(head.format(1, 14, 1, 1, 4096) + "0000000000000000"))
         unlink = "00000002 {:08X} 00010002 00000000 00000000 {:08X}" + "00" * 24
-        for number, status in ((15, "FFFFFF98"), (16, "00000000")):  # -ECONNRESET; then it is done already
+        for number, status in ((15, "FFFFFF98"), (16, "00000000")):  # -ECONNRESET; the second time it is already done
             writer.write(bytes.fromhex(unlink.format(number, 14)))
             await self.hears(reader, f"00000004 {number:08X} 00000000 00000000 00000000 {status}" + "00" * 24)
         writer.close()

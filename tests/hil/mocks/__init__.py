@@ -1,1 +1,1 @@
-"""Devices of the exhibit, played by a program: for the emulated machine, for tests, for a bench without the device."""
+"""Programs that play the exhibit's devices: for the emulated machine, for tests, for a bench without the device."""

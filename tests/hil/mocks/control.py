@@ -1,4 +1,4 @@
-"""The control socket: one command a line in, one JSON object a line out. And the way to tell a mock something."""
+"""The control socket: each line in is a command, each line out a JSON object. `tell` sends a command to a mock."""
 
 import asyncio
 import json
@@ -32,7 +32,7 @@ async def serve(path, execute):
 
 
 def tell(path, line, timeout_s=10.0):
-    """From another program: sends one command, returns the answer as a dict."""
+    """For other programs: sends one command and returns the answer as a dict."""
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(timeout_s)
         connection.connect(path)

@@ -1,7 +1,7 @@
 """A Silicon Labs CP2112: a USB bridge whose eight pins hid-cp2112 makes a GPIO chip. Buttons pull pins low.
 
 Reports (Silicon Labs AN495), the number first: 0x02 pin directions and modes, 0x03 pins read, 0x04 pins written, 0x05
-part and version, 0x06 SMBus settings, 0x20 which strings may still be written. No SMBus device answers. Pins 0, 1 and 7
+part and version, 0x06 SMBus settings, 0x20 strings that may still be written. No SMBus device answers. Pins 0, 1 and 7
 have a special function; while it is on, they are no GPIO. Like all of 0x02 it is in RAM, and off after a start.
 """
 
@@ -36,8 +36,8 @@ class Cp2112(UsbDevice):
 
     def __init__(self):
         super().__init__()
-        self.reads = 0  # of the pins
-        self.lamps = 0  # pins that the host drives, as it drives them
+        self.reads = 0  # how often the host read the pins
+        self.lamps = 0  # the levels of pins that the host drives
         self._pressed = 0
         self.start_anew()
 
@@ -62,7 +62,7 @@ class Cp2112(UsbDevice):
         return sum(1 << pin for pin, bit in SPECIAL.items() if self.special_bits() & bit)
 
     def pins(self):
-        """A bit each: inputs are pulled up and buttons pull them down, outputs are as they were written."""
+        """One bit for each pin: inputs are pulled up and buttons pull them down, outputs are as they were written."""
         outputs = self._features[_DIRECTIONS][0]
         gpio = (self.lamps & outputs) | (~self._pressed & ~outputs & 0xFF)
         return gpio | self.special_pins()

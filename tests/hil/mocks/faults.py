@@ -1,4 +1,4 @@
-"""What is wrong with a mocked device just now, and what that does to its frames; the same seed, the same faults.
+"""The faults of a mocked device and what they do to its frames; the same seed gives the same faults.
 
 A fault is written `NAME [VALUE] [DURATION]`, for example `drop 0.1`, `stall 2s`, `corrupt 0.05 10s`; `NAME off` ends it
 and `good` ends all.
@@ -14,7 +14,7 @@ _PROBABILITY = (0.0, 1.0)
 
 
 class Kind(NamedTuple):
-    """usual: the value if none is given; None: it has none. allowed: least and most."""
+    """usual: the value if none is given; None: the fault has no value. allowed: the least and the most."""
 
     usual: float | None
     allowed: tuple | None
@@ -64,7 +64,7 @@ class Faults:
         self._active = {}  # name -> (value, end or None)
 
     def tell(self, name, words):
-        """Begins or ends a fault; returns its duration in seconds, None: until told otherwise. Errors: ValueError."""
+        """Begins or ends a fault; returns its duration in seconds, None: until it is ended. Errors: ValueError."""
         kind = KINDS[name]
         if words == ["off"]:
             self._active.pop(name, None)
@@ -102,7 +102,7 @@ class Faults:
         return self._active[name][0] if self.on(name) else None
 
     def strikes(self, name):
-        """Whether this one frame is hit; draws from the seeded numbers only while the fault is on."""
+        """Whether the fault hits this frame; uses up seeded random numbers only while the fault is on."""
         return self.on(name) and self.random.random() < self._active[name][0]
 
     def active(self):
@@ -115,14 +115,14 @@ class Frame(NamedTuple):
     data: bytes
     poses: dict  # station -> table_from_sensor or None
     intact: bool = True
-    sequence: int = 0  # frames that a host counts together; the late one comes after its successor in it
+    sequence: int = 0  # frames that a host counts together; a late one comes after its successor of the same sequence
 
 
 class FramePath:
-    """The way of frames to the host: some are lost, broken, doubled, late."""
+    """The path of frames to the host, on which some are lost, broken, doubled or late."""
 
     def __init__(self, faults, break_bytes):
-        """`break_bytes(data, random)`: how this device's frames break so that a host can notice."""
+        """`break_bytes(data, random)` breaks one of this device's frames so that a host can notice."""
         self._faults = faults
         self._break_bytes = break_bytes
         self._held = {}  # by sequence
@@ -155,7 +155,7 @@ class FramePath:
 
 
 def flip(data, random_, begin=0):
-    """Up to four bits flipped, from the byte `begin` on."""
+    """Flips up to four bits, from the byte `begin` on."""
     broken = bytearray(data)
     for bit in random_.sample(range(8 * begin, 8 * len(data)), random_.randint(1, 4)):
         broken[bit // 8] ^= 1 << bit % 8
@@ -163,5 +163,5 @@ def flip(data, random_, begin=0):
 
 
 def flip_or_cut(data, random_):
-    """Some bits flipped, or the frame cut short."""
+    """Flips some bits or cuts the frame short."""
     return flip(data, random_) if random_.random() < 0.5 else data[:random_.randrange(1, len(data))]

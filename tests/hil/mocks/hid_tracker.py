@@ -30,7 +30,7 @@ def with_crc(report):
 
 
 def pose_report(station, counter, time_us, position, quaternion, status=0, distortion=0):
-    """Position in units of the device, quaternion times 32767."""
+    """The position is in units of the device, the quaternion times 32767."""
     return with_crc(struct.pack("<BBBBII3i4h", POSE_REPORT, station, status, distortion, counter, time_us & 0xFFFFFFFF,
                                 *position, *quaternion))
 
@@ -51,21 +51,21 @@ class HidTracker(Tracker):
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
-        self.streaming = True  # unasked, as soon as it has power
+        self.streaming = True  # without being asked, as soon as it has power
 
     def start_anew(self):
         super().start_anew()
         self.streaming = True
 
     def lose_units(self):
-        """The host asks for them when it opens the device, so it comes anew."""
+        """The host asks for the units when it opens the device, so the device starts again."""
         self.start_anew()
         self.link.unplug()
         asyncio.get_running_loop().call_later(_REPLUG_S, self.link.plug)
 
     @staticmethod
     def break_bytes(data, random_):
-        """USB carries a report as a whole or not at all; what is broken was broken before."""
+        """USB carries a whole report or none, so only its content breaks."""
         return flip(data, random_, begin=1)
 
     @staticmethod
@@ -85,7 +85,7 @@ class HidTracker(Tracker):
             self.answer(report)
 
     def poses(self, now):
-        """A station whose sensor is missing still reports, as one without a pose does."""
+        """A station whose sensor is missing still reports, like one without a pose."""
         missing = self.faults.value("sensor-missing")
         return {station: None if station == missing else pose for station, pose in self.player.poses(now).items()}
 
@@ -105,7 +105,7 @@ class HidTracker(Tracker):
         else:
             place = self.in_tracker(table_from_sensor)
             position = [round(c * 1e6 / self._unit_um) for c in place.position]
-            if not self.faults.on("nan"):  # integers are always numbers; a rotation of length 0 is none
+            if not self.faults.on("nan"):  # integers are always numbers, so the rotation gets length 0
                 quaternion = [round(c * 32767) for c in place.quaternion]
         distortion = int(self.faults.value("distortion") or 0)
         return pose_report(station, counter, round(self.clock_s(time_s) * 1e6), position, quaternion, status, distortion)

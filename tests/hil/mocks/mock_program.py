@@ -1,4 +1,4 @@
-"""What the programs that play a device share: options, telling a running one, running until stopped."""
+"""What the programs that play a device share: options, commands to a running one, the run until it is stopped."""
 
 import argparse
 import asyncio
@@ -48,7 +48,7 @@ def tell(arguments):
 
 
 async def run(name, arguments, device, execute, life):
-    """Until SIGINT or SIGTERM, or until the link has ended. `life()` is what the device does by itself."""
+    """Runs until SIGINT or SIGTERM, or until the link has ended. `life()` is what the device does by itself."""
     link = links.make(arguments, device)
     loop = asyncio.get_running_loop()
     stopped = asyncio.Event()
@@ -70,10 +70,10 @@ async def run(name, arguments, device, execute, life):
     except OSError as error:
         raise OSError(f"{links.chosen(arguments)}: {error.strerror or error}") from None
     if arguments.control:
-        await control.serve(arguments.control, execute)  # it is there: the device is, too
+        await control.serve(arguments.control, execute)  # once this socket is there, the device is too
     print(f"{name}: {where}", file=sys.stderr, flush=True)
     tasks = [asyncio.create_task(work) for work in (life(), link.ended(), stopped.wait())]
     done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
     link.close()
     for task in done:
-        task.result()  # raises what went wrong in it
+        task.result()  # raises what the task raised

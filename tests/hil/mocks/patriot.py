@@ -1,4 +1,4 @@
-"""A Polhemus PATRIOT or LIBERTY: commands and answers are text; frames, of one sensor each, too or, after F1, binary.
+"""A Polhemus PATRIOT or LIBERTY: commands and answers are text; frames of one sensor each are text or, after F1, binary.
 
 Frame: 'PA' or 'LY', u8 station, u8 command, u8 error (space: good), u8 0, u16 size of what follows; then the chosen
 fields, little-endian. The family has no checksum. It answers questions and errors, but no command that it accepts.
@@ -13,7 +13,7 @@ from .usb_device import BULK, IN, Endpoint
 
 POSITION, QUATERNION, TIMESTAMP, FRAME_COUNT, DISTORTION = 3, 7, 8, 9, 11
 _KNOWN_FIELDS = (POSITION, QUATERNION, TIMESTAMP, FRAME_COUNT, DISTORTION)
-_REMEMBERED = "HXY@"  # hemisphere, position and orientation filters, buffering: taken, and of no effect here
+_REMEMBERED = "HXY@"  # hemisphere, position and orientation filters, buffering: accepted, without effect here
 _CENTIMETRES_IN_METRE, _INCHES_IN_METRE = 100.0, 1 / 0.0254
 _CONTROL_U, _CONTROL_V, _CONTROL_Y = "\x15", "\x16", "\x19"
 
@@ -63,12 +63,12 @@ class Patriot(Tracker):
         self._clock_zero = time.monotonic()
 
     def lose_units(self):
-        """Its frames do not say their units; only a set-up shows them."""
+        """Its frames do not say their units, so the device starts again and is set up again."""
         self.start_anew()
 
     @staticmethod
     def break_bytes(data, random_):
-        """Without a checksum a host can notice a broken header alone: a flipped bit, or the frame cut within it."""
+        """Without a checksum a host can notice only a broken header: a flipped bit, or the frame cut within it."""
         if random_.random() < 0.5:
             return data[:random_.randrange(1, 8)]
         broken = bytearray(data)
@@ -77,7 +77,7 @@ class Patriot(Tracker):
 
     @classmethod
     def false_start(cls, random_):
-        """A whole frame, whose quaternion is none: without a checksum a host can notice no more."""
+        """A whole frame with an invalid quaternion: without a checksum a host can notice no more."""
         return binary_frame(cls.tag, random_.randint(1, 16), "C", random_.randbytes(24) + b"\xFF" * 16)
 
     def received(self, endpoint, data):
@@ -183,7 +183,7 @@ class LibertyHs(PatriotHs):
 
 
 class PatriotUnloaded(Patriot):
-    """Before its firmware was loaded: another product id, and no answer."""
+    """A device before its firmware is loaded: another product id, and no answer."""
 
     name = "patriot-unloaded"
     product_id = 0xEF11

@@ -4,7 +4,7 @@ from .pose import Pose
 
 
 class Player:
-    """Times are seconds of the monotonic clock, handed in."""
+    """Times are parameters: seconds of the monotonic clock."""
 
     def __init__(self, loop=False, speed=1.0):
         self.loop = loop
@@ -14,13 +14,13 @@ class Player:
         self._placed = {1: Pose()}
 
     def play(self, file, now):
-        """From the file's beginning; the last poses stay, or with `loop` it begins again."""
+        """Plays a file from its beginning; at its end the last poses stay, or with `loop` it begins again."""
         self._file = file
         self._begun = now
         self._placed = {}
 
     def place(self, station, pose):
-        """Stays there, whatever the file says."""
+        """The station stays there, whatever the file says."""
         self._placed[station] = pose
 
     def poses(self, now):

@@ -36,7 +36,7 @@ def rotate(q, v):
 
 
 def compose(a, b):
-    """a_from_c of a_from_b and b_from_c; with the identity exactly the other."""
+    """a_from_c of a_from_b and b_from_c; if one is the identity, the result is exactly the other."""
     if a == IDENTITY:
         return b
     turned = rotate(a.quaternion, b.position)
@@ -57,7 +57,7 @@ def normalized(quaternion):
 
 
 def from_matrix(numbers):
-    """Of 16 numbers, column by column, as the settings have `table_from_tracker`."""
+    """Makes a pose of 16 numbers, column by column, like `table_from_tracker` in the settings."""
     if len(numbers) != 16:
         raise ValueError(f"a rigid transform has 16 numbers, column by column; found {len(numbers)}")
     m = [numbers[0:3], numbers[4:7], numbers[8:11]]  # columns

@@ -8,7 +8,7 @@ HEADER = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"
 
 
 class PoseFile:
-    """The rows of each station in ascending time; what holds at a time is the latest row, exactly as written."""
+    """The rows of each station in ascending time; at any time the latest row holds, exactly as written."""
 
     def __init__(self, rows):
         """`rows`: (t_us, station, Pose or None where ok = 0)."""
@@ -23,7 +23,7 @@ class PoseFile:
         self.end_us = max(times[-1] for times in self._times.values())
 
     def at(self, t_us):
-        """{station: Pose, or None where the file says not ok}; a station counts from its first row on."""
+        """{station: Pose, or None where ok = 0}; a station appears from its first row on."""
         found = {}
         for station, times in self._times.items():
             index = bisect.bisect_right(times, t_us) - 1
@@ -61,7 +61,7 @@ def load(path):
 
 
 def row(t_us, station, pose):
-    """One line; pose None: not ok. Python writes the shortest decimals that read back as the same numbers."""
+    """One line; pose None: ok = 0. Python writes the shortest decimals that read back as the same numbers."""
     shown = pose or Pose()
     numbers = ",".join(repr(float(c)) for c in (*shown.position, *shown.quaternion))
     return f"{t_us},{station},{numbers},{1 if pose else 0}\n"

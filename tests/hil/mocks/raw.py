@@ -1,6 +1,6 @@
-"""Links that carry the bytes alone, without USB: for tests of a codec, for a serial port's place.
+"""Links that carry only the bytes, without USB: for tests of a codec, or in place of a serial port.
 
-One stream each way: what the device's OUT endpoint takes, what its IN endpoint gives.
+There is one stream each way: to the device's OUT endpoint and from its IN endpoint.
 """
 
 import asyncio
@@ -15,14 +15,14 @@ _CHUNK = 65536
 
 
 class RawLink:
-    """A pair of file descriptors; subclasses say which, and what unplugging means."""
+    """A pair of file descriptors; subclasses choose them and say what unplugging means."""
 
     def __init__(self, device):
         self._device = device
         self._loop = asyncio.get_running_loop()
         self._input = self._output = None
         self._unsent = b""
-        self._held = b""  # came while the device hung
+        self._held = b""  # bytes that came while the device hung
         self._ended = asyncio.Event()
         self._plugged = True
         device.link = self
@@ -125,14 +125,14 @@ class StdioLink(RawLink):
 
 class PtyLink(RawLink):
     async def open(self):
-        controller, self._terminal = os.openpty()  # the terminal stays open here, so that others may come and go
+        controller, self._terminal = os.openpty()  # stays open here, so that others may come and go
         tty.setraw(self._terminal)
         self._attach(controller, controller)
         return f"pseudo-terminal {os.ttyname(self._terminal)}"
 
 
 class SocketLink(RawLink):
-    """Listens at a Unix socket for one host at a time; unplugged there is no socket."""
+    """Listens at a Unix socket for one host at a time; there is no socket while it is unplugged."""
 
     def __init__(self, device, path):
         super().__init__(device)

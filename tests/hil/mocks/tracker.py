@@ -1,4 +1,4 @@
-"""What every mocked tracker has in common: it plays poses at its own rate, and misbehaves as it is told."""
+"""What all mocked trackers share: they play poses at their own rate, and misbehave as they are told."""
 
 import asyncio
 import time
@@ -31,8 +31,8 @@ class Tracker(UsbDevice):
         self.made = 0
         self.sent = 0
         self.commands = 0
-        self.last = None  # (t_ns, counter, {station: table_from_sensor or None}) of the last frame sent whole
-        self.changed = None  # the same, of the last whose poses differ from those before
+        self.last = None  # (t_ns, counter, {station: table_from_sensor or None}) of the last frame that was sent whole
+        self.changed = None  # the same for the last frame whose poses differ from those before
         self._tracker_from_table = tracker_from_table
         self._path = FramePath(faults, self.break_bytes)
         self._log = log
@@ -45,7 +45,7 @@ class Tracker(UsbDevice):
     rate_hz = 60.0
 
     def frames(self, counter, time_s, poses):
-        """Bytes of one instant: a list of (bytes, {station: table_from_sensor or None})."""
+        """The bytes of one instant: a list of (bytes, {station: table_from_sensor or None})."""
         raise NotImplementedError
 
     @staticmethod
@@ -54,13 +54,13 @@ class Tracker(UsbDevice):
 
     @staticmethod
     def false_start(random_):
-        """Noise that begins as a frame does, and in which a host cannot find a good one."""
+        """Noise that begins like a frame, and in which a host cannot find a good one."""
         raise NotImplementedError
 
     # For subclasses.
 
     def clock_s(self, time_s):
-        """The device's own."""
+        """The time of the device's own clock."""
         if not self.faults.on("clock-stands"):
             self._clock_s = time_s
         return self._clock_s
@@ -78,12 +78,12 @@ class Tracker(UsbDevice):
         self._path.clear()
 
     def lose_units(self):
-        """`wrong-units` begins; a device whose frames do not name their units starts anew."""
+        """Called when `wrong-units` begins; a device whose frames do not name their units starts again."""
 
     # The life of the device.
 
     async def run(self):
-        """For ever: one frame each period, on time; after a delay those that are due follow at once."""
+        """Sends one frame each period, for ever; after a delay the frames that are due follow at once."""
         due = time.monotonic()
         while True:
             rate_hz = self.faults.value("rate") or self.rate_hz
@@ -97,7 +97,7 @@ class Tracker(UsbDevice):
             self.step(due)
 
     def step(self, now):
-        """The frame of this instant, if it is time for any."""
+        """Sends the frame of this instant, if one is due."""
         if not self.streaming or self.hung or not self._has_host():
             return
         self.counter = (self.counter + 1) & 0xFFFFFFFF
@@ -118,11 +118,11 @@ class Tracker(UsbDevice):
         count = int(self.faults.value("burst") * 1024) // len(data)
         if self.endpoints[0].kind == BULK:
             self.answer(data * count)
-        else:  # as many reports as it keeps for a host
+        else:  # as many reports as the device keeps for a host
             for _ in range(min(count, self.most_waiting)):
                 self.answer(data)
 
-    # As its host is told that it is.
+    # What the descriptors tell the host.
 
     @property
     def described_endpoints(self):
@@ -132,7 +132,7 @@ class Tracker(UsbDevice):
 
     def configuration_descriptor(self):
         whole = super().configuration_descriptor()
-        if self.faults.on("absurd-lengths"):  # of the whole, and of its first interface
+        if self.faults.on("absurd-lengths"):  # the lengths of the whole and of its first interface
             whole = whole[:2] + b"\xFF\xFF" + whole[4:9] + b"\0" + whole[10:]
         return whole
 
@@ -151,13 +151,13 @@ class Tracker(UsbDevice):
     def _send(self, frame):
         t_ns = time.monotonic_ns()
         if frame.intact:
-            self._note(t_ns, frame.poses)  # before the host can have it
+            self._note(t_ns, frame.poses)  # noted before the host can receive it
         self.sent += 1
         self.answer(frame.data)
 
     def _note(self, t_ns, poses):
         if any(self.faults.on(fault) for fault in ("nan", "slow-boot", "wrong-units")):
-            poses = dict.fromkeys(poses)  # none that a host may use
+            poses = dict.fromkeys(poses)  # the host may use none of them
         before = self.last[2] if self.last else {}
         self.last = (t_ns, self.counter, {**before, **poses})
         if self.last[2] != before:

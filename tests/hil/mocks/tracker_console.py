@@ -107,7 +107,7 @@ class TrackerConsole:
             tracker.lose_units()
 
     def _replug(self, goes_on, plugged=True):
-        """Half of the time the cable is out; in the end it is in."""
+        """The cable is out for half of the time; at the end it is in."""
         tracker = self._tracker
         per_s = tracker.faults.value("replug") if goes_on else None
         if per_s is None:

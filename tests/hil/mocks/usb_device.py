@@ -18,7 +18,7 @@ _HID_GET_REPORT, _HID_SET_REPORT, _HID_SET_IDLE, _HID_SET_PROTOCOL = 1, 9, 10, 1
 
 
 class Endpoint(NamedTuple):
-    address: int  # 0x80 and more: into the host
+    address: int  # 0x80 and above: to the host
     kind: int
     packet_bytes: int
     interval: int = 0  # of interrupt endpoints, milliseconds
@@ -39,7 +39,7 @@ class Request(NamedTuple):
 
 
 class UsbDevice:
-    """What a device of one interface has in common; its own part is in the subclasses."""
+    """What devices of one interface have in common; subclasses add their own part."""
 
     vendor_id = product_id = 0
     version_bcd = 0x0100
@@ -48,7 +48,7 @@ class UsbDevice:
     endpoints = ()
     strings = ("", "", "", "")  # by index: none, maker, product, serial number
     report_descriptor = b""  # HID only
-    most_waiting = 32  # transfers that a device keeps for a host that does not read; then the oldest are lost
+    most_waiting = 32  # transfers that are kept for a host that does not read; beyond that the oldest are lost
 
     def __init__(self):
         self.link = None
@@ -57,7 +57,7 @@ class UsbDevice:
         self.waiting = {e.address: collections.deque() for e in self.endpoints if e.address & IN}
         self._streams = {e.address for e in self.endpoints if e.kind == BULK}
 
-    # What a subclass has of its own.
+    # For subclasses to override.
 
     def received(self, endpoint, data):
         """The host sent bytes to an OUT endpoint."""
@@ -66,21 +66,21 @@ class UsbDevice:
         """HID: the report's bytes, the number first; None refuses."""
 
     def set_report(self, kind, number, data):
-        """HID: whether it is taken."""
+        """HID: whether the report is accepted."""
         return False
 
     def start_anew(self):
-        """Switched off and on: everything that was set is forgotten."""
+        """As if switched off and on: all settings are lost."""
         for queue in self.waiting.values():
             queue.clear()
 
     def greet(self):
-        """On a link without endpoint 0: what a host asks for there when it opens the device."""
+        """On a link without endpoint 0: sends what a host would ask for when it opens the device."""
 
     # What links use.
 
     def send(self, endpoint, data):
-        """To the host, as one transfer."""
+        """Sends to the host, as one transfer."""
         queue = self.waiting[endpoint]
         if len(queue) >= self.most_waiting:
             queue.popleft()
@@ -92,7 +92,7 @@ class UsbDevice:
     def take(self, endpoint, length):
         """At most `length` bytes for the host, or None.
 
-        Of an interrupt endpoint one report; of a bulk endpoint all that waits, so that a slow host catches up.
+        An interrupt endpoint gives one report, a bulk endpoint all that waits, so that a slow host catches up.
         """
         queue = self.waiting[endpoint]
         if not queue or self.hung:
@@ -110,7 +110,7 @@ class UsbDevice:
             self.link.woke_up()
 
     def control(self, request, data=b""):
-        """A control transfer; the bytes of an IN request, b'' for a taken OUT request, None: stalled."""
+        """A control transfer: returns the bytes of an IN request, b'' for an accepted OUT request, None: stalled."""
         kind = request.kind
         if kind & 0x60 == 0:
             answer = self._standard(request)
@@ -174,7 +174,7 @@ class UsbDevice:
 
 
 class Transfers:
-    """A host's transfers that wait for the device, by endpoint; each with the host's own identifier."""
+    """A host's transfers that wait for the device, by endpoint; each has the host's own identifier."""
 
     def __init__(self, device):
         self._device = device
@@ -191,7 +191,7 @@ class Transfers:
         self._writes.append((endpoint, identifier, data))
 
     def cancel(self, identifier):
-        """The endpoint at which it waited, None: it is done already."""
+        """Returns the endpoint at which it waited; None: it is already done."""
         for endpoint, queue in self._reads.items():
             for item in queue:
                 if item[0] == identifier:
@@ -210,6 +210,6 @@ class Transfers:
             yield queue.popleft()[0], data
 
     def ready_writes(self):
-        """(endpoint, identifier, data) of writes that the device takes; a hung one takes none."""
+        """(endpoint, identifier, data) of writes that the device takes; a hung device takes none."""
         while self._writes and not self._device.hung:
             yield self._writes.popleft()

@@ -1,6 +1,6 @@
-"""Links to a Linux kernel's vhci_hcd: the server's side of USB/IP 1.1.1, over TCP or straight into this kernel.
+"""Links to a Linux kernel's vhci_hcd: the server's side of USB/IP 1.1.1, over TCP or directly to this kernel.
 
-All numbers big-endian, but for the eight set-up bytes, which are as on the bus.
+All numbers are big-endian except the eight set-up bytes, which are as on the bus.
 """
 
 import asyncio
@@ -22,7 +22,7 @@ _FREE_PORT = "004"
 
 
 def speed_number(device):
-    """The kernel's: 1 low, 2 full, 3 high."""
+    """The kernel's number: 1 low, 2 full, 3 high."""
     return device.speed + 1
 
 
@@ -40,7 +40,7 @@ def ret_unlink(number, status):
 
 
 class _UsbipLink:
-    """From the moment the device is imported; subclasses say how that comes about."""
+    """The link after the device is imported; subclasses do the import."""
 
     def __init__(self, device):
         self._device = device
@@ -57,7 +57,7 @@ class _UsbipLink:
         await asyncio.Event().wait()
 
     def unplug(self):
-        """The kernel takes a closed connection for a cable that is out."""
+        """For the kernel a closed connection is a cable that was pulled out."""
         self._plugged = False
         if self._writer:
             self._writer.close()
@@ -120,12 +120,12 @@ class _UsbipLink:
 
 
 class UsbipServerLink(_UsbipLink):
-    """Waits for `usbip attach --remote ADDRESS --busid 1-1`; after unplugging that must be given again."""
+    """Waits for `usbip attach --remote ADDRESS --busid 1-1`; after unplugging, that must be run again."""
 
     def __init__(self, device, address, port):
         super().__init__(device)
         self._address = address
-        self.port = port  # 0: any that is free, known once it is open
+        self.port = port  # 0: any free one, known once it is open
 
     async def open(self):
         self._server = await asyncio.start_server(self._serve, self._address, self.port)
@@ -162,7 +162,7 @@ class UsbipServerLink(_UsbipLink):
 
 
 class VhciLink(_UsbipLink):
-    """Into this machine's own kernel, without a network; needs root and the module vhci-hcd."""
+    """A link to this machine's own kernel, without a network; needs root and the module vhci-hcd."""
 
     async def open(self):
         if self._plugged:

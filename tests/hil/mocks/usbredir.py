@@ -3,7 +3,7 @@
     -device qemu-xhci,id=xhci
     -chardev socket,id=tracker,path=SOCKET,reconnect=1 -device usb-redir,chardev=tracker
 
-All numbers little-endian. Header: u32 type, u32 length of what follows, u32 or u64 identifier.
+All numbers are little-endian. Header: u32 type, u32 length of what follows, u32 or u64 identifier.
 """
 
 import asyncio
@@ -42,7 +42,7 @@ def interface_info_body(device):
 
 
 def endpoint_info_body(device, with_packet_sizes):
-    """By endpoint: 0 to 15 out, 16 to 31 in."""
+    """Ordered by endpoint: 0 to 15 out, 16 to 31 in."""
     kinds, intervals, interfaces, sizes = [255] * 32, [0] * 32, [0] * 32, [0] * 32
     kinds[0] = kinds[16] = 0  # control
     sizes[0] = sizes[16] = 64
@@ -68,7 +68,7 @@ class UsbredirLink:
         self._plugged = True
         self._streams = set()  # interrupt endpoints that the host reads
         self._stream_ids = 0
-        self.connected = False  # the host knows of the device
+        self.connected = False  # the host knows about the device
         device.link = self
 
     async def open(self):
@@ -78,7 +78,7 @@ class UsbredirLink:
         return f"usbredir at {self._path}"
 
     async def ended(self):
-        """A virtual machine may come and go."""
+        """Never: a virtual machine may come and go."""
         await asyncio.Event().wait()
 
     def close(self):
@@ -159,7 +159,7 @@ class UsbredirLink:
             if self._plugged:
                 self.plug()
         elif not self.connected:
-            return  # sent before the host knew that the cable is out
+            return  # sent before the host knew that the cable was out
         elif kind in (SET_CONFIGURATION, GET_CONFIGURATION):
             number = body[0] if kind == SET_CONFIGURATION else 1
             taken = self._device.control(Request(0, _SET_CONFIGURATION_REQUEST, number, 0, 0)) is not None

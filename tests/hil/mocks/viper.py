@@ -18,9 +18,9 @@ from .usb_device import BULK, IN, Endpoint
 HEMISPHERE, FILTER, FRAME_RATE, UNITS, SINGLE, CONTINUOUS, WHO_AM_I = 0, 1, 6, 7, 18, 19, 20
 SET, GET, RESET, ACK, NAK, NAK_WARNING = range(6)
 NAK_GENERAL, NAK_BOOTING, NAK_COMMAND = range(3)
-BOTH, TURNS, PLACES = range(3)  # what a filter is of; both can be set and reset, not asked
-MEDIUM = 2  # of the filters' levels
-ALL_SENSORS = 0xFFFFFFFF  # can be set and reset, not asked
+BOTH, TURNS, PLACES = range(3)  # the target of a filter; BOTH can be set and reset, but not asked
+MEDIUM = 2  # one of the filters' levels
+ALL_SENSORS = 0xFFFFFFFF  # can be set and reset, but not asked
 INCHES, FEET, CENTIMETRES, METRES = range(4)
 DEGREES, RADIANS, QUATERNION = range(3)
 SERIAL = 700001
@@ -85,7 +85,7 @@ class Viper(Tracker):
     strings = ("", "Polhemus", "VIPER (mock)", "mock")
     break_bytes = staticmethod(flip_or_cut)
 
-    # As it is after power came on, by command and what a filter is of.
+    # Settings after power-on, by command and filter target.
     _defaults = {
         (HEMISPHERE, 0): struct.pack("<I3f", 0, 1.0, 0.0, 0.0),
         (FILTER, TURNS): struct.pack("<I4f", MEDIUM, 0.0, 0.0, 0.0, 0.0),
@@ -182,7 +182,7 @@ class Viper(Tracker):
 
     @staticmethod
     def false_start(random_):
-        """The size may be right for its sensors, the longest that an answer has, or none at all."""
+        """The size may be right for its sensors, the longest of an answer, or impossible."""
         count = random_.randrange(17)
         preamble, size = random_.choice(((b"VPRP", 20 + 32 * count), (b"VPRC", 1048), (b"VPRP", 0xFFFFFFFF),
                                          (b"VPRC", 0)))
