@@ -131,9 +131,10 @@ template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
         prop.height_m = cube ? prop.base_m : prop.height_m;
         prop.zone = cube ? PropZone::Hand : PropZone::Table;
     }
-    fields.choice("zone", prop.zone, prop_zone_names,
-                  "table: upright on the table, slid and turned; hand: lifted and turned anyhow; left out: "
-                  "\"hand\" for a cube");
+    fields.choice(
+        "zone", prop.zone, prop_zone_names,
+        "table: upright on the table, slid and turned; hand: lifted and turned in any way; left out: "
+        "\"hand\" for a cube");
 }
 
 void table_settings(auto& fields, auto& table) {
