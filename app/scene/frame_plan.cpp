@@ -258,17 +258,19 @@ void plan_caption(const TablePicture& picture, const Shared& shared, FramePlan& 
     }
 }
 
+/// The reference is that of all the prop's faces, whether or not the artifact shows on them: the first triangle that
+/// comes to show on a face must not change the others' brightness.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
+    const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
     std::array<SeenFace, most_faces> seen{};
-    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
-        const auto face = static_cast<std::size_t>(plan.faces[k].face);
-        seen[k] = {&shared.prop.faces[face], shared.eye(face)};
+    for (std::size_t face = 0; face < faces; ++face) {
+        seen[face] = {&shared.prop.faces[face], shared.eye(face)};
     }
     const double reference =
-        reference_light(std::span(seen).first(plan.faces.size()), shared.projector_in_prop, compensation);
-    for (std::size_t k = 0; k < plan.faces.size(); ++k) {
-        plan.faces[k].light = face_light(seen[k].face->plane, shared.view.projector,
-                                         shared.projector_from_prop, reference, compensation);
+        reference_light(std::span(seen).first(faces), shared.projector_in_prop, compensation);
+    for (FacePlan& face : plan.faces) {
+        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)].plane,
+                                shared.view.projector, shared.projector_from_prop, reference, compensation);
     }
 }
 

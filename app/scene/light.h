@@ -36,12 +36,13 @@ struct LightCompensation {
 /// cos(theta) / d^2 at a point of a face; 0 or less where the projector is not above the face.
 [[nodiscard]] double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector);
 
-/// A face that carries a picture, and the eye that the picture is for.
+/// A face of the prop, and the eye that its picture is for.
 struct SeenFace {
     const PropFace* face = nullptr;
     glm::dvec3 eye{0.0};
 };
-/// The light that the faces are dimmed to.
+/// The light that the faces are dimmed to. All of the prop's faces are given: one that the eye or the projector does
+/// not see counts for nothing, and one that comes in sight counts by degrees, whether or not the artifact shows on it.
 [[nodiscard]] double reference_light(std::span<const SeenFace> seen, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -71,6 +72,32 @@ TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{3, 4}));
     kiosk.view.table_from_prop.translation = {0.0, -0.28, 0.0};
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{4}));
+}
+
+TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
+    Kiosk kiosk;
+    kiosk.artifact.metres_per_box = 0.03; // small: it shows on a face long after the eye came in front of it
+    kiosk.view.light = LightCompensation{};
+    constexpr double step_m = 1e-4;
+    double before = 0.0;
+    double most = 0.0;
+    std::size_t fewest = 5;
+    std::size_t most_faces = 0;
+    for (int k = 0; k < 9000; ++k) { // once along the table's front edge, and on
+        kiosk.eye = {-0.3 + step_m * k, -0.5, 0.45};
+        const FramePlan plan = kiosk.plan();
+        ASSERT_FALSE(plan.faces.empty());
+        fewest = std::min(fewest, plan.faces.size());
+        most_faces = std::max(most_faces, plan.faces.size());
+        const auto front = std::find_if(plan.faces.begin(), plan.faces.end(),
+                                        [](const FacePlan& face) { return face.face == 3; });
+        ASSERT_NE(front, plan.faces.end()) << "it shows the artifact all the while";
+        const double gain = front->light.per_cubic_metre;
+        most = before > 0.0 ? std::max(most, std::abs(gain / before - 1.0)) : 0.0;
+        before = gain;
+    }
+    EXPECT_LT(fewest, most_faces) << "no face began to show it: this walk proves nothing";
+    EXPECT_LT(most, 0.01 * step_m / 1e-3); // one per cent a millimetre
 }
 
 TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
