@@ -261,6 +261,9 @@ void plan_caption(const TablePicture& picture, const Shared& shared, FramePlan& 
 /// The reference is that of all the prop's faces, whether or not the artifact shows on them: the first triangle that
 /// comes to show on a face must not change the others' brightness.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
+    if (plan.faces.empty()) {
+        return; // the eye or the lens may lie in the prop
+    }
     const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
     std::array<SeenFace, most_faces> seen{};
     for (std::size_t face = 0; face < faces; ++face) {
