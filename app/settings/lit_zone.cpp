@@ -33,15 +33,22 @@ struct HalfPlane {
     double offset = 0.0;
 };
 
-/// Planes through the lens and the picture's edges, unit normals inward, table frame.
-std::array<glm::dvec3, 4> picture_edges(const ProjectorSettings& projector) {
+/// The plane through the lens and an edge of the picture, table frame.
+struct PictureEdge {
+    glm::dvec3 inward{0.0};  ///< unit normal
+    double horizontal = 0.0; ///< length of its horizontal part
+    double azimuth = 0.0;
+};
+
+std::array<PictureEdge, 4> picture_edges(const ProjectorSettings& projector) {
     const Pinhole& p = projector.pinhole;
     const std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(p.width, 0),
                                             glm::dvec2(p.width, p.height), glm::dvec2(0, p.height)};
-    std::array<glm::dvec3, 4> edges{};
+    std::array<PictureEdge, 4> edges{};
     for (std::size_t k = 0; k < 4; ++k) {
         const glm::dvec3 normal = glm::cross(p.ray(corners[k]), p.ray(corners[(k + 1) % 4]));
-        edges[k] = projector.table_from_projector.direction(glm::normalize(normal));
+        const glm::dvec3 inward = projector.table_from_projector.direction(glm::normalize(normal));
+        edges[k] = {inward, glm::length(glm::dvec2(inward)), std::atan2(inward.y, inward.x)};
     }
     return edges;
 }
@@ -101,6 +108,17 @@ TurnedFace turned(const PropFace& face) {
     return result;
 }
 
+/// The sides of a frustum are alike: at any yaw they are one face.
+bool are_alike(const TurnedFace& a, const TurnedFace& b) {
+    constexpr double rounding = 1e-12;
+    const auto near = [](double x, double y) { return std::abs(x - y) <= rounding; };
+    return near(a.run, b.run) && near(a.rise, b.rise) && near(a.offset, b.offset) &&
+           std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(),
+                      [&](const Round& c, const Round& d) {
+                          return near(c.radius, d.radius) && near(c.z, d.z) && near(c.off, d.off);
+                      });
+}
+
 /// The upright prop and the light, reduced to what the conditions need.
 struct Scene {
     explicit Scene(const Settings& settings)
@@ -110,8 +128,12 @@ struct Scene {
         for (const PropFace& face : prop.faces) {
             const bool on_table = std::all_of(face.corners.begin(), face.corners.end(),
                                               [](const glm::dvec3& corner) { return corner.z == 0.0; });
-            if (!on_table) {
-                faces.push_back(turned(face));
+            const TurnedFace turned_face = turned(face);
+            const bool known = std::any_of(faces.begin(), faces.end(), [&](const TurnedFace& other) {
+                return are_alike(turned_face, other);
+            });
+            if (!on_table && !known) {
+                faces.push_back(turned_face);
             }
         }
         for (const glm::dvec3& corner : prop.corners) {
@@ -134,16 +156,17 @@ struct Scene {
     }
     /// Is an arc of the circle about the prop's axis inside the picture?
     [[nodiscard]] bool in_picture(const glm::dvec2& place, const Round& round, const Arc& arc) const {
-        return std::all_of(edges.begin(), edges.end(), [&](const glm::dvec3& edge) {
-            const double least = glm::length(glm::dvec2(edge)) * round.radius *
-                                 arc.least_cosine_to(std::atan2(edge.y, edge.x));
-            return glm::dot(edge, glm::dvec3(place, round.z) - lens) + least >= 0.0;
+        return std::all_of(edges.begin(), edges.end(), [&](const PictureEdge& edge) {
+            const double middle = glm::dot(edge.inward, glm::dvec3(place, round.z) - lens);
+            const double most = edge.horizontal * round.radius;
+            return middle >= most ||
+                   (middle >= -most && middle + most * arc.least_cosine_to(edge.azimuth) >= 0.0);
         });
     }
 
-    std::array<glm::dvec3, 4> edges;
+    std::array<PictureEdge, 4> edges;
     glm::dvec3 lens;
-    std::vector<TurnedFace> faces; ///< without one that lies on the table
+    std::vector<TurnedFace> faces; ///< one of those that are alike, and none that lies on the table
     std::vector<Round> corners;    ///< of the solid
     double reach = 0.0;            ///< from the axis
     double middle_reach = 0.0;     ///< from the prop's middle
@@ -195,10 +218,9 @@ double lit_radius(const Scene& scene) {
 
 /// The places of `polygon` that lie in the picture at height z with a circle, and with a ball, around them.
 Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double circle, double ball = 0.0) {
-    for (const glm::dvec3& edge : scene.edges) {
-        const glm::dvec2 inward(edge);
-        polygon = clipped(
-            polygon, {inward, glm::dot(edge, scene.lens) - edge.z * z + circle * glm::length(inward) + ball});
+    for (const PictureEdge& edge : scene.edges) {
+        const double offset = glm::dot(edge.inward, scene.lens) - edge.inward.z * z;
+        polygon = clipped(polygon, {glm::dvec2(edge.inward), offset + circle * edge.horizontal + ball});
     }
     return polygon;
 }
@@ -209,7 +231,7 @@ Polygon hand_zone(const Settings& settings, const Scene& scene) {
     return clipped_to_picture(table_within(settings.table, ball), scene, ball, 0.0, ball);
 }
 
-Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
+Polygon upright_zone(const Settings& settings, const Scene& scene) {
     const double radius = lit_radius(scene);
     if (radius < 0.0) {
         return {};
@@ -227,6 +249,10 @@ Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
         zone = clipped(zone, {inward, glm::dot(inward, glm::dvec2(scene.lens)) - apothem});
     }
     return zone.size() >= 3 && area_of(zone) > 0.0 ? zone : Polygon();
+}
+
+Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
+    return settings.prop.zone == PropZone::Hand ? hand_zone(settings, scene) : upright_zone(settings, scene);
 }
 
 glm::dvec2 centroid(const Polygon& polygon) {
@@ -338,11 +364,15 @@ std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z) {
     return clipped_to_picture(table_within(settings.table, 0.0), Scene(settings), z, 0.0);
 }
 
+Rectangle lit_rectangle(const Settings& settings) {
+    return rectangle_inside(any_eye_zone(settings, Scene(settings)));
+}
+
 LitZone lit_zone(const Settings& settings) {
     const Scene scene(settings);
     LitZone zone;
     const bool in_hand = settings.prop.zone == PropZone::Hand;
-    zone.any_eye = in_hand ? hand_zone(settings, scene) : any_eye_zone(settings, scene);
+    zone.any_eye = any_eye_zone(settings, scene);
     zone.any_eye_rectangle = rectangle_inside(zone.any_eye);
     zone.default_eye = in_hand ? zone.any_eye : default_eye_zone(settings, scene, zone.any_eye);
     return zone;

@@ -45,6 +45,8 @@ struct LitZone {
 };
 
 [[nodiscard]] LitZone lit_zone(const Settings& settings);
+/// Its `any_eye_rectangle` alone, in a small part of the time.
+[[nodiscard]] Rectangle lit_rectangle(const Settings& settings);
 
 /// Tests one pose, upright or not.
 [[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,

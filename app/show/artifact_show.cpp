@@ -263,7 +263,7 @@ ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, R
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
       artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)),
-      attract_place_m_(lit_zone(settings).any_eye_rectangle.centre_m) {}
+      attract_place_m_(lit_rectangle(settings).centre_m) {}
 
 std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
     if (!presentation.caption) {

@@ -206,6 +206,8 @@ TEST(LitZone, TheRectangleFitsAndIsUsefulInBothSetUps) {
         ASSERT_TRUE(settings) << settings.error().message;
         const LitZone zone = lit_zone(**settings);
         const Rectangle& r = zone.any_eye_rectangle;
+        EXPECT_EQ(lit_rectangle(**settings).centre_m, r.centre_m);
+        EXPECT_EQ(lit_rectangle(**settings).half_m, r.half_m);
         for (const glm::dvec2 sign :
              {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)}) {
             EXPECT_TRUE(inside(zone.any_eye, r.centre_m + sign * r.half_m * (1 - 1e-9)));

@@ -79,7 +79,7 @@ Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, Monotoni
                                      0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m)};
         return std::make_unique<UsbTracker>(make_bus(settings.tracker.kind), set_up, tap);
     }
-    const Rectangle places = lit_zone(settings).any_eye_rectangle;
+    const Rectangle places = lit_rectangle(settings);
     SimulatedVisitor visitor;
     visitor.seed = settings.tracker.seed;
     visitor.centre_m = places.centre_m;

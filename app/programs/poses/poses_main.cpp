@@ -112,7 +112,7 @@ Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
     if (!settings) {
         return tl::unexpected(settings.error());
     }
-    const Rectangle places = lit_zone(**settings).any_eye_rectangle;
+    const Rectangle places = lit_rectangle(**settings);
     SimulatedVisitor visitor;
     visitor.seed = request.seed;
     visitor.centre_m = places.centre_m;
