@@ -130,6 +130,8 @@ class Misbehaviour(HilTest):
             self.settle(self.allowed.turning, "without poses the artifact does not turn at the table's centre")
             self.look(CALM_S, self.allowed.turning)
         self.bench.tracker.tell("good")
+        if "unplug 1s" in commands:  # what it says while it is set up stands until it is plugged in again
+            self.bench.tracker.tell("unplug", "1s")
         self.bench.status_says("tracker", RUNNING)
         self.settle(self.allowed.sent, "the prop is not followed again")
         self.look(AFTER_S, self.allowed.sent)

@@ -33,7 +33,7 @@ class Trackers(HilTest):
         self.bench.tracker.tell("unplug")
         dead.tell("hang")
         dead.tell("unplug", "off")
-        self.bench.status_says("tracker", "(?i)patriot", FOUND_S)
+        self.bench.status_says("tracker", "refuses its set-up or does not answer", FOUND_S)
         self.bench.place(PLACE_M)
         self.bench.tracker.tell("unplug", "off")
         self.bench.status_says("tracker", "is running", 3 * FOUND_S)
