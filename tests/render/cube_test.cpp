@@ -21,18 +21,19 @@ void hold(Stage& stage, std::mt19937& random) {
     stage.table_from_prop = {rotation, middle - rotation * stage.prop.middle};
 }
 
-Stage cube_stage() {
-    Stage stage(256, 160);
-    stage.prop = make_cube(edge_m);
-    return stage;
-}
+struct CubeRig : Rig {
+    Stage stage{256, 160};
+
+    CubeRig() : Rig(256, 160) {
+        stage.prop = prop = make_cube(edge_m);
+        level.metres_per_box = metres_per_box(pack, prop);
+        plan = make_plan(prop, level);
+    }
+};
 
 TEST(Cube, EveryFaceShowsWhatARayCastShows) {
-    Rig rig(256, 160);
-    rig.prop = make_cube(edge_m);
-    rig.level.metres_per_box = metres_per_box(rig.pack, rig.prop);
-    rig.plan = make_plan(rig.prop, rig.level);
-    Stage stage = cube_stage();
+    CubeRig rig;
+    Stage& stage = rig.stage;
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
     std::mt19937 random(11);
     std::set<std::string_view> shown;
@@ -50,11 +51,8 @@ TEST(Cube, EveryFaceShowsWhatARayCastShows) {
 }
 
 TEST(Cube, UpsideDownItsBottomShowsTheArtifactFromBelow) {
-    Rig rig(256, 160);
-    rig.prop = make_cube(edge_m);
-    rig.level.metres_per_box = metres_per_box(rig.pack, rig.prop);
-    rig.plan = make_plan(rig.prop, rig.level);
-    Stage stage = cube_stage();
+    CubeRig rig;
+    Stage& stage = rig.stage;
     stage.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};
     stage.eye_m = {0.0, 0.0, 0.7};
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
