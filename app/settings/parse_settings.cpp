@@ -26,10 +26,6 @@ std::string_view name_of(PropKind kind) {
     return prop_names.at(static_cast<std::size_t>(kind));
 }
 
-std::string_view name_of(PropZone zone) {
-    return prop_zone_names.at(static_cast<std::size_t>(zone));
-}
-
 std::string_view name_of(PanelKind kind) {
     return panel_names[static_cast<std::size_t>(kind)];
 }

@@ -48,7 +48,6 @@ enum class PropKind { Frustum, Cube };
 [[nodiscard]] std::string_view name_of(PropKind kind);
 /// Table: upright, slid and turned about its axis. Hand: lifted, turned in any way.
 enum class PropZone { Table, Hand };
-[[nodiscard]] std::string_view name_of(PropZone zone);
 struct PropSettings {
     PropKind kind = PropKind::Frustum;
     double base_m = 0.16; ///< side of the bottom square
