@@ -55,7 +55,7 @@ Sentence why_dark(const CardSeen& card, const OutputRequest& request) {
         }
         return format_sentence("the graphics card has no connector {}; it has {}", request.connector, names);
     }
-    return format_sentence("no projector is connected{}{}, or it is off; it is lit as soon as it comes{}",
+    return format_sentence("no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
                            request.connector.empty() ? "" : " to ", request.connector,
                            request.force ? "; name display.connector to light one that cannot say that it is "
                                            "there"

@@ -4,7 +4,7 @@ import time
 
 import screen
 from bench import CONNECTOR, UNIT, eventually
-from hil_test import HilTest, long
+from hil_test import HilTest, LIT, long
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
 STOPPED_S = 0.5
@@ -66,7 +66,7 @@ class Restart(HilTest):
         eventually(lambda: self.bench.main_process() not in (0, self.process), BACK_S, "systemd does not restart it")
         self.bench.status_says("display", "no projector is connected", BACK_S)
         self.bench.machine.check(f"echo detect > {CONNECTOR}")
-        self.bench.status_says("display", "is lit", BACK_S)
+        self.bench.status_says("display", LIT, BACK_S)
         self.assert_restarted()
 
     def test_card_that_udev_has_not_given_yet(self):

@@ -4,7 +4,7 @@ import time
 
 import screen
 from bench import CONNECTOR, eventually
-from hil_test import HilTest
+from hil_test import HilTest, LIT
 
 ARTIFACT = "amphora"
 BACK_S = 15.0  # a device must be back within 2 s; the kernel's own enumeration is slow here
@@ -47,7 +47,7 @@ class Unplug(HilTest):
             self.bench.status_says("display", "no projector is connected", BACK_S)
             time.sleep(1.0)
             self.bench.machine.check(f"echo detect > {CONNECTOR}")
-            self.bench.status_says("display", "is lit", BACK_S)
+            self.bench.status_says("display", LIT, BACK_S)
             eventually(self.is_lit, BACK_S, "the projector is back, but dark")
             self.watch(4.0, rests=True)
 
