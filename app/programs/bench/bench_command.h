@@ -128,5 +128,7 @@ template <typename Measure, typename Table, typename Csv>
 [[nodiscard]] BenchCommand counts_command(CLI::App& app);
 /// How far the picture slips on a prop that moves, with and without prediction.
 [[nodiscard]] BenchCommand latency_command(CLI::App& app);
+/// Which prop and projector suit a table.
+[[nodiscard]] BenchCommand setup_command(CLI::App& app);
 
 } // namespace frustumscreen

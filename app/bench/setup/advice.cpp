@@ -1,0 +1,257 @@
+#include "app/bench/setup/advice.h"
+
+#include "app/geometry/collineation.h"
+#include "app/settings/looking_at.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int face_samples = 40; ///< along a face's edges
+constexpr double margin = 1.001; ///< the picture reaches a little past the table
+
+/// Upright, standing on z = 0, as large as fits into the prop.
+Box largest_box(const PropShape& prop, double width_by_height) {
+    const double half = 0.5 * width_by_height;
+    std::vector<glm::dvec3> corners;
+    for (unsigned k = 0; k < 8; ++k) {
+        corners.emplace_back((k & 1U) != 0 ? half : -half, (k & 2U) != 0 ? half : -half,
+                             (k & 4U) != 0 ? 1.0 : 0.0);
+    }
+    const double height = largest_scale_inside(prop, corners);
+    return {{-half * height, -half * height, 0.0}, {half * height, half * height, height}};
+}
+
+/// Does the line through two points meet the ellipsoid that fills the box?
+bool meets_ellipsoid(const Box& box, const glm::dvec3& from, const glm::dvec3& through) {
+    const glm::dvec3 middle = 0.5 * (box.low + box.high);
+    const glm::dvec3 half = 0.5 * (box.high - box.low);
+    const glm::dvec3 o = (from - middle) / half;
+    const glm::dvec3 d = (through - from) / half;
+    const double along = glm::dot(o, d);
+    return along * along - glm::dot(d, d) * (glm::dot(o, o) - 1.0) > 0.0;
+}
+
+/// A small surface at S on a plane that the lens is h above takes fx fy h / Z^3 pixels a square metre.
+double pixels_on(const PropShape& prop, const ProjectorSettings& projector, const glm::dvec3& eye_m,
+                 double yaw, const Box& artifact) {
+    const RigidTransform table_from_prop{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)};
+    const glm::dvec3 eye = table_from_prop.inverse().point(eye_m);
+    const RigidTransform projector_from_prop = projector.table_from_projector.inverse() * table_from_prop;
+    const glm::dvec3 lens = projector_from_prop.inverse().translation;
+    double pixels = 0.0;
+    for (const PropFace& face : prop.faces) {
+        const double h = face.plane.distance(lens);
+        if (h <= 0.0 || face.plane.distance(eye) <= 0.0) {
+            continue;
+        }
+        for (int k = 0; k < face_samples * face_samples; ++k) {
+            const double s = (k % face_samples + 0.5) / face_samples;
+            const double t = (std::floor(k / face_samples) + 0.5) / face_samples;
+            const glm::dvec3 point = glm::mix(glm::mix(face.corners[0], face.corners[1], s),
+                                              glm::mix(face.corners[3], face.corners[2], s), t);
+            if (!meets_ellipsoid(artifact, eye, point)) {
+                continue;
+            }
+            const glm::dvec3 across =
+                glm::mix(face.corners[1] - face.corners[0], face.corners[2] - face.corners[3], t);
+            const glm::dvec3 up =
+                glm::mix(face.corners[3] - face.corners[0], face.corners[2] - face.corners[1], s);
+            const double area = glm::length(glm::cross(across, up)) / (face_samples * face_samples);
+            const double depth = projector_from_prop.point(point).z;
+            pixels += projector.pinhole.fx * projector.pinhole.fy * h / (depth * depth * depth) * area;
+        }
+    }
+    return pixels;
+}
+
+/// All that the picture must cover, table frame: the table's corners, and the prop's where it stands at an
+/// edge.
+std::vector<glm::dvec3> to_cover(const Settings& settings) {
+    const glm::dvec2 table = 0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m);
+    const glm::dvec2 reach = reach_on_table(settings.prop, settings.table);
+    const glm::dvec2 top = reach + settings.prop.top_m / std::numbers::sqrt2;
+    std::vector<glm::dvec3> points;
+    for (const glm::dvec2 side :
+         {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+        points.emplace_back(side * table, 0.0);
+        points.emplace_back(side * top, settings.prop.height_m);
+    }
+    return points;
+}
+
+bool covers(const Settings& settings) {
+    const Pinhole& pinhole = settings.projector.pinhole;
+    const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
+    const std::vector<glm::dvec3> points = to_cover(settings);
+    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
+        const auto pixel = pinhole.pixel(projector_from_table.point(point));
+        const double spare = 0.5 * (margin - 1.0) * pinhole.width; // rounding
+        return pixel && pixel->x >= -spare && pixel->y >= -spare && pixel->x <= pinhole.width + spare &&
+               pixel->y <= pinhole.height + spare;
+    });
+}
+
+/// Zooms the lens, and shifts it if that is how it is mounted, so that the picture just covers the table.
+void fit_picture(Settings& settings, Mount mount) {
+    Pinhole& pinhole = settings.projector.pinhole;
+    glm::dvec2 low(1e9);
+    glm::dvec2 high(-1e9);
+    for (const glm::dvec3& point : to_cover(settings)) {
+        const glm::dvec3 seen = settings.projector.table_from_projector.inverse().point(point);
+        low = glm::min(low, glm::dvec2(seen) / seen.z);
+        high = glm::max(high, glm::dvec2(seen) / seen.z);
+    }
+    const glm::dvec2 size(pinhole.width, pinhole.height);
+    const glm::dvec2 middle = mount == Mount::Shifted ? 0.5 * (low + high) : glm::dvec2(0.0);
+    const glm::dvec2 half = glm::max(high - middle, middle - low);
+    const double f = std::min(0.5 * size.x / half.x, 0.5 * size.y / half.y) / margin;
+    pinhole.fx = pinhole.fy = f;
+    pinhole.cx = 0.5 * size.x - f * middle.x;
+    pinhole.cy = 0.5 * size.y - f * middle.y;
+}
+
+Settings with_projector(Settings settings, double height_m, double side_m, Mount mount) {
+    const glm::dvec3 lens(0.0, side_m, height_m);
+    const glm::dvec3 aim = mount == Mount::Tilted ? glm::dvec3(0.0) : glm::dvec3(0.0, side_m, 0.0);
+    settings.projector.table_from_projector =
+        looking_at(lens, aim, 0.0).value_or(settings.projector.table_from_projector);
+    return settings;
+}
+
+/// Lengths from `first` on in steps, rounded so that a carpenter can use them.
+std::vector<double> steps(double first, double last, double step) {
+    std::vector<double> values;
+    const int count = static_cast<int>(std::floor((last - first) / step + 1e-9));
+    for (int k = 0; k <= count; ++k) {
+        values.push_back(std::round(1e3 * (first + step * k)) / 1e3);
+    }
+    return values;
+}
+
+/// Larger is better among choices that work: room to slide, times brightness as eyes see it, about the root of the light
+/// (Stevens 1957: exponents of 0.33 to 0.5).
+double worth(const SetUpFigures& figures) {
+    return figures.reach_m.x * figures.reach_m.y * std::sqrt(figures.reference);
+}
+
+bool is_better(const SetUpChoice& a, const SetUpChoice& b) {
+    if (a.works != b.works) {
+        return a.works;
+    }
+    return a.works ? worth(a.figures) > worth(b.figures)
+                   : a.figures.light.evenness > b.figures.light.evenness;
+}
+
+std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigures& now) {
+    const double table = std::min(settings.table.width_m, settings.table.depth_m);
+    std::vector<PropSettings> props;
+    for (const double base_m : steps(0.1, 0.65 * table, 0.01)) { // a larger one could hardly be moved
+        for (const double top_m : steps(0.03, 0.6 * base_m, 0.01)) {
+            for (const double height_m : steps(0.06, base_m, 0.005)) {
+                PropSettings prop = settings.prop;
+                prop.kind = PropKind::Frustum;
+                prop.base_m = base_m;
+                prop.top_m = top_m;
+                prop.height_m = height_m;
+                const PropShape shape = make_prop(prop);
+                if (largest_box(shape, 1.0).high.z >= 0.995 * now.wide_height_m &&
+                    largest_box(shape, 0.5).high.z >= 0.995 * now.slim_height_m) {
+                    props.push_back(prop);
+                }
+            }
+        }
+    }
+    return props;
+}
+
+/// The best prop for a projector; nothing if there is no prop to try. `props`: the smallest first.
+std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount,
+                                     const std::vector<PropSettings>& props, double evenness, double pixels) {
+    std::optional<SetUpChoice> best;
+    for (const PropSettings& prop : props) {
+        if (best && best->works && prop.base_m > best->settings.prop.base_m) {
+            break;
+        }
+        SetUpChoice choice{projector, mount, {}, false};
+        choice.settings.prop = prop;
+        const glm::dvec3 lens = projector.projector.table_from_projector.translation;
+        choice.figures.light = light_range(make_prop(prop), lens, reach_on_table(prop, projector.table));
+        const bool even = choice.figures.light.evenness >= evenness;
+        if (even || !best || choice.figures.light.evenness > best->figures.light.evenness) {
+            fit_picture(choice.settings, mount);
+            choice.figures = examine(choice.settings);
+            choice.works = even && choice.figures.covered && choice.figures.pixels >= pixels;
+        }
+        if (!best || is_better(choice, *best)) {
+            best = std::move(choice);
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+std::string_view name_of(Mount mount) {
+    return mount == Mount::Tilted ? "tilted" : "shifted";
+}
+
+SetUpFigures examine(const Settings& settings) {
+    const PropShape prop = make_prop(settings.prop);
+    SetUpFigures figures;
+    figures.reach_m = reach_on_table(settings.prop, settings.table);
+    figures.light = light_range(prop, settings.projector.table_from_projector.translation, figures.reach_m);
+    figures.reference = even_light(settings);
+    figures.wide_height_m = largest_box(prop, 1.0).high.z;
+    const Box slim = largest_box(prop, 0.5);
+    figures.slim_height_m = slim.high.z;
+    constexpr std::array turned{0.0, 0.25 * std::numbers::pi};
+    for (const double yaw : turned) {
+        figures.pixels +=
+            pixels_on(prop, settings.projector, settings.eye.default_m, yaw, slim) / turned.size();
+    }
+    figures.covered = covers(settings);
+    return figures;
+}
+
+std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,
+                                 const std::function<void(double)>& progress) {
+    const SetUpFigures now = examine(settings);
+    const std::vector<PropSettings> props = props_to_try(settings, now);
+    Settings other = settings;
+    if (options.width > 0) {
+        other.projector.pinhole = other.projector.pinhole.scaled_to(options.width, options.height);
+    }
+    const std::vector<double> heights = steps(options.lowest_m, options.highest_m, 0.1);
+    const std::vector<double> sides =
+        steps(-options.sides_m, options.sides_m, std::max(options.sides_m, 1e-3));
+    std::vector<SetUpChoice> found;
+    for (std::size_t k = 0; k < heights.size() * sides.size(); ++k) {
+        const double height_m = heights[k / sides.size()];
+        const double side_m = sides[k % sides.size()];
+        for (const Mount mount : {Mount::Tilted, Mount::Shifted}) {
+            if (side_m == 0.0 && mount == Mount::Shifted) {
+                continue; // the same as tilted by nothing
+            }
+            const Settings projector = with_projector(other, height_m, side_m, mount);
+            if (auto choice =
+                    best_prop(projector, mount, props, options.evenness, options.pixels * now.pixels)) {
+                found.push_back(std::move(*choice));
+            }
+        }
+        progress(static_cast<double>(k + 1) / static_cast<double>(heights.size() * sides.size()));
+    }
+    return found;
+}
+
+const SetUpChoice* best_of(const std::vector<SetUpChoice>& choices) {
+    const auto best = std::min_element(choices.begin(), choices.end(), is_better);
+    return best != choices.end() ? &*best : nullptr;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,95 @@
+#include "app/bench/setup/advice_report.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+double throw_ratio(const Pinhole& pinhole) {
+    return pinhole.fx / pinhole.width;
+}
+
+std::string line_of(std::string_view name, const Settings& settings, const SetUpFigures& figures) {
+    const glm::dvec3 lens = settings.projector.table_from_projector.translation;
+    return fmt::format(
+        "{:12} {:5.2f} {:+5.2f} {:5.2f}  {:4.0f} {:4.0f} {:4.0f}  {:6.2f} {:6.3f}  {:4.0f} {:4.0f}  {:6.0f}  "
+        "{:4.0f} x {:<4.0f} {}\n",
+        name, lens.z, lens.y, throw_ratio(settings.projector.pinhole), 1e3 * settings.prop.base_m,
+        1e3 * settings.prop.top_m, 1e3 * settings.prop.height_m, figures.light.evenness, figures.reference,
+        1e3 * figures.wide_height_m, 1e3 * figures.slim_height_m, figures.pixels, 1e3 * figures.reach_m.x,
+        1e3 * figures.reach_m.y, figures.covered ? "" : "the picture misses a part of the table");
+}
+
+std::string row_of(std::string_view name, const Settings& settings, const SetUpFigures& figures, bool works) {
+    const glm::dvec3 lens = settings.projector.table_from_projector.translation;
+    const Pinhole& pinhole = settings.projector.pinhole;
+    return fmt::format(
+        "{},{:.3f},{:.3f},{:.4f},{:.1f},{:.1f},{:.3f},{:.3f},{:.3f},{:.4f},{:.5f},{:.5f},{:.5f},"
+        "{:.4f},{:.4f},{:.1f},{:.4f},{:.4f},{},{}\n",
+        name, lens.z, lens.y, throw_ratio(pinhole), pinhole.cx, pinhole.cy, settings.prop.base_m,
+        settings.prop.top_m, settings.prop.height_m, figures.light.evenness, figures.light.least,
+        figures.light.most, figures.reference, figures.wide_height_m, figures.slim_height_m, figures.pixels,
+        figures.reach_m.x, figures.reach_m.y, figures.covered ? 1 : 0, works ? 1 : 0);
+}
+
+} // namespace
+
+std::string setup_table(const Settings& settings, const std::vector<SetUpChoice>& choices,
+                        const AdviceOptions& options) {
+    std::string table = fmt::format(
+        "A table of {:g} x {:g} m; the picture is {} x {} pixels as it is, {} x {} in the choices.\n\n"
+        "             lens  side  throw  prop, mm        darkest  light  artifact, mm  pixels  slides, mm\n"
+        "             m     m     ratio  base top high   /bright. sent   wide slim     on it   +-X  +-Y\n",
+        settings.table.width_m, settings.table.depth_m, settings.projector.pinhole.width,
+        settings.projector.pinhole.height,
+        options.width > 0 ? options.width : settings.projector.pinhole.width,
+        options.width > 0 ? options.height : settings.projector.pinhole.height);
+    table += line_of("as it is", settings, examine(settings));
+    const SetUpChoice* const best = best_of(choices);
+    for (const SetUpChoice& choice : choices) {
+        const std::string name = fmt::format("{}{}", name_of(choice.mount),
+                                             &choice == best ? " best"
+                                             : choice.works  ? ""
+                                                             : " no");
+        table += line_of(name, choice.settings, choice.figures);
+    }
+    table += fmt::format("\nlens, side: over the table, and behind its middle (before it: negative). "
+                         "darkest/bright.: of the faces in one\n"
+                         "pose, the least over the whole table. light sent: what the artifact sends back "
+                         "everywhere. artifact: the heights\n"
+                         "of one as wide as high and of one half as wide. 'no': it does not reach {:g} "
+                         "darkest/bright. with {:g} x the pixels\n"
+                         "and artifacts as large as they are.\n",
+                         options.evenness, options.pixels);
+    return table;
+}
+
+std::string setup_csv(const Settings& settings, const std::vector<SetUpChoice>& choices) {
+    std::string csv =
+        "choice,lens_height_m,lens_side_m,throw_ratio,cx_px,cy_px,base_m,top_m,height_m,evenness,least_light,"
+        "most_light,reference_light,wide_height_m,slim_height_m,pixels,reach_x_m,reach_y_m,covered,works\n";
+    const SetUpFigures now = examine(settings);
+    csv += row_of("as it is", settings, now, now.covered);
+    for (const SetUpChoice& choice : choices) {
+        csv += row_of(name_of(choice.mount), choice.settings, choice.figures, choice.works);
+    }
+    return csv;
+}
+
+std::string setup_toml(const SetUpChoice& choice) {
+    const Settings& settings = choice.settings;
+    const glm::dvec3 lens = settings.projector.table_from_projector.translation;
+    const Pinhole& pinhole = settings.projector.pinhole;
+    return fmt::format(
+        "[projector]\nwidth = {}\nheight = {}\nthrow_ratio = {:.3f}\ncx = {:.1f}\ncy = {:.1f}\n"
+        "position_m = [0.0, {:.3f}, {:.3f}]\naim_m = [0.0, {:.3f}, 0.0]\n\n"
+        "[prop]\nbase_m = {:.3f}\ntop_m = {:.3f}\nheight_m = {:.3f}\n",
+        pinhole.width, pinhole.height, throw_ratio(pinhole), pinhole.cx, pinhole.cy, lens.y, lens.z,
+        choice.mount == Mount::Tilted ? 0.0 : lens.y, settings.prop.base_m, settings.prop.top_m,
+        settings.prop.height_m);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,125 @@
+#include "app/bench/setup/advice_report.h"
+#include "app/settings/lit_zone.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace frustumscreen {
+namespace {
+
+Settings old_table() {
+    Settings settings;
+    settings.projector.pinhole = {320, 200, 480.0, 480.0, 160.0, 100.0};
+    settings.projector.table_from_projector.translation = {0.0, 0.0, 1.2};
+    settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
+    return settings;
+}
+
+/// Pixels whose ray ends on a face through which the eye sees the ellipsoid: the ordinary way, pixel by pixel.
+double counted_pixels(const Settings& settings, double yaw, const glm::dvec3& half) {
+    const RigidTransform prop_from_table =
+        RigidTransform{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)}.inverse();
+    const PropShape prop = make_prop(settings.prop);
+    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+    const glm::dvec3 eye = prop_from_table.point(settings.eye.default_m);
+    const glm::dvec3 lens = prop_from_table.point(table_from_projector.translation);
+    constexpr int finer = 2;
+    const Pinhole fine = settings.projector.pinhole.scaled_to(finer * 320, finer * 200);
+    double count = 0.0;
+    for (int y = 0; y < fine.height; ++y) {
+        for (int x = 0; x < fine.width; ++x) {
+            const glm::dvec3 ray =
+                prop_from_table.direction(table_from_projector.direction(fine.ray({x + 0.5, y + 0.5})));
+            PropHit hit;
+            if (!intersect(prop, lens, ray, hit)) {
+                continue;
+            }
+            const glm::dvec3 lit = lens + hit.t * ray;
+            if (prop.faces[static_cast<std::size_t>(hit.face)].plane.distance(eye) <= 0.0) {
+                continue;
+            }
+            double nearest = 1e9; // to the ellipsoid's middle, in its radii, along the eye's ray
+            for (int k = 0; k <= 600; ++k) {
+                const glm::dvec3 at = eye + (lit - eye) * (0.5 + k / 400.0);
+                nearest = std::min(nearest, glm::length((at - glm::dvec3(0.0, 0.0, half.z)) / half));
+            }
+            count += nearest <= 1.0 ? 1.0 : 0.0;
+        }
+    }
+    return count / (finer * finer);
+}
+
+TEST(Advice, CountsTheProjectorsPixelsOnAnArtifact) {
+    const Settings settings = old_table();
+    const SetUpFigures figures = examine(settings);
+    EXPECT_NEAR(figures.slim_height_m, 0.12, 1e-9) << "half as wide as high: the prop's height limits it";
+    EXPECT_NEAR(figures.wide_height_m, 0.16 / (1.0 + 0.07 / 0.12), 1e-9) << "as wide as high: its walls do";
+    const glm::dvec3 half(0.25 * figures.slim_height_m, 0.25 * figures.slim_height_m,
+                          0.5 * figures.slim_height_m);
+    const double counted =
+        0.5 * (counted_pixels(settings, 0.0, half) + counted_pixels(settings, 0.25 * std::numbers::pi, half));
+    EXPECT_NEAR(figures.pixels, counted, 0.03 * counted);
+}
+
+TEST(Advice, KnowsWhetherThePictureCoversTheTable) {
+    Settings settings = old_table();
+    EXPECT_TRUE(examine(settings).covered);
+    settings.projector.pinhole.fx *= 1.02;
+    EXPECT_FALSE(examine(settings).covered);
+    settings = old_table();
+    settings.projector.table_from_projector.translation.x = 0.01;
+    EXPECT_FALSE(examine(settings).covered);
+}
+
+TEST(Advice, WhatWorksKeepsItsPromises) {
+    AdviceOptions options;
+    options.lowest_m = options.highest_m = 1.5;
+    options.sides_m = 0.2;
+    options.evenness = 0.3;
+    const Settings settings = old_table();
+    const SetUpFigures now = examine(settings);
+    double done = 0.0;
+    const std::vector<SetUpChoice> found = choices(settings, options, [&](double share) {
+        EXPECT_GE(share, done);
+        done = share;
+    });
+    EXPECT_EQ(done, 1.0);
+    ASSERT_EQ(found.size(), 5U) << "above the middle, and on two sides by two mounts";
+    const SetUpChoice* const best = best_of(found);
+    ASSERT_NE(best, nullptr);
+    EXPECT_TRUE(best->works);
+    for (const SetUpChoice& choice : found) {
+        if (!choice.works) {
+            continue;
+        }
+        EXPECT_GE(choice.figures.light.evenness, options.evenness);
+        EXPECT_GE(choice.figures.wide_height_m, 0.99 * now.wide_height_m);
+        EXPECT_GE(choice.figures.slim_height_m, 0.99 * now.slim_height_m);
+        EXPECT_GE(choice.figures.pixels, now.pixels);
+        for (const glm::dvec2 side : {glm::dvec2(-1, -1), glm::dvec2(1, 1)}) {
+            EXPECT_TRUE(every_seen_face_is_lit_at_any_yaw(
+                choice.settings, 0.999 * side * choice.figures.reach_m, settings.eye.default_m));
+        }
+        EXPECT_LE(choice.figures.reach_m.x * choice.figures.reach_m.y * std::sqrt(choice.figures.reference),
+                  best->figures.reach_m.x * best->figures.reach_m.y * std::sqrt(best->figures.reference));
+        const Result<CheckedSettings> pasted = parse_settings(setup_toml(choice), "advice.toml");
+        ASSERT_TRUE(pasted) << pasted.error().message;
+        EXPECT_NEAR(examine(**pasted).pixels, choice.figures.pixels, 0.01 * choice.figures.pixels);
+    }
+}
+
+TEST(Advice, SaysSoWhereNothingWorks) {
+    AdviceOptions options;
+    options.lowest_m = options.highest_m = 0.6;
+    options.sides_m = 0.0;
+    options.evenness = 0.9;
+    const std::vector<SetUpChoice> found = choices(old_table(), options, [](double) {});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_FALSE(found.front().works);
+    EXPECT_NE(setup_table(old_table(), found, options).find("no"), std::string::npos);
+}
+
+} // namespace
+} // namespace frustumscreen
