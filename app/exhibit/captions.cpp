@@ -84,12 +84,34 @@ double least_distance_to_edges(std::span<const glm::dvec2> points, std::span<con
     return least;
 }
 
+/// By quarter turns, counter-clockwise; exact.
+glm::dvec2 turned(const glm::dvec2& point, int quarter_turns) {
+    switch (((quarter_turns % 4) + 4) % 4) {
+    case 1:
+        return {-point.y, point.x};
+    case 2:
+        return -point;
+    case 3:
+        return {point.y, -point.x};
+    default:
+        return point;
+    }
+}
+
+TablePolygon turned(TablePolygon polygon, int quarter_turns) {
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        polygon.points[k] = turned(polygon.points[k], quarter_turns);
+    }
+    return polygon;
+}
+
 } // namespace
 
 std::array<glm::dvec2, 4> TableRectangle::corners() const {
     const glm::dvec2 half = size_m / 2.0;
-    return {centre_m - half, centre_m + glm::dvec2(half.x, -half.y), centre_m + half,
-            centre_m + glm::dvec2(-half.x, half.y)};
+    const auto corner = [&](double x, double y) { return centre_m + turned({x, y}, quarter_turns); };
+    return {corner(-half.x, -half.y), corner(half.x, -half.y), corner(half.x, half.y),
+            corner(-half.x, half.y)};
 }
 
 std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop,
@@ -189,20 +211,36 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
     return best;
 }
 
+void CaptionPlacer::turn_to(int quarter_turns) {
+    for (glm::dvec2& corner : room_) {
+        corner = turned(corner, quarter_turns_ - quarter_turns);
+    }
+    quarter_turns_ = quarter_turns;
+}
+
 void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
-                           const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m) {
+                           const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m,
+                           int quarter_turns) {
     clearance_m_ = place_ && shadow ? clearance(place_->rectangle.corners(), shadow->corners()) : 0.0;
     if (!shadow || size_count_ == 0) {
         return;
     }
-    if (place_ && !leaves_ && clearance_m_ < near_m) {
+    const bool turns = place_ && place_->rectangle.quarter_turns != quarter_turns;
+    if (place_ && !leaves_ && (turns || clearance_m_ < near_m)) {
         leaves_ = now;
     }
     const bool gone = !place_ || (leaves_ && now - *leaves_ >= fade);
     if (!gone || (next_look_ && now < *next_look_)) {
         return;
     }
-    place_ = choose(*shadow, hidden ? &*hidden : nullptr, prop_m);
+    turn_to(quarter_turns);
+    const TablePolygon seen_hidden = hidden ? turned(*hidden, -quarter_turns) : TablePolygon{};
+    place_ = choose(turned(*shadow, -quarter_turns), hidden ? &seen_hidden : nullptr,
+                    turned(prop_m, -quarter_turns));
+    if (place_) {
+        place_->rectangle.centre_m = turned(place_->rectangle.centre_m, quarter_turns);
+        place_->rectangle.quarter_turns = quarter_turns;
+    }
     leaves_.reset();
     appears_ = now;
     next_look_.reset();

@@ -1,6 +1,7 @@
 /// Where a caption lies on the table: beside the prop, never on it, and still while the prop moves.
 ///
-/// A caption lies flat on the table top, its baseline towards the visitor's edge (-Y). The prop's shadow,
+/// A caption lies flat on the table top, its baseline towards the side that the visitor reads from
+/// (visitor_side.h); when that changes, it fades out and in again, turned. The prop's shadow,
 /// where the projector's rays meet the prop before the table, is kept clear; it covers the prop's footprint.
 /// A caption dims as the shadow comes near and is gone when they touch, so it is never on the prop, however
 /// fast the prop moves. A caption near the prop moves to a free place: it fades out, then fades in there.
@@ -35,10 +36,13 @@ struct TablePolygon {
     [[nodiscard]] std::span<const glm::dvec2> corners() const { return std::span(points).first(count); }
 };
 
+/// Upright for a reader who stands at the side `quarter_turns` of the table: 0 is the front edge, 1 the right one.
 struct TableRectangle {
     glm::dvec2 centre_m{0.0};
-    glm::dvec2 size_m{0.0};
-    [[nodiscard]] std::array<glm::dvec2, 4> corners() const; ///< counter-clockwise from low x, low y
+    glm::dvec2 size_m{0.0}; ///< as the reader sees it: width, height
+    int quarter_turns = 0;
+    /// Counter-clockwise from the reader's bottom left.
+    [[nodiscard]] std::array<glm::dvec2, 4> corners() const;
 };
 
 /// The part of the table that a convex prop hides from a point; for the lens this is the prop's shadow.
@@ -64,9 +68,9 @@ public:
     /// most four. It appears at the best place at the next update.
     void set_shapes(std::span<const glm::dvec2> sizes_m);
 
-    /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye.
+    /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye. `quarter_turns`: the reader's side.
     void update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
-                const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m);
+                const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m, int quarter_turns = 0);
     [[nodiscard]] CaptionPlace at(MonotonicTime now) const;
 
 private:
@@ -74,11 +78,14 @@ private:
         std::size_t shape = 0;
         TableRectangle rectangle;
     };
+    void turn_to(int quarter_turns);
+    /// All in the reader's frame: the table's, turned so that the reader stands at the front.
     [[nodiscard]] std::optional<Choice> choose(const TablePolygon& shadow, const TablePolygon* hidden,
                                                const glm::dvec2& prop_m) const;
     [[nodiscard]] bool inside_room(const TableRectangle& rectangle) const;
 
-    std::vector<glm::dvec2> room_;
+    std::vector<glm::dvec2> room_; ///< in the reader's frame
+    int quarter_turns_ = 0;        ///< of that frame
     double border_m_;
     std::array<glm::dvec2, 4> sizes_{};
     std::size_t size_count_ = 0;

@@ -1,0 +1,31 @@
+/// The side of the table that a visitor reads from, in quarter turns: what lies on the table is turned to it.
+///
+/// 0: the front edge (-Y). Each quarter turn goes on counter-clockwise seen from above: 1 is the right edge
+/// (+X), 2 the far one, 3 the left one.
+///
+/// Frames   table T, metres.
+/// Threads  values; one caller. Allocates nothing.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace frustumscreen {
+
+class VisitorSide {
+public:
+    /// A visitor must be so much nearer to another side, as seen from the table's middle, before that side counts: at a
+    /// table's corner nothing may turn to and fro.
+    static constexpr double hysteresis_deg = 12.0;
+    /// Somebody who leans over the middle of the table reads from where they came.
+    static constexpr double leaning_m = 0.15;
+
+    /// Takes where the eyes are and returns the side.
+    int update(const glm::dvec3& eye_m);
+    [[nodiscard]] int quarter_turns() const { return quarter_turns_; }
+
+private:
+    bool known_ = false; ///< the first eye needs no hysteresis
+    int quarter_turns_ = 0;
+};
+
+} // namespace frustumscreen
