@@ -51,6 +51,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.brightness = shown.brightness * stand.brightness;
     presentation.language = language_of(shown.artifact);
     presentation.caption = caption(now, shown, situation, stand);
+    presentation.zone_share =
+        stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -98,7 +100,8 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     }
     const RigidTransform& pose = stand.table_from_prop;
     placer_.update(now, hidden_by_prop(place_.prop, pose, place_.lens_m),
-                   hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation));
+                   hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
+                   side_.update(situation.eye_m));
     const CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * (shown.caption_brightness * stand.brightness);
     if (brightness <= 0.0) {

@@ -16,6 +16,8 @@
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/selection.h"
+#include "app/exhibit/visitor_side.h"
+#include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/settings/command.h"
 #include "app/tracking/situation.h"
@@ -45,6 +47,7 @@ struct ExhibitPlace {
     PropShape prop;
     glm::dvec3 lens_m{0.0};            ///< the projector's
     std::vector<glm::dvec2> picture_m; ///< what the projector's picture covers of the table, convex
+    ZoneFrame zone;                    ///< by default there is none
     glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
 };
@@ -61,6 +64,7 @@ struct Presentation {
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
+    double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
     bool settled = true;            ///< nothing fades: a good moment for a picture
@@ -93,6 +97,7 @@ private:
     ExhibitPlace place_;
     Selection selection_;
     std::optional<Attract> attract_; ///< from the first step on
+    VisitorSide side_;               ///< what lies on the table is turned to it
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.

@@ -25,7 +25,8 @@ void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster
 
 void set_face(const Shader& shader, const FacePlan& face) {
     glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
-    glUniform2f(shader.location(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre);
+    glUniform3f(shader.location(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre,
+                face.light.most);
 }
 
 void set_draw(const Shader& shader, const Draw& draw) {
@@ -78,12 +79,38 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
             ++calls;
         }
     }
+    if (output == Output::Colours) {
+        calls += soften_edges(plan, shaders, raster);
+    }
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
     return calls;
+}
+
+int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const {
+    const Shader* const shader = shaders.find({ShaderKey::Pass::EdgeFeather});
+    if (plan.feathers.empty() || shader == nullptr) {
+        return 0;
+    }
+    shader->use();
+    glBindVertexArray(no_attributes_.get());
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+    for (const EdgeFeather& feather : plan.feathers) {
+        const auto face = static_cast<std::size_t>(feather.face);
+        glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
+        set_scissor(plan.faces[face].bounds, raster);
+        glUniform4fv(shader->location(Uniform::Corners), 4, glm::value_ptr(feather.corners_clip[0]));
+        glUniform2f(shader->location(Uniform::EdgeShare), feather.share.x, feather.share.y);
+        glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+    }
+    glDisable(GL_BLEND);
+    return static_cast<int>(plan.feathers.size());
 }
 
 void FacePass::upload_indices(const FramePlan& plan) const {

@@ -30,6 +30,8 @@ public:
 private:
     void upload_indices(const FramePlan& plan) const;
     void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const;
+    /// Returns the number of draw calls.
+    int soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
     void draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
                       const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
 

@@ -11,10 +11,9 @@ namespace {
 
 /// In the order of Uniform.
 constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> uniform_names{
-    "corners",       "clip_from_unit", "prop_from_unit",      "mip_level",
-    "brightness",    "dither",         "pixel_from_fragment", "pinhole",
-    "inverse_depth", "face_gain",      "rectangles",          "picture",
-    "raster"};
+    "corners",    "clip_from_unit",      "prop_from_unit", "mip_level",     "brightness",
+    "dither",     "pixel_from_fragment", "pinhole",        "inverse_depth", "face_gain",
+    "edge_share", "rectangles",          "picture",        "raster"};
 
 } // namespace
 

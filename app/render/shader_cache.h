@@ -27,6 +27,7 @@ enum class Uniform : std::size_t {
     Pinhole,
     InverseDepth,
     FaceGain,
+    EdgeShare,
     Rectangles,
     Picture,
     Raster,

@@ -65,13 +65,13 @@ uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
 #ifdef EVEN_LIGHT
 uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
 uniform vec3 inverse_depth; // of the face's plane
-uniform vec2 face_gain;     // constant, times d^3
+uniform vec3 face_gain;     // constant, times d^3, most
 float compensation() {
     vec2 pixel = gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw;
     vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
     float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
     float d2 = depth * depth * (1.0 + dot(ray, ray));
-    return min(1.0, face_gain.x + face_gain.y * d2 * sqrt(d2));
+    return min(face_gain.z, face_gain.x + face_gain.y * d2 * sqrt(d2));
 }
 #endif
 #endif
@@ -102,6 +102,22 @@ void main() {
     result = vec4(max(gain.x * code, (code + 0.055) * gain.y - 0.055), 1.0);
 #endif
 }
+)";
+
+constexpr std::string_view feather_vertex = R"(
+uniform vec4 corners[4]; // the edge's ends, then the inner corners
+uniform vec2 edge_share; // factor of linear light at the ends
+out float share;
+void main() {
+    gl_Position = corners[gl_VertexID];
+    share = gl_VertexID >= 2 ? 1.0 : gl_VertexID == 0 ? edge_share.x : edge_share.y;
+}
+)";
+// Codes are multiplied, so the factor goes through sRGB's power law.
+constexpr std::string_view feather_fragment = R"(
+in float share;
+out vec4 result;
+void main() { result = vec4(vec3(pow(max(share, 0.0), 1.0 / 2.4)), 1.0); }
 )";
 
 // A picture of coverage: white light.
@@ -179,6 +195,8 @@ ShaderSource source_of(const ShaderKey& key) {
         return {"", outline_vertex, outline_fragment};
     case ShaderKey::Pass::Surface:
         return {defines_of(key), surface_vertex, surface_fragment};
+    case ShaderKey::Pass::EdgeFeather:
+        return {"", feather_vertex, feather_fragment};
     case ShaderKey::Pass::TablePicture:
         return {"", picture_vertex, picture_fragment};
     case ShaderKey::Pass::TileClear:

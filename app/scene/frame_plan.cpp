@@ -227,39 +227,52 @@ int samples_at(double density, int samples) {
     return samples;
 }
 
-/// Draws the picture, and then the prop's faces in black: the picture never lights them.
-void plan_caption(const TablePicture& picture, const Shared& shared, FramePlan& plan) {
-    const glm::dmat4 clip_from_table =
-        shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
-    std::array<glm::dvec4, 4> corners;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        corners[k] = clip_from_table * glm::dvec4(picture.corners_m[k], 1.0);
-    }
+/// A quadrilateral with a picture, or black.
+Draw draw_flat(const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip, TextureId texture,
+               double brightness, const PixelRectangle& bounds) {
+    const std::array<glm::vec4, 4> columns = corners_in_clip(outline, clip);
     Draw draw;
     draw.shader = {ShaderKey::Pass::TablePicture};
-    draw.drawable.material.texture = picture.texture;
-    draw.bounds = pixels_around(corners, shared.view.projector);
-    draw.brightness = static_cast<float>(picture.brightness);
-    const auto add = [&](const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip) {
-        const std::array<glm::vec4, 4> columns = corners_in_clip(outline, clip);
-        draw.clip_from_unit = glm::mat4(columns[0], columns[1], columns[2], columns[3]);
-        plan.draws.push_back(draw);
+    draw.drawable.material.texture = texture;
+    draw.clip_from_unit = glm::mat4(columns[0], columns[1], columns[2], columns[3]);
+    draw.brightness = static_cast<float>(brightness);
+    draw.bounds = bounds;
+    return draw;
+}
+
+/// Draws the pictures, and then the prop's faces in black: no picture lights them.
+void plan_table(const Shared& shared, FramePlan& plan) {
+    const glm::dmat4 clip_from_table =
+        shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
+    PixelRectangle bounds;
+    const auto add = [&](const TablePicture& picture) {
+        std::array<glm::dvec4, 4> corners;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            corners[k] = clip_from_table * glm::dvec4(picture.corners_m[k], 1.0);
+        }
+        const PixelRectangle own = pixels_around(corners, shared.view.projector);
+        if (picture.brightness > 0.0 && !own.empty()) {
+            plan.draws.push_back(
+                draw_flat(picture.corners_m, clip_from_table, picture.texture, picture.brightness, own));
+            bounds = united(bounds, own);
+        }
     };
-    if (draw.bounds.empty()) {
-        return;
+    for (const TablePicture& line : shared.view.lines) {
+        add(line);
     }
-    add(picture.corners_m, clip_from_table);
-    draw.drawable = {};
-    draw.brightness = 0.0F;
+    if (shared.view.caption) {
+        add(*shared.view.caption);
+    }
     for (const PropFace& face : shared.prop.faces) {
-        if (face.plane.distance(shared.projector_in_prop) > 0.0) {
-            add(face.corners, shared.clip_from_prop);
+        if (!bounds.empty() && face.plane.distance(shared.projector_in_prop) > 0.0) {
+            plan.draws.push_back(
+                draw_flat(face.corners, shared.clip_from_prop, TextureId::None, 0.0, bounds));
         }
     }
 }
 
-/// The reference is that of all the prop's faces, whether or not the artifact shows on them: the first triangle that
-/// comes to show on a face must not change the others' brightness.
+/// All of the prop's faces count, whether or not the artifact shows on them: the first triangle that comes to
+/// show on a face must not change the others' brightness.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
     if (plan.faces.empty()) {
         return; // the eye or the lens may lie in the prop
@@ -272,9 +285,10 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
     const double reference =
         reference_light(std::span(seen).first(faces), shared.projector_in_prop, compensation);
     for (FacePlan& face : plan.faces) {
-        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)].plane,
-                                shared.view.projector, shared.projector_from_prop, reference, compensation);
+        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)], shared.view.projector,
+                                shared.projector_from_prop, reference, compensation);
     }
+    feather_edges(shared.prop, shared.projector_in_prop, plan);
 }
 
 } // namespace
@@ -297,7 +311,8 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     FramePlan plan;
     const std::size_t faces = prop.faces.size();
     plan.faces.reserve(faces);
-    plan.draws.reserve(parts * faces + 1 + faces);
+    plan.draws.reserve(parts * faces + most_lines + 1 + faces);
+    plan.feathers.reserve(4 * faces);
     // A triangle may show on every face. Memory that is never written is never used.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
@@ -309,12 +324,11 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.projector = view.projector;
     plan.faces.clear();
     plan.draws.clear();
+    plan.feathers.clear();
     plan.indices.clear();
     plan.front.forget();
     plan.lit.begin(view.projector.width, view.projector.height);
-    if (view.caption && view.caption->brightness > 0.0) {
-        plan_caption(*view.caption, shared, plan);
-    }
+    plan_table(shared, plan);
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
         plan_parts(parts, shared, plan);
     }

@@ -16,6 +16,7 @@
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
 #include "app/scene/drawable.h"
+#include "app/scene/edge_feather.h"
 #include "app/scene/light.h"
 #include "app/scene/lit_tiles.h"
 #include "app/scene/shader_key.h"
@@ -60,7 +61,7 @@ struct Part {
 /// A fade from one level to another. `share`: of the pixels that have arrived, 0..1.
 [[nodiscard]] std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share);
 
-/// A picture that lies flat on the table, and never on the prop: a caption. Table frame, metres.
+/// A picture that lies flat on the table, and never on the prop: a caption, a line. Table frame, metres.
 struct TablePicture {
     std::array<glm::dvec3, 4> corners_m{}; ///< of the picture: top left, top right, bottom right, bottom left
     double brightness = 1.0;               ///< 0..1, linear light
@@ -75,10 +76,14 @@ struct PlanView {
     /// Table frame. One eye for all faces, or one for each.
     std::span<const glm::dvec3> eyes_m;
     /// Nothing = colours stay as they are in the texture.
-    std::optional<LightCompensation> light = LightCompensation{};
-    double brightness = 1.0; ///< of the artifact, 0..1, linear light: fades; 0 leaves the prop dark
+    std::optional<LightCompensation> light = std::nullopt;
+    /// Of the artifact, linear light: fades, exposure; 0 leaves the prop dark. Above 1, what would be brighter than the
+    /// projector can make it is cut off.
+    double brightness = 1.0;
     std::optional<TablePicture> caption = std::nullopt;
+    std::span<const TablePicture> lines = {}; ///< drawn before the caption, at most most_lines
 };
+inline constexpr std::size_t most_lines = 4;
 
 /// A run of FramePlan::indices.
 struct IndexRange {
@@ -110,7 +115,7 @@ struct Draw {
     IndexRange range;
     PixelRectangle bounds;       ///< holds every pixel that it can light
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
-    float brightness = 1.0F;     ///< 0..1, linear light
+    float brightness = 1.0F;     ///< linear light
     Dither dither;               ///< if the shader dithers
 };
 
@@ -121,6 +126,7 @@ struct FramePlan {
     /// asked for, so that each place of the artifact keeps its samples.
     int samples = 0;
     std::vector<FacePlan> faces;
+    std::vector<EdgeFeather> feathers; ///< drawn after the draws in the prop
     std::vector<Draw> draws; ///< in the order of drawing: on the table, then part by part in the prop
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
     LitTiles lit;                       ///< hold every pixel that the draws in the prop can light

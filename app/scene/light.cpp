@@ -1,6 +1,8 @@
 #include "app/scene/light.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/settings/light_range.h"
+#include "app/settings/lit_zone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,68 +12,74 @@ namespace frustumscreen {
 
 namespace {
 
-/// Sine of the elevation above a face at which the face counts in full.
-constexpr double full_sine = 0.2;
-
-double by_degrees(const Plane& face, const glm::dvec3& centre, const glm::dvec3& from) {
-    const double sine = face.distance(from) / glm::distance(from, centre);
-    return ease(sine / full_sine);
-}
+/// Sine of the eye's elevation above a face at which the face counts in full.
+constexpr double full_sine_of_sight = 0.5;
 
 glm::dvec3 centre_of(const PropFace& face) {
     return 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
 }
 
+double sine_above(const PropFace& face, const glm::dvec3& from) {
+    return face.plane.distance(from) / glm::distance(from, centre_of(face));
+}
+
+/// h is the same all over a face and d is convex: the least light is at a corner.
+double least_light(const PropFace& face, const glm::dvec3& projector) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : face.corners) {
+        least = std::min(least, received_light(face.plane, corner, projector));
+    }
+    return least;
+}
+
 } // namespace
 
-double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector) {
-    const double d = glm::distance(projector, point);
-    return face.distance(projector) / (d * d * d);
+LightCompensation light_compensation(const Settings& settings) {
+    LightCompensation compensation;
+    compensation.reference = even_light(settings);
+    compensation.least_share = settings.prop.zone == PropZone::Hand ? 1.0 : compensation.least_share;
+    return compensation;
 }
 
-double reference_light(std::span<const SeenFace> seen, const glm::dvec3& projector,
+double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projector,
                        const LightCompensation& compensation) {
-    double brightest = 0.0;
-    for (const SeenFace& s : seen) {
-        brightest = std::max(brightest, received_light(s.face->plane, centre_of(*s.face), projector));
+    double share = 1.0;
+    for (const SeenFace& each : faces) {
+        const double reached = std::clamp(least_light(*each.face, projector) / compensation.reference,
+                                          compensation.least_share, 1.0);
+        const double seen = std::clamp(sine_above(*each.face, each.eye) / full_sine_of_sight, 0.0, 1.0);
+        share = std::min(share, std::pow(reached, seen));
     }
-    double reference = brightest;
-    for (const SeenFace& s : seen) {
-        // h is the same all over a face and d is convex: the least light is at a corner.
-        double least = std::numeric_limits<double>::infinity();
-        for (const glm::dvec3& corner : s.face->corners) {
-            least = std::min(least, received_light(s.face->plane, corner, projector));
-        }
-        least = std::max(least, compensation.least_gain * brightest);
-        const glm::dvec3 centre = centre_of(*s.face);
-        const double weight =
-            by_degrees(s.face->plane, centre, s.eye) * by_degrees(s.face->plane, centre, projector);
-        reference = std::min(reference, std::lerp(brightest, least, weight));
-    }
-    return reference;
+    return compensation.reference * share;
 }
 
-FaceLight face_light(const Plane& face, const Pinhole& pinhole, const glm::dmat4& projector_from_prop,
+FaceLight face_light(const PropFace& face, const Pinhole& pinhole, const glm::dmat4& projector_from_prop,
                      double reference, const LightCompensation& compensation) {
     // The plane in the projector's frame: m.Q = h with m = R n; with Q = Z r, 1 / Z = m.r / h.
-    const glm::dvec3 m = glm::dmat3(projector_from_prop) * face.normal;
-    const double h = face.offset + glm::dot(m, glm::dvec3(projector_from_prop[3]));
+    const glm::dmat3 rotation(projector_from_prop);
+    const glm::dvec3 m = rotation * face.plane.normal;
+    const double h = face.plane.offset + glm::dot(m, glm::dvec3(projector_from_prop[3]));
     const glm::dvec3 per_ray = m / h;
     FaceLight light;
     light.inverse_depth = glm::vec3(
         glm::dvec3(per_ray.x / pinhole.fx, per_ray.y / pinhole.fy,
                    per_ray.z - per_ray.x * pinhole.cx / pinhole.fx - per_ray.y * pinhole.cy / pinhole.fy));
+    const glm::dvec3 projector = glm::transpose(rotation) * -glm::dvec3(projector_from_prop[3]);
+    const double most = ease((sine_above(face, projector) - least_sine_of_light) /
+                             (full_sine_of_light - least_sine_of_light));
+    light.most = static_cast<float>(most);
+    light.constant = static_cast<float>(most * (1.0 - compensation.strength));
     // `h` is measured from the projector's origin along m: the projector is -h above the plane.
-    light.constant = static_cast<float>(1.0 - compensation.strength);
-    light.per_cubic_metre = static_cast<float>(compensation.strength * reference / -h);
+    light.per_cubic_metre = static_cast<float>(most * compensation.strength * reference / -h);
     return light;
 }
 
 double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel) {
     const double inverse_depth = glm::dot(glm::dvec3(light.inverse_depth), glm::dvec3(pixel, 1.0));
     const double d = glm::length(pinhole.ray(pixel)) / inverse_depth;
-    return std::min(1.0, static_cast<double>(light.constant) +
-                             static_cast<double>(light.per_cubic_metre) * d * d * d);
+    return std::min(static_cast<double>(light.most),
+                    static_cast<double>(light.constant) +
+                        static_cast<double>(light.per_cubic_metre) * d * d * d);
 }
 
 } // namespace frustumscreen

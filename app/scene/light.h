@@ -1,16 +1,16 @@
 /// The projector's light on the prop, and how the picture is dimmed to make it even.
 ///
 /// A small surface at distance d whose normal makes the angle theta with the light gets cos(theta) / d^2. On
-/// a plane with the projector h above it cos(theta) = h / d: the light is h / d^3, a steep face gets a
-/// quarter of the top's. The picture is dimmed, in linear light, by reference / light, where the reference is
-/// the light of the dimmest place that the visitor sees: every place then sends back the same, and no place
-/// must be brighter than the projector can make it. Within a face only d changes, so the gain of a pixel is
+/// a plane with the projector h above it cos(theta) = h / d: the light is h / d^3, a steep face gets a part
+/// of the top's. The picture is dimmed, in linear light, by reference / light. The reference is one number of
+/// the set-up (even_light in light_range.h), so that the artifact sends back the same from every place of every face, in
+/// every pose and to every eye: nothing can jump. Within a face only d changes, so the gain of a pixel is
 /// scale * d^3, exact.
 ///
-/// Two limits keep the picture bright. A face that gets less than `least_gain` of the brightest counts as if
-/// it got that much: it stays a little dim and does not take all the others down. A face that the eye or the
-/// projector sees only at a grazing angle counts only in part, so that no brightness jumps when the prop is
-/// turned and a face comes in sight.
+/// Where a face that the eye sees gets less than the reference, no gain can help: the projector has no more.
+/// Then the whole artifact dims with that face, by as much as the eye sees of the face, but not below
+/// `least_share`; a face that gets even less dims alone. A face that is lit at a grazing angle fades out,
+/// because there a pixel becomes a long stripe.
 ///
 /// Frames   prop P, metres. Light in units of a surface square to the projector at 1 m.
 /// Threads  pure; any.
@@ -18,43 +18,52 @@
 
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
+#include "app/settings/settings.h"
 
 #include <glm/glm.hpp>
 
-#include <optional>
 #include <span>
 
 namespace frustumscreen {
 
 struct LightCompensation {
+    /// The light that every place is dimmed to.
+    double reference = 0.25;
+    /// How far the artifact dims as a whole, 0..1; 1: never.
+    double least_share = 0.3;
     /// 0 = none, 1 = even light; between: a mixture of the two pictures, brighter and less even.
     double strength = 1.0;
-    /// The dimmest place counts as getting at least this share of the brightest place's light.
-    double least_gain = 0.1;
 };
 
-/// cos(theta) / d^2 at a point of a face; 0 or less where the projector is not above the face.
-[[nodiscard]] double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector);
+/// What the exhibit does in this set-up. In the hand no artifact dims as a whole: a face that looks away from the
+/// projector is nothing that a visitor should mend.
+[[nodiscard]] LightCompensation light_compensation(const Settings& settings);
+
+/// Sine of the light's elevation above a face's middle: from this on it counts as lit in full, and down to
+/// least_sine_of_light (lit_zone.h) it fades out. At 0.12, a pixel of 0.42 mm makes a stripe of 3.5 mm.
+inline constexpr double full_sine_of_light = 0.3;
 
 /// A face of the prop, and the eye that its picture is for.
 struct SeenFace {
     const PropFace* face = nullptr;
     glm::dvec3 eye{0.0};
 };
-/// The light that the faces are dimmed to. All of the prop's faces are given: one that the eye or the projector does
-/// not see counts for nothing, and one that comes in sight counts by degrees, whether or not the artifact shows on it.
-[[nodiscard]] double reference_light(std::span<const SeenFace> seen, const glm::dvec3& projector,
+/// The light that the faces are dimmed to. All of the prop's faces are given: one that the eye does not see
+/// counts for nothing, and one that comes in sight counts by degrees, whether or not the artifact shows on
+/// it.
+[[nodiscard]] double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 
-/// Gain of the pixel (u, v), in linear light, for a face: min(1, constant + per_cubic_metre * d^3), where the
-/// lit point's distance is d = |((u - cx) / fx, (v - cy) / fy, 1)| / dot(inverse_depth, (u, v, 1)).
+/// Gain of the pixel (u, v), in linear light, for a face: min(most, constant + per_cubic_metre * d^3), where
+/// the lit point's distance is d = |((u - cx) / fx, (v - cy) / fy, 1)| / dot(inverse_depth, (u, v, 1)).
 struct FaceLight {
     glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F}; ///< 1/m, of the face's plane along the optical axis
     float constant = 1.0F;
     float per_cubic_metre = 0.0F;
+    float most = 1.0F; ///< less where the light grazes the face
 };
 /// `projector_from_prop` is rigid; the projector is above the face.
-[[nodiscard]] FaceLight face_light(const Plane& face, const Pinhole& pinhole,
+[[nodiscard]] FaceLight face_light(const PropFace& face, const Pinhole& pinhole,
                                    const glm::dmat4& projector_from_prop, double reference,
                                    const LightCompensation& compensation);
 [[nodiscard]] double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel);

@@ -56,6 +56,7 @@ std::uint64_t hash_of(const FramePlan& plan) {
         hash_corners(face.corners_clip, hash);
         hash.add_float(face.light.constant);
         hash.add_float(face.light.per_cubic_metre);
+        hash.add_float(face.light.most);
     }
     return hash.value();
 }

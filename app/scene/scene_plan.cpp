@@ -93,11 +93,10 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     const std::string_view why = !request.live                ? "pictures from poses have no captions"
                                  : !settings.exhibit.captions ? "the settings switch captions off"
                                                               : "the pack has no captions";
-    plan.left_out.push_back(
-        {UnusedCaptions, "captions, the typeface and the captions' pass", std::string(why)});
+    plan.left_out.push_back({UnusedCaptions, "captions and the typeface", std::string(why)});
 }
 
-void choose_shaders(const SceneRequest& request, ScenePlan& plan) {
+void choose_shaders(const SceneRequest& request, bool zone_frame, ScenePlan& plan) {
     const bool all = (plan.economies & UnusedShaders) == 0;
     const std::uint32_t first = plan.rungs.front().level;
     const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
@@ -115,7 +114,10 @@ void choose_shaders(const SceneRequest& request, ScenePlan& plan) {
             }
         }
     }
-    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0) {
+    if (even) {
+        needs.draws.insert({ShaderKey::Pass::EdgeFeather});
+    }
+    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0 || zone_frame) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
     for (const Rung& rung : plan.rungs) {
@@ -212,11 +214,15 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     plan.prop = make_prop(settings.prop);
     plan.metres_per_box = place(pack.description, plan.prop).metres_per_box;
     plan.visibility = request.visibility;
+    if (request.light) {
+        plan.light = light_compensation(settings);
+        plan.highlight_code = settings.render.highlight_code;
+    }
     const double pixel_m =
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
-    choose_shaders(request, plan);
+    choose_shaders(request, request.live && shows_zone_frame(settings), plan);
     choose_faces(plan);
     return plan;
 }

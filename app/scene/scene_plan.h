@@ -13,12 +13,14 @@
 
 #include "app/pack/pack_outline.h"
 #include "app/scene/governor.h"
+#include "app/scene/light.h"
 #include "app/scene/shader_key.h"
 #include "app/scene/visibility.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,6 +78,8 @@ struct ScenePlan {
     PropShape prop;
     double metres_per_box = 0.0;
     Visibility visibility;
+    std::optional<LightCompensation> light; ///< nothing: it was not asked for
+    int highlight_code = 0;                 ///< for exposure_of; 0 without light
 };
 
 [[nodiscard]] Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack,

@@ -23,6 +23,8 @@ std::string name_of(const ShaderKey& key) {
         return "outline of a face";
     case ShaderKey::Pass::Surface:
         return name_of_surface(key);
+    case ShaderKey::Pass::EdgeFeather:
+        return "edges between faces";
     case ShaderKey::Pass::TablePicture:
         return "caption";
     case ShaderKey::Pass::TileClear:

@@ -15,6 +15,7 @@ struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,      ///< marks a face of the prop
         Surface,      ///< draws a mesh
+        EdgeFeather,  ///< dims a strip of a face
         TablePicture, ///< draws a flat picture beside the prop
         TileClear,    ///< blackens tiles of the larger picture that several samples a pixel need
         TileAverage,  ///< averages these samples

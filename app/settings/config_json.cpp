@@ -1,6 +1,7 @@
 #include "app/settings/config_json.h"
 
 #include "app/settings/describe_settings.h"
+#include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
 
 #include <nlohmann/json.hpp>
@@ -120,6 +121,17 @@ Json lit_zone_json(const Settings& settings) {
         {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}}};
 }
 
+Json light_json(const Settings& settings) {
+    const LightRange range =
+        light_range(make_prop(settings.prop), settings.projector.table_from_projector.translation,
+                    reach_on_table(settings.prop, settings.table));
+    return {{"least_sine", least_sine_of_light},
+            {"least", range.least},
+            {"most", range.most},
+            {"evenness", range.evenness},
+            {"reference", even_light(settings)}};
+}
+
 /// Adds the eye's settings under the names that outside checks use.
 void add_eye(const Json& eye, Json& json) {
     json["eye_default_m"] = eye.at("default_m");
@@ -139,6 +151,7 @@ std::string config_json(const CheckedSettings& checked) {
         if (name == "eye") {
             add_eye(table, json);
             json["lit_zone"] = lit_zone_json(*checked);
+            json["light"] = light_json(*checked);
         } else if (name == "prop") {
             json[name] = table;
             json[name]["faces"] = faces_json(make_prop(checked->prop));

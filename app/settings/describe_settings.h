@@ -115,12 +115,20 @@ void render_settings(auto& fields, auto& render) {
         "error_tolerance_px", render.error_tolerance_px, {0.01, 20.0, "pixels"},
         "of the projector, where one is smallest on the prop: the cheapest level within it is drawn, if it "
         "keeps refresh_hz");
+    fields.integer(
+        "highlight_code", render.highlight_code, 0, 255,
+        "sRGB code that 98 % of an artifact's surface stay below where the prop gets the least light; "
+        "0: the pack's own colours");
 }
 
 template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
     fields.choice("kind", prop.kind, prop_names, "a pyramidal frustum, or a cube");
-    fields.number("base_m", prop.base_m, {0.02, 2.0, "metres"}, "side of the bottom square");
     const bool cube = prop.kind == PropKind::Cube;
+    if constexpr (Fields::reads) {
+        prop.base_m = cube ? cube_settings().base_m : prop.base_m;
+    }
+    fields.number("base_m", prop.base_m, {0.02, 2.0, "metres"},
+                  "side of the bottom square; left out: 0.16 for a cube");
     const Range edge{prop.base_m, prop.base_m, "metres: a cube's edges are prop.base_m"};
     fields.number("top_m", prop.top_m, cube ? edge : Range{0.005, 2.0, "metres"},
                   "side of the top square; a cube's is base_m");
@@ -209,6 +217,11 @@ void exhibit_settings(auto& fields, auto& exhibit) {
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");
     fields.number("caption_height_m", exhibit.caption_height_m, {0.002, 0.2, "metres"},
                   "of a letter's em on the table; 24 pt are 0.0085 m");
+    fields.number("caption_brightness", exhibit.caption_brightness, {0.01, 1.0, "of the projector's light"},
+                  "the artifact should be the brightest thing on the table");
+    fields.flag("zone_frame", exhibit.zone_frame,
+                "a frame of light on the table shows where the prop is lit, when it leaves these places or "
+                "is lifted");
 }
 
 void all_settings(auto& file, auto& settings) {

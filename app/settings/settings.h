@@ -26,9 +26,9 @@
 namespace frustumscreen {
 
 struct ProjectorSettings {
-    Pinhole pinhole{1280, 800, 1920.0, 1920.0, 640.0, 400.0}; ///< pixels
+    Pinhole pinhole{1920, 1200, 3600.0, 3600.0, 960.0, 600.0}; ///< pixels
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
-    RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.2)};
+    RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
     double refresh_hz = 60.0;
 };
 
@@ -50,13 +50,13 @@ enum class PropKind { Frustum, Cube };
 enum class PropZone { Table, Hand };
 struct PropSettings {
     PropKind kind = PropKind::Frustum;
-    double base_m = 0.16; ///< side of the bottom square
-    double top_m = 0.09;  ///< side of the top square
-    double height_m = 0.12;
+    double base_m = 0.30; ///< side of the bottom square
+    double top_m = 0.08;  ///< side of the top square
+    double height_m = 0.155;
     PropZone zone = PropZone::Table; ///< where it moves
 };
 /// A cube of the usual size, in the hand.
-[[nodiscard]] PropSettings cube_settings(double edge_m = PropSettings{}.base_m);
+[[nodiscard]] PropSettings cube_settings(double edge_m = 0.16);
 [[nodiscard]] PropShape make_prop(const PropSettings& prop);
 
 struct TableSettings {
@@ -121,10 +121,13 @@ struct ExhibitSettings {
     std::string language = "en";
     bool captions = true;
     double caption_height_m = 0.010;
+    double caption_brightness = 0.6; ///< share of the projector's light
+    bool zone_frame = true;          ///< a frame of light shows where the prop belongs
 };
 
 struct RenderSettings {
     double error_tolerance_px = 0.5;
+    int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
 };
 
 struct Settings {
@@ -138,6 +141,11 @@ struct Settings {
     PanelSettings panel;
     ExhibitSettings exhibit;
 };
+
+/// A prop in the hand has no zone on the table.
+[[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {
+    return settings.exhibit.zone_frame && settings.prop.zone == PropZone::Table;
+}
 
 class CheckedSettings {
 public:

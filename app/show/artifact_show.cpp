@@ -5,6 +5,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/prop_note.h"
 #include "app/render/read_back.h"
+#include "app/scene/exposure.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -119,7 +120,10 @@ struct ArtifactShow::Loader {
         if (const auto note = note_other_prop(file.string(), **pack, name_of(settings.prop.kind))) {
             notes.push_back(*note);
         }
-        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), {}, {}};
+        const PackLevel& first = (*pack)->levels[plan.rungs.front().level];
+        const double exposure =
+            exposure_of(first, (*pack)->box_size, (*pack)->textures[first.texture], plan.highlight_code);
+        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), exposure, {}, {}};
         if (Result<void> set = set_captions(**pack, artifact); !set) {
             release(artifact);
             return at(file.string(), set.error());
@@ -218,6 +222,13 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts)));
+    if (shows_zone_frame(settings)) {
+        const Result<TextureId> white = show->renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
+        if (!white) {
+            return tl::unexpected<Error>(white.error());
+        }
+        show->white_ = *white;
+    }
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
     if (settings.exhibit.captions && !loader.languages.empty() &&
@@ -234,8 +245,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
 
 /// Measures at the middle of the table, seen by the default eye.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
-    const PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
+    PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1), light_};
     for (Artifact& artifact : artifacts_) {
+        view.brightness = artifact.exposure;
         artifact.levels.measure(prop_, view, renderer_, target);
         warm_up(artifact, view, target);
     }
@@ -261,9 +273,26 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
 ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
                            std::vector<Artifact> artifacts)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
-      prop_(make_prop(settings.prop)), needs_(needs), renderer_(std::move(renderer)),
-      artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)),
-      attract_place_m_(lit_rectangle(settings).centre_m) {}
+      prop_(make_prop(settings.prop)), light_(light_compensation(settings)),
+      caption_brightness_(settings.exhibit.caption_brightness), needs_(needs), renderer_(std::move(renderer)),
+      artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)), attract_place_m_(0.0) {
+    const Rectangle zone = lit_rectangle(settings);
+    attract_place_m_ = zone.centre_m;
+    if (shows_zone_frame(settings)) {
+        zone_ = ZoneFrame(zone, 0.5 * settings.prop.base_m, {settings.table.width_m, settings.table.depth_m});
+    }
+}
+
+std::span<const TablePicture> ArtifactShow::place_zone(const Presentation& presentation) {
+    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
+    if (brightness <= 0.0) {
+        return {};
+    }
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+        lines_[k] = {picture_corners(zone_.sides()[k]), brightness, white_};
+    }
+    return lines_;
+}
 
 std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
     if (!presentation.caption) {
@@ -273,14 +302,16 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
     const CaptionPicture& picture =
         artifacts_[presentation.artifact].captions[caption.language][caption.shape];
     return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
-                        caption.brightness, picture.texture};
+                        caption_brightness_ * caption.brightness, picture.texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
-    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
-    view.brightness = presentation.brightness;
+    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1),
+                  light_};
+    view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
     view.caption = place_caption(presentation);
+    view.lines = place_zone(presentation);
     if (on_ != presentation.artifact) {
         artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
         on_ = presentation.artifact;
@@ -294,6 +325,7 @@ ShowUse ArtifactShow::use() const {
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
+    use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
     use.gpu_bytes = renderer_.bytes();
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
@@ -336,7 +368,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
     const RigidTransform& table_from_projector = settings.projector.table_from_projector;
     return {artifacts.catalogue(),
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
-             artifacts.attract_place_m(), settings.panel.buttons()},
+             artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons()},
             settings.exhibit.language,
             now};
 }

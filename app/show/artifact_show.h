@@ -52,6 +52,7 @@ public:
                                                                       const RenderTarget& target);
 
     [[nodiscard]] const Catalogue& catalogue() const { return catalogue_; }
+    [[nodiscard]] const ZoneFrame& zone() const { return zone_; }
     /// Where an artifact stands while nobody knows where the prop is; table coordinates.
     [[nodiscard]] const glm::dvec2& attract_place_m() const { return attract_place_m_; }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Presentation& presentation,
@@ -78,6 +79,7 @@ private:
         std::string title;
         ScenePlan plan;
         RunLevels levels;
+        double exposure = 1.0; ///< factor of linear light
         std::vector<std::string> languages;
         /// One list for each of `languages`, in the catalogue's order.
         std::vector<std::vector<CaptionPicture>> captions;
@@ -88,12 +90,16 @@ private:
                  std::vector<Artifact> artifacts);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
+    /// The frame around the prop's zone; none if it is dark.
+    [[nodiscard]] std::span<const TablePicture> place_zone(const Presentation& presentation);
     /// Nothing if none is shown.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
     Pinhole projector_;
     RigidTransform table_from_projector_;
     PropShape prop_;
+    LightCompensation light_;
+    double caption_brightness_; ///< share of the projector's light
     RenderNeeds needs_;
     Renderer renderer_;
     std::vector<Artifact> artifacts_;
@@ -101,6 +107,9 @@ private:
     std::vector<std::string> notes_;
     Catalogue catalogue_;
     glm::dvec2 attract_place_m_;
+    ZoneFrame zone_;
+    TextureId white_ = TextureId::None; ///< one texel: what the frame is drawn with
+    std::array<TablePicture, most_lines> lines_{};
     std::size_t on_ = 0; ///< the artifact that is on
 };
 

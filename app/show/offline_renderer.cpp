@@ -1,6 +1,7 @@
 #include "app/show/offline_renderer.h"
 
 #include "app/render/read_back.h"
+#include "app/scene/exposure.h"
 
 #include <fmt/format.h>
 
@@ -37,16 +38,13 @@ Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutlin
     return plan;
 }
 
-OfflineRenderer::OfflineRenderer(const ScenePlan& plan, const OfflineOptions& options)
-    : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop) {
-    if (options.light) {
-        light_ = LightCompensation{};
-    }
-}
+OfflineRenderer::OfflineRenderer(const ScenePlan& plan)
+    : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop),
+      light_(plan.light) {}
 
 Result<std::unique_ptr<OfflineRenderer>>
 OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options) {
-    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan, options));
+    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
     const int width = made->projector_.width;
     const int height = made->projector_.height;
     Result<std::unique_ptr<SurfacelessDisplay>> display = SurfacelessDisplay::create(width, height);
@@ -73,6 +71,8 @@ OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const O
         }
         made->hit_points_ = std::move(*hit_points);
     }
+    made->exposure_ =
+        exposure_of(level.mesh, pack->box_size, pack->textures[level.mesh.texture], plan.highlight_code);
     made->technique_ = fmt::format("level{}", number);
     made->estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
     made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
@@ -92,7 +92,8 @@ void OfflineRenderer::draw_once(const PlanView& view) {
 }
 
 OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m) {
-    const PlanView view{projector_, table_from_projector_, table_from_prop, std::span(&eye_m, 1), light_};
+    const PlanView view{projector_, table_from_projector_, table_from_prop, std::span(&eye_m, 1), light_,
+                        exposure_};
     if (!warm_) {
         draw_once(view); // the driver compiles its shaders on the first picture
         warm_ = true;

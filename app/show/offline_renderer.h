@@ -60,13 +60,14 @@ public:
     [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }
 
 private:
-    OfflineRenderer(const ScenePlan& plan, const OfflineOptions& options);
+    explicit OfflineRenderer(const ScenePlan& plan);
     void draw_once(const PlanView& view);
 
     Pinhole projector_;
     RigidTransform table_from_projector_;
     PropShape prop_;
     std::optional<LightCompensation> light_;
+    double exposure_ = 1.0;
     std::string technique_;
     double estimated_error_mm_ = 0.0;
     PlacedLevel placed_;

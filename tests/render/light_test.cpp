@@ -46,14 +46,18 @@ SentBack sent_back(const Stage& stage, const Image8& picture) {
     return result;
 }
 
+constexpr double aim = 0.2; ///< every face gets at least this
+
 class Light : public ::testing::Test {
 protected:
     Light() : rig(320, 200), stage(320, 200) {
         rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
+        stage.prop = make_frustum({0.2, 0.06, 0.08}); // the light grazes no face
     }
     SentBack draw(std::optional<LightCompensation> light) {
         plan_frame(stage.prop, rig.level, stage.view(light), rig.plan);
+        rig.plan.feathers.clear(); // at the edges the light is uneven on purpose
         rig.draw(Redraw::Everything);
         return sent_back(stage, rig.picture());
     }
@@ -65,23 +69,19 @@ TEST_F(Light, AWhiteArtifactSendsBackTheSameFromEveryFace) {
     stage.eye_m = {0.0, -0.45, 0.5};
     const SentBack plain = draw(std::nullopt);
     EXPECT_TRUE(plain.faces[3] && plain.faces[4]) << "the front and the top are seen";
-    EXPECT_GT(plain.most, 3.0 * plain.least) << "the light is uneven without compensation";
+    EXPECT_GT(plain.most, 1.8 * plain.least) << "the light is uneven without compensation";
     EXPECT_EQ(plain.brightest_code, 255);
-    const SentBack even = draw(LightCompensation{});
+    const SentBack even = draw(LightCompensation{aim});
     // One code either way at the darkest, about 105, is a factor of 1.02.
     EXPECT_LT(even.most, 1.03 * even.least);
     EXPECT_LE(even.brightest_code, 255);
-    // The front's bottom corners get the least: cos / d^2 = n.(projector - corner) / d^3.
-    const PropFace& front = stage.prop.faces[3];
-    const glm::dvec3 down = glm::dvec3(0.0, 0.0, 0.9) - front.corners[0];
-    const double dimmest = glm::dot(front.plane.normal, down) / std::pow(glm::length(down), 3.0);
-    EXPECT_NEAR(even.least, dimmest, 0.03 * dimmest) << "no dimmer than the dimmest place has to be";
+    EXPECT_NEAR(even.least, aim, 0.03 * aim);
 }
 
 TEST_F(Light, HalfTheStrengthIsBrighterAndLessEven) {
     stage.eye_m = {0.0, -0.45, 0.5};
-    const SentBack even = draw(LightCompensation{1.0, 0.1});
-    const SentBack half = draw(LightCompensation{0.5, 0.1});
+    const SentBack even = draw(LightCompensation{aim});
+    const SentBack half = draw(LightCompensation{aim, 1.0, 0.5});
     const SentBack plain = draw(std::nullopt);
     // Half of the uncompensated picture's light and half of the even one's, at each place.
     EXPECT_NEAR(half.most, 0.5 * (plain.most + even.most), 0.03 * half.most);

@@ -11,9 +11,9 @@
 
 namespace frustumscreen::synthetic {
 
-/// What opaque artifacts, in plain and in even light, and captions need.
+/// What opaque artifacts, in plain and in even light, their edges and captions need.
 [[nodiscard]] inline RenderNeeds needs(int samples, bool fades = false) {
-    RenderNeeds needs{samples, {{ShaderKey::Pass::TablePicture}}};
+    RenderNeeds needs{samples, {{ShaderKey::Pass::TablePicture}, {ShaderKey::Pass::EdgeFeather}}};
     for (const bool even_light : {false, true}) {
         for (const bool dithered : {false, fades}) {
             ShaderKey key;

@@ -1,5 +1,7 @@
 #include "app/geometry/transform.h"
 #include "app/scene/light.h"
+#include "app/settings/light_range.h"
+#include "app/settings/lit_zone.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +26,7 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
     for (const PropFace& face : lit.prop.faces) {
         const double reference = 0.2;
         const FaceLight light =
-            face_light(face.plane, pinhole, lit.projector_from_prop.matrix(), reference, LightCompensation{});
+            face_light(face, pinhole, lit.projector_from_prop.matrix(), reference, LightCompensation{});
         for (int k = 0; k < 200; ++k) {
             const double s = u(random);
             const double t = u(random);
@@ -36,77 +38,90 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
             ASSERT_NEAR(received_light(face.plane, p, lit.projector()), received, 1e-12);
             const auto pixel = pinhole.pixel(lit.projector_from_prop.point(p));
             ASSERT_TRUE(pixel);
-            ASSERT_NEAR(gain(light, pinhole, *pixel) * received, std::min(received, reference), 1e-5);
+            ASSERT_NEAR(gain(light, pinhole, *pixel) * received,
+                        static_cast<double>(light.most) * std::min(received, reference), 1e-5);
         }
     }
 }
 
-TEST(Light, TheReferenceIsTheDimmestCornerSeen) {
-    const Lit lit;
-    const glm::dvec3 eye(0.0, -0.5, 0.5);
-    const std::vector<SeenFace> seen{{&lit.prop.faces[3], eye}, {&lit.prop.faces[4], eye}};
+double dimmest_corner(const PropFace& face, const glm::dvec3& lens) {
     double dimmest = 1e9;
-    for (const SeenFace& s : seen) {
-        for (const glm::dvec3& corner : s.face->corners) {
-            const glm::dvec3 to_light = lit.projector() - corner;
-            const double d = glm::length(to_light);
-            dimmest = std::min(dimmest, glm::dot(s.face->plane.normal, to_light) / (d * d * d));
-        }
+    for (const glm::dvec3& corner : face.corners) {
+        const glm::dvec3 to_light = lens - corner;
+        const double d = glm::length(to_light);
+        dimmest = std::min(dimmest, glm::dot(face.plane.normal, to_light) / (d * d * d));
     }
-    const double reference = reference_light(seen, lit.projector(), {});
-    EXPECT_GE(reference, dimmest * (1.0 - 1e-12));
-    EXPECT_LT(reference, 1.25 * dimmest) << "the projector grazes the front: it counts by degrees";
+    return dimmest;
 }
 
-TEST(Light, NoGainIsEverAboveOneNorBelowTheLeast) {
-    Lit lit;
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> u(-1.0, 1.0);
-    for (int k = 0; k < 2000; ++k) {
-        lit.projector_from_prop.translation = {0.25 * u(random), 0.25 * u(random), 0.9};
-        const glm::dvec3 eye(u(random), u(random), 0.6 + 0.3 * u(random));
-        std::vector<SeenFace> seen;
-        for (const PropFace& face : lit.prop.faces) {
-            if (face.plane.distance(eye) > 0.0 && face.plane.distance(lit.projector()) > 0.0) {
-                seen.push_back({&face, eye});
-            }
-        }
-        const LightCompensation compensation;
-        const double reference = reference_light(seen, lit.projector(), compensation);
-        double brightest = 0.0;
-        for (const SeenFace& s : seen) {
-            const FaceLight light =
-                face_light(s.face->plane, pinhole, lit.projector_from_prop.matrix(), reference, compensation);
-            for (const glm::dvec3& corner : s.face->corners) {
-                const auto pixel = pinhole.pixel(lit.projector_from_prop.point(corner));
-                ASSERT_TRUE(pixel);
-                const double g = gain(light, pinhole, *pixel);
-                ASSERT_GT(g, 0.5 * compensation.least_gain);
-                ASSERT_LE(g, 1.0);
-                brightest = std::max(brightest, g);
-            }
-        }
-        ASSERT_FALSE(seen.empty());
+std::vector<SeenFace> all_faces(const PropShape& prop, const glm::dvec3& eye) {
+    std::vector<SeenFace> faces;
+    for (const PropFace& face : prop.faces) {
+        faces.push_back({&face, eye});
     }
+    return faces;
 }
 
-TEST(Light, NothingJumpsWhenAFaceComesInSight) {
+TEST(Light, TheReferenceStandsWhereEveryFaceReachesIt) {
     const Lit lit;
+    double least = 1e9;
+    for (const PropFace& face : lit.prop.faces) {
+        least = std::min(least, dimmest_corner(face, lit.projector()));
+    }
+    for (const glm::dvec3 eye :
+         {glm::dvec3(0.0, -0.5, 0.5), glm::dvec3(0.3, 0.1, 0.2), glm::dvec3(0, 0, 2)}) {
+        EXPECT_EQ(reference_light(all_faces(lit.prop, eye), lit.projector(), {least}), least);
+    }
+}
+
+TEST(Light, TheWholeArtifactDimsWithAFaceThatTheEyeSeesInFull) {
+    const Lit lit;
+    const PropFace& front = lit.prop.faces[3];
+    const double reached = dimmest_corner(front, lit.projector());
+    const glm::dvec3 square_before(
+        0.25 * (front.corners[0] + front.corners[1] + front.corners[2] + front.corners[3]) +
+        0.6 * front.plane.normal);
+    const auto reference = [&](double aim, double least_share) {
+        return reference_light(all_faces(lit.prop, square_before), lit.projector(), {aim, least_share});
+    };
+    EXPECT_NEAR(reference(1.25 * reached, 0.1), reached, 1e-9) << "down to what the face can send back";
+    EXPECT_NEAR(reference(10.0 * reached, 0.3), 3.0 * reached, 1e-9) << "but not below the share";
+    EXPECT_EQ(reference(10.0 * reached, 1.0), 10.0 * reached) << "or not at all";
+}
+
+TEST(Light, AFaceThatTheEyeDoesNotSeeCountsForNothing) {
+    const Lit lit;
+    const double aim = 1.2 * dimmest_corner(lit.prop.faces[3], lit.projector());
+    const glm::dvec3 from_above(0.0, 0.0, 3.0); // the sides are seen at a sine of 0.28 - 0.03
+    const glm::dvec3 from_behind(0.0, 0.6, 0.4);
+    const std::vector<SeenFace> front_and_top{{&lit.prop.faces[3], from_behind},
+                                              {&lit.prop.faces[4], from_behind}};
+    EXPECT_EQ(reference_light(front_and_top, lit.projector(), {aim, 0.1}), aim);
+    const double above = reference_light(
+        std::vector<SeenFace>{{&lit.prop.faces[3], from_above}, {&lit.prop.faces[4], from_above}},
+        lit.projector(), {aim, 0.1});
+    EXPECT_LT(above, aim);
+    EXPECT_GT(above, aim / 1.2) << "it counts in part";
+}
+
+TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
+    const Lit lit;
+    const PropFace& front = lit.prop.faces[3];
+    const glm::dvec3 middle =
+        0.25 * (front.corners[0] + front.corners[1] + front.corners[2] + front.corners[3]);
+    const glm::dvec3 along = glm::normalize(front.corners[3] - front.corners[0]);
     double before = -1.0;
-    for (int k = 0; k <= 4000; ++k) { // the eye goes once around
-        const double angle = 2.0 * 3.14159265358979 * k / 4000;
-        const glm::dvec3 eye(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.3);
-        std::vector<SeenFace> seen;
-        for (const PropFace& face : lit.prop.faces) {
-            if (face.plane.distance(eye) > 0.0) {
-                seen.push_back({&face, eye});
-            }
-        }
-        const double reference = reference_light(seen, lit.projector(), {});
-        if (before > 0.0) {
-            ASSERT_LT(std::abs(reference - before), 0.05 * before) << k; // 0.09 degrees a step
-        }
-        before = reference;
+    for (int k = 0; k <= 300; ++k) {
+        const double sine = 1e-3 * k + 1e-4;
+        const glm::dvec3 lens = middle + std::sqrt(1.0 - sine * sine) * along + sine * front.plane.normal;
+        glm::dmat4 projector_from_prop(1.0); // looking along -Z suffices: only the lens's place counts
+        projector_from_prop[3] = glm::dvec4(-lens, 1.0);
+        const FaceLight light = face_light(front, pinhole, projector_from_prop, 0.2, {});
+        EXPECT_GE(light.most, before) << sine;
+        EXPECT_LT(light.most - before, k > 0 ? 0.01 : 2.0) << sine;
+        EXPECT_EQ(light.most == 0.0F, sine <= least_sine_of_light) << sine;
+        EXPECT_EQ(light.most == 1.0F, sine >= full_sine_of_light) << sine;
+        before = light.most;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/scene/scene_level.h"
 #include "tests/render/synthetic_pack.h"
+#include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ ScenePlan plan_for(const Settings& settings, const Pack& pack) {
 }
 
 TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
-    const Settings settings;
+    const Settings settings = steep_table();
     const Pack pack = placed_rings();
     const ScenePlan plan = plan_for(settings, pack);
     const SceneLevel level = scene_level(pack, 0, plan);
@@ -94,7 +95,7 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
 }
 
 TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.eye.tracked = false;
     settings.tracker.kind = TrackerKind::None;
     const Pack pack = placed_rings();
@@ -114,7 +115,7 @@ TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
 }
 
 TEST(SceneLevel, OfARecordingOrWithoutEconomiesIsWhole) {
-    Settings settings;
+    Settings settings = steep_table();
     const Pack pack = placed_rings();
     settings.tracker.kind = TrackerKind::Replay;
     EXPECT_EQ(scene_level(pack, 0, plan_for(settings, pack)).mesh.indices, pack.levels[0].indices);

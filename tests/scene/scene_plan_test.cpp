@@ -1,6 +1,7 @@
 // What a scene is said to need, against what its settings and its pack hold.
 
 #include "app/scene/scene_plan.h"
+#include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ bool has_captions(const ScenePlan& plan) {
 }
 
 TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.prop = cube_settings();
     const ScenePlan held = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(held.faces, 0b111111U);
@@ -62,7 +63,7 @@ TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
 }
 
 TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
-    const Settings settings;
+    const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     for (const auto& [technique, level] :
          {std::pair("level0", 0U), std::pair("level3", 3U), std::pair("finest", 3U)}) {
@@ -81,7 +82,7 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
 }
 
 TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
-    const Settings settings; // half a pixel is 0.28 mm: level 1 is within it
+    const Settings settings = steep_table(); // half a pixel is 0.28 mm: level 1 is within it
     const ScenePlan plan = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
     EXPECT_TRUE(fades(plan));
@@ -94,7 +95,7 @@ TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
 }
 
 TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
-    const Settings settings;
+    const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     const ScenePlan lean = plan_scene(settings, outline(), asked).value();
     asked.economies = 0;
@@ -105,13 +106,13 @@ TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
         EXPECT_EQ(full.rungs[k].level, lean.rungs[k].level);
         EXPECT_EQ(full.rungs[k].samples, lean.rungs[k].samples);
     }
-    EXPECT_EQ(shaders_of(full.needs).size(), 8U);
+    EXPECT_EQ(shaders_of(full.needs).size(), 9U);
     EXPECT_EQ(full.faces, 31U);
     EXPECT_EQ(full.captions.size(), 2U);
 }
 
 TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
-    Settings settings;
+    Settings settings = steep_table();
     SceneRequest asked = request(settings);
     EXPECT_TRUE(has_captions(plan_scene(settings, outline(), asked).value()));
     asked.captions = {1};
@@ -121,6 +122,9 @@ TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
     settings.exhibit.captions = false;
     const ScenePlan off = plan_scene(settings, outline(), asked).value();
     EXPECT_FALSE(has_captions(off));
+    settings.exhibit.zone_frame = true;
+    EXPECT_TRUE(has_captions(plan_scene(settings, outline(), asked).value())) << "the frame needs the pass";
+    settings.exhibit.zone_frame = false;
     EXPECT_TRUE(leaves_out(off, UnusedCaptions, "typeface"));
     settings.exhibit.captions = true;
     PackOutline silent = outline();
@@ -133,7 +137,7 @@ TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
 }
 
 TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
-    const Settings settings;
+    const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     asked.technique = "level0";
     asked.captions.clear();
@@ -144,7 +148,8 @@ TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
     fading.dithered = true;
     const auto shaders = [&] { return shaders_of(plan_scene(settings, outline(), asked).value().needs); };
     EXPECT_EQ(shaders(),
-              (std::set<ShaderKey>{{Pass::Outline}, even, {Pass::TileClear}, {Pass::TileAverage}}));
+              (std::set<ShaderKey>{
+                  {Pass::Outline}, even, {Pass::EdgeFeather}, {Pass::TileClear}, {Pass::TileAverage}}));
     asked.light = false;
     asked.samples = 1;
     EXPECT_EQ(shaders(), (std::set<ShaderKey>{{Pass::Outline}, {Pass::Surface}}));
@@ -178,7 +183,7 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
 }
 
 TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
-    Settings settings;
+    Settings settings = steep_table();
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // it may be turned
     settings.eye.tracked = false;
     settings.tracker.kind = TrackerKind::None;
@@ -194,7 +199,7 @@ TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
 }
 
 TEST(DevicePlan, OpensWhatIsConfigured) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.exhibit.packs = {"a.fspack", "b.fspack"};
     const DevicePlan bare = plan_devices(settings, false, false);
     EXPECT_TRUE(bare.head);

@@ -1,6 +1,7 @@
 // Zones against eyes and props drawn from a seed, by hand: a prop's pose is undone with sines and cosines.
 
 #include "app/scene/visibility.h"
+#include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ template <typename Point> double drawn_reach(const glm::dvec3& n, int draws, Poi
 }
 
 TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.eye.default_m = {0.0, -0.3, 0.4}; // stays inside the zone, wherever the prop is
     const Visibility visibility = visibility_of(settings);
     Draw draw;
@@ -56,7 +57,7 @@ TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
 }
 
 TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.eye.tracked = false;
     settings.eye.default_m = {0.1, -0.5, 0.45};
     const Visibility visibility = visibility_of(settings);
@@ -79,7 +80,7 @@ TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
 }
 
 TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
-    Settings settings;
+    Settings settings = steep_table();
     settings.eye.tracked = false;
     settings.tracker.kind = TrackerKind::None;
     const Visibility visibility = visibility_of(settings);
@@ -91,7 +92,7 @@ TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
 
 TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
     for (const TrackerKind kind : {TrackerKind::Replay, TrackerKind::Usb, TrackerKind::SpaceMouse}) {
-        Settings settings;
+        Settings settings = steep_table();
         settings.tracker.kind = kind;
         const Visibility visibility = visibility_of(settings);
         EXPECT_TRUE(std::isinf(visibility.eyes.reach({0.0, 0.0, -1.0})));

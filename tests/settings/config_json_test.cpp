@@ -19,13 +19,13 @@ nlohmann::json report_of(const std::string& text) {
 TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
     const nlohmann::json json = report_of(shipped_text());
     const nlohmann::json& projector = json.at("projector");
-    EXPECT_EQ(projector.at("width"), 1280);
-    EXPECT_EQ(projector.at("height"), 800);
-    EXPECT_EQ(projector.at("fx"), 1920.0);
-    EXPECT_EQ(projector.at("fy"), 1920.0);
-    EXPECT_EQ(projector.at("cx"), 640.0);
-    EXPECT_EQ(projector.at("cy"), 400.0);
-    const nlohmann::json expected{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.2, 1};
+    EXPECT_EQ(projector.at("width"), 1920);
+    EXPECT_EQ(projector.at("height"), 1200);
+    EXPECT_EQ(projector.at("fx"), 3600.0);
+    EXPECT_EQ(projector.at("fy"), 3600.0);
+    EXPECT_EQ(projector.at("cx"), 960.0);
+    EXPECT_EQ(projector.at("cy"), 600.0);
+    const nlohmann::json expected{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.5, 1};
     ASSERT_EQ(projector.at("table_from_projector").size(), 16U);
     for (std::size_t k = 0; k < 16; ++k) {
         EXPECT_NEAR(projector["table_from_projector"][k].get<double>(), expected[k].get<double>(), 1e-15);
@@ -33,13 +33,14 @@ TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
     EXPECT_EQ(json.at("render").at("error_tolerance_px"), 0.5);
     nlohmann::json prop = json.at("prop");
     prop.erase("faces");
-    EXPECT_EQ(
-        prop,
-        nlohmann::json(
-            {{"kind", "frustum"}, {"base_m", 0.16}, {"top_m", 0.09}, {"height_m", 0.12}, {"zone", "table"}}));
+    EXPECT_EQ(prop, nlohmann::json({{"kind", "frustum"},
+                                    {"base_m", 0.30},
+                                    {"top_m", 0.08},
+                                    {"height_m", 0.155},
+                                    {"zone", "table"}}));
     EXPECT_EQ(json.at("eye_default_m"), nlohmann::json({0.0, -0.55, 0.50}));
     EXPECT_EQ(json.at("eye_zone").at("lowest_elevation_deg"), 15.0);
-    EXPECT_GT(json.at("lit_zone").at("any_eye").at("area_m2"), 0.1);
+    EXPECT_GT(json.at("lit_zone").at("any_eye").at("area_m2"), 0.02);
     EXPECT_GT(json.at("lit_zone").at("any_eye").at("polygon_m").size(), 4U);
     EXPECT_GT(json.at("lit_zone").at("default_eye").at("polygon_m").size(), 300U);
 }
@@ -57,11 +58,11 @@ std::map<std::string, nlohmann::json> faces_of(const nlohmann::json& json) {
 TEST(ConfigJson, ListsTheFacesOfAFrustumAndOfACube) {
     const auto frustum = faces_of(report_of(shipped_text()));
     ASSERT_EQ(frustum.size(), 5U);
-    const double length = std::hypot(0.12, 0.035);
-    EXPECT_NEAR(frustum.at("-Y").at("normal")[1].get<double>(), -0.12 / length, 1e-12);
+    const double length = std::hypot(0.155, 0.11);
+    EXPECT_NEAR(frustum.at("-Y").at("normal")[1].get<double>(), -0.155 / length, 1e-12);
     EXPECT_NEAR(frustum.at("-Y").at("normal")[2].get<double>(), 0.035 / length, 1e-12);
     EXPECT_EQ(frustum.at("+Z").at("normal"), nlohmann::json({0.0, 0.0, 1.0}));
-    EXPECT_EQ(frustum.at("+Z").at("corners")[0], nlohmann::json({-0.045, -0.045, 0.12}));
+    EXPECT_EQ(frustum.at("+Z").at("corners")[0], nlohmann::json({-0.04, -0.04, 0.155}));
     const auto cube = faces_of(report_of("[prop]\nkind = \"cube\"\nbase_m = 0.1\n"));
     ASSERT_EQ(cube.size(), 6U);
     EXPECT_EQ(cube.at("-Z").at("normal"), nlohmann::json({0.0, 0.0, -1.0}));

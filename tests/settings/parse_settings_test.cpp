@@ -85,9 +85,9 @@ glm::dvec2 pixel_of(const Settings& settings, const glm::dvec3& table_point) {
 TEST(Settings, TheShippedPictureExactlyCoversTheTableWithTheFarSideOnTop) {
     const Settings settings = parsed(shipped_text());
     EXPECT_LT(glm::distance(pixel_of(settings, {-0.4, 0.25, 0}), glm::dvec2(0, 0)), 1e-9);
-    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, 0.25, 0}), glm::dvec2(1280, 0)), 1e-9);
-    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, -0.25, 0}), glm::dvec2(1280, 800)), 1e-9);
-    EXPECT_LT(glm::distance(pixel_of(settings, {0, 0, 0.5}), glm::dvec2(640, 400)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, 0.25, 0}), glm::dvec2(1920, 0)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.4, -0.25, 0}), glm::dvec2(1920, 1200)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0, 0, 0.5}), glm::dvec2(960, 600)), 1e-9);
 }
 
 TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
@@ -97,7 +97,7 @@ TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
     const double half = near.prop.base_m / 2;
     const glm::dvec2 side = glm::abs(pixel_of(near, {half, half, 0}) - pixel_of(near, {-half, -half, 0}));
     EXPECT_NEAR(side.x * side.y / (1280.0 * 800.0), 0.25, 0.01);
-    EXPECT_EQ(near.prop.base_m, Settings().prop.base_m);
+    EXPECT_EQ(near.prop.base_m, 0.16);
 }
 
 TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
@@ -118,17 +118,17 @@ TEST(Settings, FocalLengthsAndLensShiftAreTakenAsTheyStand) {
 
 TEST(Settings, TheAimLandsInThePrincipalPointAndThePictureStandsUpright) {
     const Settings settings = parsed("[projector]\nposition_m = [0.3, 0.4, 1.0]\naim_m = [0.1, 0.0, 0.0]\n");
-    EXPECT_LT(glm::distance(pixel_of(settings, {0.1, 0, 0}), glm::dvec2(640, 400)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(settings, {0.1, 0, 0}), glm::dvec2(960, 600)), 1e-9);
     EXPECT_NEAR(pixel_of(settings, {0.1, 0.05, 0}).x, pixel_of(settings, {0.1, -0.05, 0}).x, 30.0);
-    EXPECT_LT(pixel_of(settings, {0.1, 0.05, 0}).y, 400.0);
-    EXPECT_GT(pixel_of(settings, {0.15, 0, 0}).x, 640.0);
+    EXPECT_LT(pixel_of(settings, {0.1, 0.05, 0}).y, 600.0);
+    EXPECT_GT(pixel_of(settings, {0.15, 0, 0}).x, 960.0);
 }
 
 TEST(Settings, RollTurnsThePictureClockwiseAsTheProjectorSeesIt) {
     const Settings settings = parsed("[projector]\nroll_deg = 90\n");
     // The picture's right edge now lies where its bottom was: at the visitor.
-    EXPECT_GT(pixel_of(settings, {0, -0.1, 0}).x, 640.0 + 100.0);
-    EXPECT_LT(pixel_of(settings, {0.1, 0, 0}).y, 400.0 - 100.0);
+    EXPECT_GT(pixel_of(settings, {0, -0.1, 0}).x, 960.0 + 100.0);
+    EXPECT_LT(pixel_of(settings, {0.1, 0, 0}).y, 600.0 - 100.0);
 }
 
 TEST(Settings, TheTwoWaysToPlaceTheProjectorAgree) {

@@ -113,10 +113,9 @@ TEST(Refusals, OfTwoWaysToSayOneThing) {
 
 TEST(Refusals, OfSettingsThatMakeNoExhibit) {
     expect_refusals({
-        {"[prop]\ntop_m = 0.16",
-         {":2: prop.top_m is 0.16; a frustum's top must be smaller than prop.base_m"}},
-        {"[prop]\nheight_m = 1.15",
-         {"projector.position_m is 1.2 metres above the table; allowed are at least 1.25"}},
+        {"[prop]\ntop_m = 0.3", {":2: prop.top_m is 0.3; a frustum's top must be smaller than prop.base_m"}},
+        {"[prop]\nheight_m = 1.45",
+         {"projector.position_m is 1.5 metres above the table; allowed are at least 1.55"}},
         {"[prop]\nbase_m = 0.6", {":2: prop.base_m is 0.6", "at most 0.5"}},
         {"[projector]\nposition_m = [0, 0, 0.1]", {":2: projector.position_m is 0.1 metres above"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 2]",

@@ -10,6 +10,7 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> eye_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
 [[nodiscard]] std::vector<StabilityCase> projector_cases();
+[[nodiscard]] std::vector<StabilityCase> light_cases();
 [[nodiscard]] std::vector<StabilityCase> artifact_cases();
 [[nodiscard]] std::vector<StabilityCase> shape_cases();
 [[nodiscard]] std::vector<StabilityCase> pose_cases();

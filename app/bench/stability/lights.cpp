@@ -1,0 +1,156 @@
+// The light that the prop sends back while a visitor walks, and while the prop is slid and turned.
+
+#include "app/bench/stability/themes.h"
+#include "app/scene/light.h"
+#include "app/settings/light_range.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int walks = 40;
+constexpr int steps_a_walk = 500;
+constexpr double step_m = 1e-4;
+constexpr double step_deg = 0.05;
+
+/// A visitor's head and the prop on the table.
+struct Pose {
+    glm::dvec3 eye_m{0.0};
+    glm::dvec2 place_m{0.0};
+    double yaw = 0.0;
+};
+
+class Table {
+public:
+    explicit Table(const Settings& settings)
+        : projector_(settings.projector), prop_(make_prop(settings.prop)),
+          compensation_(light_compensation(settings)), eye_(settings.eye),
+          reach_m_(reach_on_table(settings.prop, settings.table)) {}
+
+    [[nodiscard]] Pose random_pose(std::mt19937& random) const {
+        std::uniform_real_distribution<double> share(-1.0, 1.0);
+        Pose pose;
+        pose.place_m = reach_m_ * glm::dvec2(share(random), share(random));
+        pose.yaw = std::numbers::pi * share(random);
+        const double least = eye_.lowest_elevation_deg * std::numbers::pi / 180.0;
+        const double elevation = std::lerp(least, 0.5 * std::numbers::pi, 0.5 + 0.5 * share(random));
+        const double azimuth = std::numbers::pi * share(random);
+        const double distance = std::lerp(eye_.nearest_m, 1.0, 0.5 + 0.5 * share(random));
+        pose.eye_m = glm::dvec3(pose.place_m, 0.5 * prop_.corners.back().z) +
+                     distance * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        return pose;
+    }
+
+    /// What each corner and middle of each face sends back to the eye, of what the exhibit aims at; nothing
+    /// where it is not both seen and lit.
+    [[nodiscard]] std::vector<std::optional<double>> sent_back(const Pose& pose) const {
+        const RigidTransform table_from_prop{glm::angleAxis(pose.yaw, glm::dvec3(0, 0, 1)),
+                                             glm::dvec3(pose.place_m, 0.0)};
+        const RigidTransform projector_from_prop =
+            projector_.table_from_projector.inverse() * table_from_prop;
+        const glm::dvec3 lens = projector_from_prop.inverse().translation;
+        const glm::dvec3 eye = table_from_prop.inverse().point(pose.eye_m);
+        std::vector<SeenFace> faces;
+        for (const PropFace& face : prop_.faces) {
+            faces.push_back({&face, eye});
+        }
+        const double reference = reference_light(faces, lens, compensation_);
+        std::vector<std::optional<double>> sent;
+        for (const PropFace& face : prop_.faces) {
+            const FaceLight light =
+                face_light(face, projector_.pinhole, projector_from_prop.matrix(), reference, compensation_);
+            const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
+            for (const glm::dvec3& point :
+                 {face.corners[0], face.corners[1], face.corners[2], face.corners[3], middle}) {
+                const auto pixel = projector_.pinhole.pixel(projector_from_prop.point(point));
+                const double received = received_light(face.plane, point, lens);
+                sent.push_back(pixel && received > 0.0 && face.plane.distance(eye) > 0.0
+                                   ? std::optional(gain(light, projector_.pinhole, *pixel) * received /
+                                                   compensation_.reference)
+                                   : std::nullopt);
+            }
+        }
+        return sent;
+    }
+
+private:
+    ProjectorSettings projector_;
+    PropShape prop_;
+    LightCompensation compensation_;
+    EyeSettings eye_;
+    glm::dvec2 reach_m_;
+};
+
+/// The largest change of a point's light in one step, as a share of what the exhibit aims at; of points that stay seen and
+/// lit.
+double most_change(const Table& table, unsigned seed, const auto& step) {
+    std::mt19937 random(seed);
+    double most = 0.0;
+    for (int walk = 0; walk < walks; ++walk) {
+        Pose pose = table.random_pose(random);
+        const Pose goal = table.random_pose(random);
+        std::vector<std::optional<double>> before = table.sent_back(pose);
+        for (int k = 0; k < steps_a_walk; ++k) {
+            step(pose, goal);
+            std::vector<std::optional<double>> now = table.sent_back(pose);
+            for (std::size_t point = 0; point < now.size(); ++point) {
+                if (now[point] && before[point]) {
+                    most = std::fmax(most, std::abs(*now[point] - *before[point]));
+                }
+            }
+            before = std::move(now);
+        }
+    }
+    return most;
+}
+
+StabilityResult walks_in(const std::string& name, const Settings& settings, double bound_a_mm,
+                         double bound_a_turn) {
+    const Table table(settings);
+    const auto towards = [](auto& from, const auto& to) { from += step_m * glm::normalize(to - from); };
+    const double head =
+        most_change(table, 1, [&](Pose& pose, const Pose& goal) { towards(pose.eye_m, goal.eye_m); });
+    const double slide =
+        most_change(table, 2, [&](Pose& pose, const Pose& goal) { towards(pose.place_m, goal.place_m); });
+    const double turn = most_change(
+        table, 3, [&](Pose& pose, const Pose&) { pose.yaw += step_deg * std::numbers::pi / 180.0; });
+    return {{{name + ": light sent back, change a mm of the head", bound_a_mm, head * 1e-3 / step_m},
+             {name + ": change a mm of the prop", bound_a_mm, slide * 1e-3 / step_m},
+             {name + ": change a turn of 0.05 deg", bound_a_turn, turn}}};
+}
+
+/// The shipped table: the light is the same everywhere, up to the gains' 32 bits.
+StabilityResult shipped(const StabilityOptions&) {
+    constexpr double rounding = 1e-5;
+    return walks_in("shipped", Settings{}, 1e-3 / step_m * rounding, rounding);
+}
+
+/// A steep prop close to the projector: faces dim with their light, and the others with them.
+StabilityResult steep(const StabilityOptions&) {
+    Settings settings;
+    settings.projector.pinhole = {1280, 800, 2850.0, 2850.0, 640.0, 400.0};
+    settings.projector.table_from_projector.translation = {0.0, 0.0, 0.9};
+    settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
+    settings.table = {0.404, 0.252};
+    return walks_in("steep prop", settings, 0.01, 0.01);
+}
+
+} // namespace
+
+std::vector<StabilityCase> light_cases() {
+    const std::string theme = "light";
+    return {{theme, "walks around the shipped table", FloatingPoint::Strict, shipped},
+            {theme, "walks around a steep prop", FloatingPoint::Strict, steep}};
+}
+
+} // namespace frustumscreen

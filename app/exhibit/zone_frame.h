@@ -1,0 +1,40 @@
+/// A frame of light on the table around the places where the prop is lit evenly.
+///
+/// It comes up softly as the prop comes near the border of its zone, is lifted or tilted, and stays while it is outside: it
+/// shows the way back. It is a function of the pose alone, so nothing can flicker.
+///
+/// Frames   table T, metres.
+/// Threads  values; any. Allocates nothing.
+#pragma once
+
+#include "app/exhibit/captions.h"
+#include "app/geometry/transform.h"
+#include "app/settings/lit_zone.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+inline constexpr double zone_line_m = 0.003;
+/// The frame's light, as a share of a caption's.
+inline constexpr double zone_brightness = 0.5;
+
+class ZoneFrame {
+public:
+    /// `axis`: the places of the prop's axis; `half_bottom_m`: half the side of the prop's bottom. `table`: width, depth; the
+    /// frame never lies past its edges. No zone, no frame.
+    ZoneFrame(const Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m);
+    ZoneFrame() = default;
+
+    /// 0..1.
+    [[nodiscard]] double share(const RigidTransform& table_from_prop) const;
+    /// The frame's four sides.
+    [[nodiscard]] const std::array<TableRectangle, 4>& sides() const { return sides_; }
+
+private:
+    Rectangle axis_;
+    bool shown_ = false;
+    std::array<TableRectangle, 4> sides_{};
+};
+
+} // namespace frustumscreen

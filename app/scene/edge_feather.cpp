@@ -1,0 +1,129 @@
+#include "app/scene/edge_feather.h"
+
+#include "app/scene/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double shared_px = 1.0;
+/// An outer strip is dark over its first third and then becomes bright over one pixel.
+constexpr double outer_px = 1.5;
+constexpr float outer_share = -0.5F;
+constexpr float hardly_dimmer = 0.99F; ///< no code changes
+
+/// An edge of a face in the picture; the face lies where `inward` points.
+struct PictureEdge {
+    std::array<glm::dvec2, 2> ends_px{};
+    glm::dvec2 inward{0.0}; ///< unit
+};
+
+std::optional<glm::dvec2> pixel_of(const glm::vec4& clip, const Pinhole& pinhole) {
+    if (!(clip.w > 0.0F)) {
+        return std::nullopt;
+    }
+    return (glm::dvec2(clip) / static_cast<double>(clip.w) * 0.5 + 0.5) *
+           glm::dvec2(pinhole.width, pinhole.height);
+}
+
+glm::vec4 clip_of(const glm::dvec2& pixel, const Pinhole& pinhole) {
+    return {glm::vec2(2.0 * pixel / glm::dvec2(pinhole.width, pinhole.height) - 1.0), 0.0F, 1.0F};
+}
+
+/// From corner `k` to the next; nothing if it is not in front of the projector or has no length.
+std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const Pinhole& pinhole) {
+    const std::optional<glm::dvec2> a = pixel_of(face.corners_clip.at(k), pinhole);
+    const std::optional<glm::dvec2> b = pixel_of(face.corners_clip.at((k + 1) % 4), pinhole);
+    const std::optional<glm::dvec2> inside = pixel_of(face.corners_clip.at((k + 2) % 4), pinhole);
+    if (!a || !b || !inside || !(glm::distance(*a, *b) > 0.0)) {
+        return std::nullopt;
+    }
+    const glm::dvec2 along = glm::normalize(*b - *a);
+    const glm::dvec2 aside(-along.y, along.x);
+    return PictureEdge{{*a, *b}, glm::dot(aside, *inside - *a) < 0.0 ? -aside : aside};
+}
+
+/// Does something of the rectangle lie within the strip?
+bool touches(const PictureEdge& edge, const PixelRectangle& bounds, double width_px) {
+    const glm::dvec2 low(bounds.x, bounds.y);
+    const glm::dvec2 high = low + glm::dvec2(bounds.width, bounds.height);
+    const glm::dvec2 nearest(edge.inward.x > 0.0 ? low.x : high.x, edge.inward.y > 0.0 ? low.y : high.y);
+    return glm::dot(edge.inward, nearest - edge.ends_px[0]) < width_px;
+}
+
+/// Both were computed from the same numbers, so that a shared corner is equal.
+bool has_corner(const PropFace& face, const glm::dvec3& corner) {
+    return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
+}
+
+/// The face behind edge `k`; null if it is never lit.
+const PropFace* neighbour_of(const PropShape& prop, const PropFace& face, std::size_t k) {
+    for (const PropFace& other : prop.faces) {
+        if (&other != &face && has_corner(other, face.corners.at(k)) &&
+            has_corner(other, face.corners.at((k + 1) % 4))) {
+            return &other;
+        }
+    }
+    return nullptr;
+}
+
+const FacePlan* plan_of(const PropShape& prop, const PropFace& face, const FramePlan& plan) {
+    for (const FacePlan& planned : plan.faces) {
+        if (&prop.faces[static_cast<std::size_t>(planned.face)] == &face) {
+            return &planned;
+        }
+    }
+    return nullptr;
+}
+
+/// How much dimmer the neighbour is at the edge's ends; 1 where it is not.
+glm::vec2 share_between(const FaceLight& own, const FaceLight& neighbour, const PictureEdge& edge,
+                        const Pinhole& pinhole) {
+    const auto share_at = [&](const glm::dvec2& pixel) {
+        const double dimmer = gain(neighbour, pinhole, pixel);
+        const double brighter = gain(own, pinhole, pixel);
+        return brighter > dimmer ? static_cast<float>(dimmer / brighter) : 1.0F;
+    };
+    return {share_at(edge.ends_px[0]), share_at(edge.ends_px[1])};
+}
+
+EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, const glm::vec2& share,
+                  const Pinhole& pinhole) {
+    const auto& [a, b] = edge.ends_px;
+    const glm::dvec2 aside = width_px * edge.inward;
+    return {
+        static_cast<int>(face),
+        {clip_of(a, pinhole), clip_of(b, pinhole), clip_of(b + aside, pinhole), clip_of(a + aside, pinhole)},
+        share};
+}
+
+} // namespace
+
+void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
+    plan.feathers.clear();
+    for (std::size_t face = 0; face < plan.faces.size(); ++face) {
+        const FacePlan& own = plan.faces[face];
+        const PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::optional<PictureEdge> edge = edge_of(own, k, plan.projector);
+            if (!edge || !touches(*edge, own.bounds, outer_px)) {
+                continue;
+            }
+            const PropFace* const neighbour = neighbour_of(prop, shape, k);
+            if (neighbour == nullptr || !(neighbour->plane.distance(projector) > 0.0)) {
+                plan.feathers.push_back(strip(face, *edge, outer_px, glm::vec2(outer_share), plan.projector));
+            } else if (const FacePlan* const planned = plan_of(prop, *neighbour, plan)) {
+                const glm::vec2 share = share_between(own.light, planned->light, *edge, plan.projector);
+                if (std::min(share.x, share.y) < hardly_dimmer) {
+                    plan.feathers.push_back(strip(face, *edge, shared_px, share, plan.projector));
+                }
+            }
+        }
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,112 @@
+// Edges that two faces of the prop share: the light changes there by degrees.
+
+#include "tests/render/rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+constexpr double aim = 0.2;
+constexpr double step_m = 1e-4;
+
+class EdgeFeather : public ::testing::Test {
+protected:
+    EdgeFeather() : rig(320, 200), stage(320, 200) {
+        rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
+        rig.upload_again();
+        stage.eye_m = {0.0, -0.45, 0.5};
+    }
+    Image8 draw(bool feathered) {
+        plan_frame(stage.prop, rig.level, stage.view(LightCompensation{aim}), rig.plan);
+        if (!feathered) {
+            rig.plan.feathers.clear();
+        }
+        rig.draw(Redraw::Everything);
+        return rig.picture();
+    }
+    /// Where an edge of the top lies in the picture: both faces beside it show the artifact.
+    [[nodiscard]] std::array<glm::dvec2, 2> front_edge_of_top() const {
+        const RigidTransform projector_from_prop =
+            stage.table_from_projector.inverse() * stage.table_from_prop;
+        std::array<glm::dvec2, 2> ends{};
+        std::size_t count = 0;
+        for (const glm::dvec3& corner : stage.prop.faces[4].corners) {
+            if (corner.y < 0.0) {
+                ends.at(count++) = *stage.projector.pixel(projector_from_prop.point(corner));
+            }
+        }
+        return ends;
+    }
+    /// The largest change of a pixel near that edge while the prop moves across it by small steps.
+    int most_change(bool feathered) {
+        int most = 0;
+        stage.table_from_prop.translation = {0.0, 0.0, 0.0};
+        Image8 before = draw(feathered);
+        for (int k = 1; k <= 40; ++k) {
+            stage.table_from_prop.translation.y = k * step_m;
+            const Image8 now = draw(feathered);
+            const auto [a, b] = front_edge_of_top();
+            const int x = static_cast<int>(0.5 * (a.x + b.x)); // the artifact's middle
+            for (int y = static_cast<int>(a.y) - 4; y <= static_cast<int>(a.y) + 4; ++y) {
+                most = std::max(most, std::abs(int{now.at(x, y).g} - int{before.at(x, y).g}));
+            }
+            before = now;
+        }
+        return most;
+    }
+    Rig rig;
+    Stage stage;
+};
+
+TEST_F(EdgeFeather, APixelChangesByDegreesWhenAnEdgeCrossesIt) {
+    const int sharp = most_change(false);
+    const int feathered = most_change(true);
+    EXPECT_GT(sharp, 25) << "the gains of front and top differ, or nothing is proved";
+    EXPECT_LT(feathered, sharp / 3);
+}
+
+TEST_F(EdgeFeather, OnlyTheLastPixelOfTheBrighterFaceIsDimmed) {
+    const Image8 sharp = draw(false);
+    const Image8 feathered = draw(true);
+    ASSERT_FALSE(rig.plan.faces.empty());
+    const auto [a, b] = front_edge_of_top();
+    int dimmed = 0;
+    for (int y = 0; y < sharp.height; ++y) {
+        for (int x = 0; x < sharp.width; ++x) {
+            const int change = int{feathered.at(x, y).g} - int{sharp.at(x, y).g};
+            ASSERT_LE(change, 0) << x << ' ' << y;
+            if (std::min(a.x, b.x) + 2 < x && x < std::max(a.x, b.x) - 2 && change < 0) {
+                ASSERT_LE(std::abs(y + 0.5 - a.y), 1.0 + 1e-3) << x << ' ' << y;
+                ++dimmed;
+            }
+        }
+    }
+    EXPECT_GT(dimmed, 0);
+}
+
+TEST_F(EdgeFeather, TheStripsCloseTheGapBetweenTheGains) {
+    draw(true);
+    ASSERT_FALSE(rig.plan.feathers.empty());
+    for (const frustumscreen::EdgeFeather& feather : rig.plan.feathers) {
+        const FacePlan& own = rig.plan.faces[static_cast<std::size_t>(feather.face)];
+        for (std::size_t end = 0; end < 2; ++end) {
+            const glm::vec4& clip = feather.corners_clip.at(end);
+            const glm::dvec2 pixel = (glm::dvec2(clip) * 0.5 + 0.5) * glm::dvec2(320, 200);
+            const double share = end == 0 ? feather.share.x : feather.share.y;
+            double nearest = 1e9; // to the gain of some neighbour
+            for (const FacePlan& other : rig.plan.faces) {
+                if (&other != &own) {
+                    nearest = std::min(nearest, std::abs(share * gain(own.light, stage.projector, pixel) -
+                                                         gain(other.light, stage.projector, pixel)));
+                }
+            }
+            EXPECT_LT(nearest, 1e-4);
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
