@@ -139,7 +139,7 @@ private:
     }
     void mark(int x, int y) {
         if (x >= 0 && y >= 0 && x < side && y < side) {
-            covered_[static_cast<std::size_t>(y * side + x)] = true;
+            covered_[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)] = true;
         }
     }
 

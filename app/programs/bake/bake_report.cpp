@@ -124,8 +124,9 @@ std::string report_text(const BakeResult& result) {
     return fmt::format("{}: \"{}\" ({}), {}, from {} triangles in {}\n", result.file.string(),
                        result.pack.title, fmt::join(result.pack.languages, ", "), in_units(result.file_bytes),
                        result.pack.provenance.source_triangles, words_of_time(result.seconds)) +
-           fmt::format("  {:<8}{:.0f} mm wide, {:.0f} deep, {:.0f} high in the usual {}\n", "size", size.x,
-                       size.y, size.z, result.pack.prop_kind) +
+           fmt::format("  {:<8}{:.0f} mm wide, {:.0f} deep, {:.0f} high in the usual {}{}\n", "size", size.x,
+                       size.y, size.z, result.pack.prop_kind,
+                       result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
            (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
            notes_text(result, SourceNote::Kind::Guessed, "guessed");
