@@ -166,7 +166,7 @@ TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
              {"gone.png",
               "its picture \"gone.png\" is not beside it; put it there, or name another picture with "
               "--texture FILE (map_Kd gone.png)"},
-             {"BAD.jpg", "such as --texture bad.png"},
+             {"BAD.jpg", "--texture FILE, such as bad.png ("},
              {"bad.png", "PNG picture is damaged"},
              {"model.mtl", "neither PNG"},
              {"../outside.png", "\"outside.png\" is not beside it"},

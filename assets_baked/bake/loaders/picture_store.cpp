@@ -21,8 +21,9 @@ std::shared_ptr<const Image8> PictureStore::named(std::string_view name, std::st
         return curators();
     }
     const std::optional<std::string> like = sidecars_.like(name);
-    refuse("its picture \"{}\" is not beside it; put it there, or name another picture with --texture{} ({})",
-           printable(last_part(name)), like ? fmt::format(", such as --texture {}", *like) : " FILE", place);
+    refuse("its picture \"{}\" is not beside it; put it there, or name another picture with --texture FILE{} "
+           "({})",
+           printable(last_part(name)), like ? ", such as " + printable(*like) : std::string(), place);
 }
 
 std::shared_ptr<const Image8> PictureStore::curators() {
