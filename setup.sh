@@ -16,7 +16,7 @@ packages=(
     # meshes and ray casting
     libembree-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev
     # pictures and letters
-    libpng-dev libturbojpeg0-dev libwebp-dev libfreetype-dev fonts-dejavu-core
+    libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
     # projectors

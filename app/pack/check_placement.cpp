@@ -80,6 +80,10 @@ Result<void> check_placement(const Pack& pack) {
         return bad_input(
             "box_from_file is not a rotation with one scale and a translation; bake the pack again");
     }
+    if (!(pack.scale >= least_scale) || !(pack.scale <= most_scale)) {
+        return bad_input(fmt::format("the placement's scale is {}, allowed are {} to {}", pack.scale,
+                                     least_scale, most_scale));
+    }
     return check_extremes(pack);
 }
 

@@ -129,6 +129,19 @@ void JsonReader::number(const char* key, float& value) {
     value = static_cast<float>(read->get<double>());
 }
 
+void JsonReader::number_or(const char* key, double& value, double left_out) {
+    known_.insert(key);
+    value = left_out;
+    if (!refusal_->message && object_ != nullptr && object_->contains(key)) {
+        const Json& read = (*object_)[key];
+        if (!read.is_number()) {
+            refuse(key, fmt::format("is {}; allowed is a number", found(read)));
+            return;
+        }
+        value = read.get<double>();
+    }
+}
+
 void JsonReader::numbers(const char* key, std::span<double> values) {
     const Json* list = take_list(key, values.size());
     if (list == nullptr) {

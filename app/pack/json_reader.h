@@ -37,6 +37,8 @@ public:
         value = static_cast<Whole>(whole_of(key, most));
     }
     void number(const char* key, float& value);
+    /// A field that may be left out.
+    void number_or(const char* key, double& value, double left_out);
     /// Exactly `values.size()` numbers.
     void numbers(const char* key, std::span<double> values);
     /// Lists of exactly three numbers each.

@@ -35,6 +35,11 @@ public:
     void flag(const char* key, bool value) { object_[key] = value; }
     void whole(const char* key, auto value, std::uint64_t /*most*/) { object_[key] = value; }
     void number(const char* key, float value) { object_[key] = in_few_digits(value); }
+    void number_or(const char* key, double value, double left_out) {
+        if (value != left_out) {
+            object_[key] = value;
+        }
+    }
     void numbers(const char* key, std::span<const double> values) {
         object_[key] = std::vector<double>(values.begin(), values.end());
     }

@@ -21,6 +21,8 @@ inline constexpr std::size_t most_line_bytes = 1000;   ///< titles, names, licen
 inline constexpr std::size_t most_text_bytes = 100000; ///< a caption's text
 
 inline constexpr std::size_t most_extremes = 100000;
+inline constexpr double least_scale = 0.05; ///< on the largest size inside the prop
+inline constexpr double most_scale = 20.0;
 inline constexpr std::size_t most_levels = 32;
 inline constexpr std::size_t most_textures = 64;
 inline constexpr std::uint32_t most_vertices = 1U << 24; ///< of one level

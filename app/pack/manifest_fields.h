@@ -40,6 +40,7 @@ void placement_fields(auto& fields, auto& pack) {
     fields.numbers("box_size", std::span(glm::value_ptr(pack.box_size), 3));
     fields.numbers("box_from_file", std::span(glm::value_ptr(pack.box_from_file), 16)); // column by column
     fields.triples("extremes", pack.extremes, most_extremes);
+    fields.number_or("scale", pack.scale, 1.0);
 }
 
 void relief_fields(auto& fields, auto& relief) {

@@ -112,6 +112,7 @@ struct PackDescription {
     glm::dvec3 box_size{1.0};         ///< extents; the longest is 1
     glm::dmat4 box_from_file{1.0};    ///< the file's own coordinates (glTF: scene) to the box
     std::vector<glm::dvec3> extremes; ///< box frame: outermost vertices, for the largest scale inside a prop
+    double scale = 1.0;               ///< on the largest size inside the prop
     std::uint32_t default_level = 0;
 
     [[nodiscard]] bool operator==(const PackDescription&) const = default;

@@ -13,7 +13,7 @@ Placement place(const PackDescription& pack, const PropShape& prop) {
     for (glm::dvec3& extreme : extremes) {
         extreme.z = std::fmax(extreme.z, 0.0);
     }
-    const double scale = largest_scale_inside(prop, extremes);
+    const double scale = pack.scale * largest_scale_inside(prop, extremes);
     return {scale, glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * pack.box_from_file};
 }
 

@@ -62,11 +62,13 @@ public:
         if (finest_.indices.empty()) {
             finest_ = welded_; // everything is thinner than the tolerance: a rod, a thread
         }
+        options_.progress("what visitors can see", 0.02);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // nothing is seen from the zone: a sheet flat on the table
         }
         samples_ = sample_source(source_, visible_, 5.0F * finest_tolerance);
+        options_.progress("colours and light", 0.1);
         std::vector<Candidate> candidates{candidate_of(visible_, finest_tolerance)};
         const SourceMesh seen_mesh = as_source(visible_);
         const std::vector<glm::dvec3> seen_points(visible_.positions.begin(), visible_.positions.end());
@@ -74,7 +76,7 @@ public:
         std::size_t last = finest_.triangle_count();
         for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
             options_.progress("simplified levels",
-                              0.1 + 0.45 * static_cast<double>(k) / mesh_tolerances.size());
+                              0.4 + 0.5 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.indices.empty() || fewer.triangle_count() * 20 > last * 19) {
                 continue; // nothing is left, or not 5 % fewer than the last: not worth a level
@@ -90,7 +92,7 @@ public:
 
     /// Relief levels share one atlas; `relief` receives it.
     std::vector<Candidate> relief_levels(ReliefAtlas& atlas) {
-        options_.progress("layered relief", 0.6);
+        options_.progress("layered relief", 0.9);
         std::optional<BakedRelief> relief = bake_relief(source_, visible_, frame_.box_size,
                                                         directions_of(options_.prop.shape), options_.size);
         std::vector<Candidate> candidates;
@@ -100,7 +102,8 @@ public:
         const Image<AtlasTexel> texels = rasterise(relief->grid);
         const Image8 texture = lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_);
         for (std::size_t k = 0; k < relief_tolerances.size(); ++k) {
-            options_.progress("relief levels", 0.7 + 0.3 * static_cast<double>(k) / relief_tolerances.size());
+            options_.progress("relief levels",
+                              0.92 + 0.06 * static_cast<double>(k) / relief_tolerances.size());
             const ChartedMesh fewer = simplify_grid(*relief, relief_tolerances[k]);
             if (fewer.indices.empty()) {
                 continue;
@@ -290,7 +293,7 @@ std::uintmax_t room_for_pack(int size) {
 
 Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
-    const Result<BoxFrame> frame = make_box_frame(mesh, up);
+    const Result<BoxFrame> frame = make_box_frame(mesh, {up, options.turn_deg, options.lift});
     if (!frame) {
         return tl::unexpected<Error>(frame.error());
     }
@@ -310,6 +313,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.relief_size = options.size;
     pack.box_size = frame->box_size;
     pack.box_from_file = frame->box_from_file;
+    pack.scale = options.scale;
     pack.provenance.source_triangles = mesh.triangles.size();
     std::vector<glm::dvec3> used;
     for (const auto& triangle : mesh.triangles) {
@@ -317,8 +321,12 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
             used.push_back(bakery.points()[vertex]);
         }
     }
+    if (frame->lift_box > 0.0) {
+        used.emplace_back(0.0); // the box's bottom, above which the artifact stands
+    }
     pack.extremes = profile_extremes(used);
     keep(pack, candidates, atlas);
+    options.progress("choice of the level", 0.98);
     pack.samples =
         samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
     pack.default_level = choose_default(pack, bakery, options.prop);

@@ -35,7 +35,10 @@ struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096
     bool unlit = false;
     BakedProp prop = baked_frustum();
-    std::string up; ///< empty: the format's own
+    std::string up;        ///< empty: the format's own
+    double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
+    double lift = 0.0;     ///< above the prop's bottom, in heights of the artifact
+    double scale = 1.0;    ///< on the largest size inside the prop
     /// Called with what is being done and how much of all is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };

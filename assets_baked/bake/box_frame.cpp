@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace frustumscreen {
 
@@ -68,45 +69,65 @@ std::optional<glm::dmat3> up_rotation(std::string_view up) {
     return std::nullopt;
 }
 
-Result<BoxFrame> make_box_frame(const SourceMesh& mesh, std::string_view up) {
-    const std::optional<glm::dmat3> rotation = up_rotation(up);
-    if (!rotation) {
-        return bad_input("the up axis is '" + std::string(up) + "'; allowed are x, y, z, -x, -y, -z");
+glm::dmat3 turn_rotation(double turn_deg) {
+    const double quarters = std::round(turn_deg / 90.0);
+    const double rest = (turn_deg - 90.0 * quarters) * std::numbers::pi / 180.0;
+    const glm::dvec3 x(std::cos(rest), std::sin(rest), 0.0);
+    const glm::dvec3 y(-x.y, x.x, 0.0);
+    switch (static_cast<int>(std::fmod(quarters, 4.0) + 4.0) % 4) {
+    case 1:
+        return {y, -x, {0, 0, 1}};
+    case 2:
+        return {-x, -y, {0, 0, 1}};
+    case 3:
+        return {-y, x, {0, 0, 1}};
+    default:
+        return {x, y, {0, 0, 1}};
     }
+}
+
+Result<BoxFrame> make_box_frame(const SourceMesh& mesh, const Standing& standing) {
+    const std::optional<glm::dmat3> upright = up_rotation(standing.up);
+    if (!upright) {
+        return bad_input("the up axis is '" + standing.up + "'; allowed are x, y, z, -x, -y, -z");
+    }
+    const glm::dmat3 rotation = turn_rotation(standing.turn_deg) * *upright;
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-std::numeric_limits<double>::infinity());
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
-            const glm::dvec3 p = *rotation * mesh.positions[vertex];
+            const glm::dvec3 p = rotation * mesh.positions[vertex];
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
     }
-    const glm::dvec3 size = high - low;
+    const glm::dvec3 extent = high - low;
+    const glm::dvec3 size(extent.x, extent.y, extent.z * (1.0 + standing.lift));
     const double longest = std::max({size.x, size.y, size.z});
     if (!(longest > 1e-30) || !(longest < 1e30)) {
         return bad_input("the artifact's bounding box has no extent; there is nothing to show");
     }
     BoxFrame frame;
     frame.file_units_per_box = longest;
-    frame.turned_from_file = *rotation;
+    frame.turned_from_file = rotation;
     frame.low = low;
-    frame.extent = size;
+    frame.extent = extent;
+    frame.lift_box = standing.lift * extent.z / longest;
     frame.box_size = glm::max(size / longest, glm::dvec3(1e-6));
     const glm::dvec3 foot((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, low.z);
-    frame.box_from_file = glm::dmat4(*rotation / longest);
-    frame.box_from_file[3] = glm::dvec4(-foot / longest, 1.0);
+    frame.box_from_file = glm::dmat4(rotation / longest);
+    frame.box_from_file[3] = glm::dvec4(glm::dvec3(0, 0, frame.lift_box) - foot / longest, 1.0);
     return frame;
 }
 
 std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
     // The corner of the bounding box is subtracted first: that loses no precision, however far the origin is.
-    const glm::dvec3 half(0.5 * frame.extent.x / frame.file_units_per_box,
-                          0.5 * frame.extent.y / frame.file_units_per_box, 0.0);
+    const glm::dvec3 foot(0.5 * frame.extent.x / frame.file_units_per_box,
+                          0.5 * frame.extent.y / frame.file_units_per_box, -frame.lift_box);
     std::vector<glm::dvec3> points;
     points.reserve(mesh.positions.size());
     for (const glm::dvec3& p : mesh.positions) {
-        points.push_back((frame.turned_from_file * p - frame.low) / frame.file_units_per_box - half);
+        points.push_back((frame.turned_from_file * p - frame.low) / frame.file_units_per_box - foot);
     }
     return points;
 }

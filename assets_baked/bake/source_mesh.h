@@ -32,6 +32,13 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
+/// What a reader could not keep of the file, or had to guess, in one line for the person who has the file.
+struct SourceNote {
+    enum class Kind : std::uint8_t { Lost, Guessed };
+    Kind kind = Kind::Lost;
+    std::string text;
+};
+
 /// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
@@ -42,6 +49,7 @@ struct SourceMesh {
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
+    std::vector<SourceNote> notes;                 ///< in the order in which they were found
     char default_up = 'y';                         ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 

@@ -1,9 +1,11 @@
 #include "firmware_host/base/file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 
@@ -11,11 +13,14 @@ namespace frustumscreen {
 
 namespace {
 
+/// Between the target's name and the number of the process that writes.
+constexpr std::string_view part_suffix = ".part";
+
 /// An output file under its temporary name; unlinked unless `keep` was called.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& target)
-        : path_(target.string() + ".part" + std::to_string(::getpid())),
+        : path_(target.string() + std::string(part_suffix) + std::to_string(::getpid())),
           descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -58,6 +63,19 @@ std::string system_reason() {
     return std::strerror(errno);
 }
 
+/// Whether `name` is a temporary name of `target` whose process is gone. A process of another user is there.
+bool is_left_behind(std::string_view name, const std::string& target) {
+    const std::string begin = target + std::string(part_suffix);
+    if (!name.starts_with(begin)) {
+        return false;
+    }
+    const std::string_view number = name.substr(begin.size());
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), process);
+    return error == std::errc() && end == number.data() + number.size() && process > 0 &&
+           ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
 } // namespace
 
 Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes) {
@@ -90,6 +108,18 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
         return bad_input(path.string() + ": cannot be written: " + system_reason());
     }
     return {};
+}
+
+void clear_partial_files(const std::filesystem::path& path) {
+    const std::string target = path.filename().string();
+    std::error_code stop; // what cannot be listed or removed stays
+    std::filesystem::directory_iterator entry(path.has_parent_path() ? path.parent_path() : ".", stop);
+    for (; !stop && entry != std::filesystem::directory_iterator(); entry.increment(stop)) {
+        std::error_code kept;
+        if (is_left_behind(entry->path().filename().string(), target) && entry->is_regular_file(kept)) {
+            std::filesystem::remove(entry->path(), kept);
+        }
+    }
 }
 
 std::span<const std::byte> as_bytes(std::string_view text) {

@@ -18,8 +18,12 @@ using Bytes = std::vector<std::byte>;
 [[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path,
                                       std::uintmax_t limit_bytes = std::uintmax_t{4} << 30);
 
-/// Writes beside `path`, fsyncs, renames over it. On any error nothing is left behind.
+/// Writes beside `path`, fsyncs, renames over it. On any error nothing is left behind; a process that is killed
+/// leaves `path`.part<its number>.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Removes what killed processes left beside `path`; what a living process writes stays.
+void clear_partial_files(const std::filesystem::path& path);
 
 [[nodiscard]] std::span<const std::byte> as_bytes(std::string_view text);
 [[nodiscard]] std::string_view as_text(std::span<const std::byte> bytes);

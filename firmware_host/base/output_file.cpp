@@ -1,5 +1,7 @@
 #include "firmware_host/base/output_file.h"
 
+#include "firmware_host/base/file.h"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -52,6 +54,7 @@ Result<void> check_output_place(const fs::path& output, std::uintmax_t bytes) {
     if (Result<void> writable = try_to_write_in(folder); !writable) {
         return writable;
     }
+    clear_partial_files(output); // before the room is counted
     return check_space(folder, bytes);
 }
 

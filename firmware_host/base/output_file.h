@@ -14,7 +14,7 @@
 namespace frustumscreen {
 
 /// Checks that the folder exists, is writable and has `bytes` left, and that `output` is a regular file or
-/// does not exist.
+/// does not exist. Clears away what killed runs left of it.
 [[nodiscard]] Result<void> check_output_place(const std::filesystem::path& output, std::uintmax_t bytes = 0);
 
 /// Checks that `output` is none of `inputs`, under any name or link.

@@ -27,7 +27,7 @@ TEST(BoxFrame, TheBoxStandsCentredWithLongestEdgeOneAtAnyScaleAndPlace) {
             SourceMesh mesh = test::empty_mesh();
             const glm::dvec3 corner = glm::dvec3(0.3, -0.7, 0.2) * away * scale;
             test::add_box(mesh, corner, corner + glm::dvec3(2.0, 1.0, 4.0) * scale);
-            const auto frame = make_box_frame(mesh, "z");
+            const auto frame = make_box_frame(mesh, {"z"});
             ASSERT_TRUE(frame);
             EXPECT_NEAR(frame->box_size.x, 0.5, 1e-9);
             EXPECT_NEAR(frame->box_size.y, 0.25, 1e-9);
@@ -45,7 +45,7 @@ TEST(BoxFrame, APointHasNoBox) {
     SourceMesh mesh = test::empty_mesh();
     mesh.positions.assign(3, glm::dvec3(4.0));
     test::add_triangle(mesh, 0, 1, 2);
-    const auto frame = make_box_frame(mesh, "y");
+    const auto frame = make_box_frame(mesh, {"y"});
     ASSERT_FALSE(frame);
     EXPECT_NE(frame.error().message.find("no extent"), std::string::npos);
 }

@@ -1,6 +1,7 @@
 // The time left of a run, at times that were made up.
 
 #include "app/bench/measures/time_left.h"
+#include "firmware_host/base/words_of_time.h"
 
 #include <gtest/gtest.h>
 

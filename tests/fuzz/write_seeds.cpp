@@ -115,6 +115,12 @@ void pictures(const Seeds& seeds) {
     seeds.add("picture", "smooth.png", frustumscreen::testing::png_of(smooth));
     seeds.add("picture", "smooth.jpg", frustumscreen::testing::jpeg_of(smooth));
     seeds.add("picture", "smooth.webp", frustumscreen::testing::webp_of(smooth));
+    seeds.add("picture", "smooth.bmp", frustumscreen::testing::bmp_of(smooth));
+    seeds.add("picture", "smooth.tga", frustumscreen::testing::tga_of(smooth));
+    seeds.add("picture", "runs.tga", frustumscreen::testing::tga_of(Image8(8, 8, {1, 2, 3, 255}), true));
+    seeds.add("picture", "smooth.tiff", frustumscreen::testing::tiff_of(smooth));
+    seeds.add("picture", "alpha.tiff",
+              frustumscreen::testing::tiff_of(smooth, frustumscreen::testing::TiffAlpha::Apart, true));
     seeds.add("picture", "cut.png", frustumscreen::testing::png_of(samples::texture(5, 3, 1, false)));
     seeds.add("picture", "relief.png", as_text(encode_png(samples::relief_atlas().relief)));
     for (const int depth : {1, 2, 4, 8, 16}) {
@@ -124,6 +130,7 @@ void pictures(const Seeds& seeds) {
 }
 
 void meshes(const Seeds& seeds) {
+    seeds.add("mesh", "meshlab.ply", file_text("tests/fuzz/corpus/mesh/meshlab.ply"));
     for (const frustumscreen::testing::SampleModel& model : frustumscreen::testing::sample_models()) {
         const bool gltf = model.name.ends_with(".glb") || model.name.ends_with(".gltf");
         seeds.add(gltf ? "gltf" : "mesh", model.name, model.bytes);

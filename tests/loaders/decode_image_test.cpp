@@ -34,6 +34,59 @@ TEST(DecodeImage, PngJpegAndWebpGiveTheSamePicture) {
     }
 }
 
+TEST(DecodeImage, BmpTgaAndTiffGiveTheSamePicture) {
+    Image8 truth = smooth_picture(33, 16); // rows of a BMP end in bytes that fill up
+    for (int x = 4; x < 9; ++x) {
+        truth.at(x, 3) = glm::u8vec4(1, 2, 3, 255); // a run
+    }
+    for (const std::string& bytes : {bmp_of(truth), bmp_of(truth, true), tga_of(truth), tga_of(truth, true),
+                                     tiff_of(truth), tiff_of(truth, TiffAlpha::None, true)}) {
+        const Result<Image8> picture = decode_image(as_bytes(bytes));
+        ASSERT_TRUE(picture.has_value()) << picture.error().message;
+        ASSERT_EQ(picture->width, 33);
+        ASSERT_EQ(picture->height, 16);
+        EXPECT_EQ(largest_difference(*picture, truth), 0) << bytes.substr(0, 2);
+    }
+}
+
+TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
+    Image8 truth = smooth_picture(32, 16);
+    for (std::size_t k = 0; k < truth.texels.size(); ++k) {
+        truth.texels[k].a = static_cast<std::uint8_t>(k % 256);
+    }
+    const Result<Image8> apart = decode_image(as_bytes(tiff_of(truth, TiffAlpha::Apart)));
+    ASSERT_TRUE(apart.has_value()) << apart.error().message;
+    EXPECT_EQ(largest_difference(*apart, truth), 0);
+    const Result<Image8> multiplied = decode_image(as_bytes(tiff_of(truth, TiffAlpha::Multiplied)));
+    ASSERT_TRUE(multiplied.has_value()) << multiplied.error().message;
+    for (std::size_t k = 0; k < truth.texels.size(); ++k) {
+        const int alpha = truth.texels[k].a;
+        EXPECT_EQ(int{multiplied->texels[k].a}, alpha);
+        for (int c = 0; c < 3 && alpha > 0; ++c) { // what rounding to a fraction of 255 leaves
+            EXPECT_NEAR(multiplied->texels[k][c], truth.texels[k][c], 128.0 / alpha + 1.0);
+        }
+    }
+}
+
+TEST(DecodeImage, SizesThatTheBytesDoNotHoldAreRefused) {
+    const Image8 truth = smooth_picture(64, 64);
+    const auto altered = [](std::string bytes, std::size_t place, const std::string& with) {
+        return bytes.replace(place, with.size(), with);
+    };
+    const std::string most("\xff\xff\xff\x7f", 4);
+    const std::string least("\0\0\0\x80", 4);
+    for (const std::string& bytes :
+         {altered(bmp_of(truth), 18, most), altered(bmp_of(truth), 22, most),
+          altered(bmp_of(truth), 22, least), altered(bmp_of(truth), 10, most),
+          altered(bmp_of(truth), 28, "\x40"), altered(bmp_of(truth), 14, "\xff"),
+          altered(bmp_of(truth), 30, "\x1"), altered(tga_of(truth), 12, "\xff\xff"),
+          altered(tga_of(truth), 14, std::string(2, '\0')), altered(tga_of(truth), 0, "\xff"),
+          altered(tga_of(truth, true), 14, "\xff\xff"), altered(tiff_of(truth), 4, most)}) {
+        const Result<Image8> picture = decode_image(as_bytes(bytes));
+        EXPECT_FALSE(picture.has_value()) << bytes.substr(0, 40);
+    }
+}
+
 TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
     for (const int depth : {1, 2, 4, 8, 16}) {
         for (const bool gamma : {false, true}) {
@@ -53,7 +106,8 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
 
 TEST(DecodeImage, TruncatedPicturesAreDamaged) {
     const Image8 truth = smooth_picture(64, 64);
-    for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth)}) {
+    for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
+                                     bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
         for (const std::size_t length :
              {std::size_t{12}, std::size_t{30}, whole.size() / 2, whole.size() - 20}) {
             EXPECT_FALSE(decode_image(as_bytes(std::string_view(whole).substr(0, length))).has_value())
@@ -64,7 +118,8 @@ TEST(DecodeImage, TruncatedPicturesAreDamaged) {
 
 TEST(DecodeImage, APictureBeyondTheLimitIsRefusedBeforeItIsUnpacked) {
     const Image8 truth = smooth_picture(64, 64);
-    for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth)}) {
+    for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
+                                     bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
         const Result<Image8> picture = decode_image(as_bytes(whole), 64 * 64 - 1);
         ASSERT_FALSE(picture.has_value());
         EXPECT_NE(picture.error().message.find("64 x 64"), std::string::npos);

@@ -68,9 +68,79 @@ TEST(Obj, APolygonMayHaveMoreThan255Corners) {
     EXPECT_EQ(mesh_of(text + face + "\n").triangles.size(), 298U);
 }
 
-TEST(Obj, AMissingMaterialFileLeavesWhite) {
+/// Of a mesh that has one note, of what was lost.
+std::string lost_of(const SourceMesh& mesh) {
+    EXPECT_EQ(mesh.notes.size(), 1U);
+    if (mesh.notes.empty()) {
+        return {};
+    }
+    EXPECT_EQ(mesh.notes[0].kind, SourceNote::Kind::Lost);
+    return mesh.notes[0].text;
+}
+
+TEST(Obj, AMissingMaterialFileLeavesWhiteAndIsSaid) {
     const SourceMesh mesh = mesh_of("mtllib nowhere.mtl\n" + square + "usemtl gold\nf 1 2 3\n");
     EXPECT_EQ(mesh.materials[mesh.triangle_materials[0]].base_colour, glm::vec4(1.0F));
+    EXPECT_NE(lost_of(mesh).find("the colours: it names \"nowhere.mtl\" for them"), std::string::npos);
+}
+
+TEST(Obj, WhatIsLostIsSaid) {
+    EXPECT_TRUE(mesh_of(square + "f 1 2 3\n").notes.empty());
+    EXPECT_NE(lost_of(mesh_of(square + "usemtl gold\nf 1 2 3\n")).find("no file of materials"),
+              std::string::npos);
+    EXPECT_EQ(lost_of(mesh_of(square + "f 1 2 3\nf 1 2\nf 1\n")), "2 faces of fewer than three corners");
+    EXPECT_NE(lost_of(mesh_of(square + "f 1 2 3\nl 1 2\np 1\n")).find("2 parts that no triangle"),
+              std::string::npos);
+    const TemporaryFolder folder;
+    folder.write("model.mtl", "newmtl red\nKd 1 0 0\n");
+    const Result<SourceMesh> mesh =
+        load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + square + "usemtl gold\nf 1 2 3\n"));
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+    EXPECT_NE(lost_of(*mesh).find("material \"gold\""), std::string::npos);
+}
+
+TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
+    const std::string text = square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
+    for (const char* map :
+         {"WOOD.PNG", "C:\\scans\\Wood.png", "C:/scans/wood.png", "/home/someone/wood.png", "..\\wood.png",
+          "Maps/wood.png", "maps\\WOOD.png", "file:///C:/wood.png", "./wood.PNG"}) {
+        SCOPED_TRACE(map);
+        const TemporaryFolder folder;
+        const std::string png(as_text(encode_png(Image8(1, 1, glm::u8vec4(10, 20, 30, 255)))));
+        folder.write("wood.png", png);
+        folder.write("maps/wood.png", png);
+        folder.write("Model.mtl", std::string("newmtl wood\nmap_Kd ") + map + "\n");
+        const Result<SourceMesh> mesh = load_mesh(folder.write("model.obj", "mtllib D:\\model.MTL\n" + text));
+        ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+        ASSERT_EQ(mesh->textures.size(), 1U);
+        ASSERT_FALSE(mesh->notes.empty());
+        EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Guessed);
+        EXPECT_NE(mesh->notes[0].text.find("Model.mtl beside it is taken"), std::string::npos);
+    }
+}
+
+TEST(Obj, TheCuratorsPictureIsForOneThatIsMissing) {
+    const TemporaryFolder folder;
+    const std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
+    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    const auto model = folder.write("model.obj", text);
+    const auto texel = [](const Result<SourceMesh>& mesh) {
+        EXPECT_TRUE(mesh.has_value()) << mesh.error().message;
+        return mesh && mesh->textures.size() == 1 ? mesh->textures[0].image->at(0, 0) : glm::u8vec4(0);
+    };
+    EXPECT_EQ(texel(load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255)) << "without the .mtl";
+    folder.write("model.mtl", "newmtl wood\nmap_Kd gone.png\n");
+    EXPECT_EQ(texel(load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255));
+    folder.write("gone.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(9, 9, 9, 255)))));
+    const Result<SourceMesh> whole = load_mesh(model, {own});
+    EXPECT_EQ(texel(whole), glm::u8vec4(9, 9, 9, 255)) << "the model's own goes first";
+    ASSERT_EQ(whole->notes.size(), 1U);
+    EXPECT_EQ(whole->notes[0].kind, SourceNote::Kind::Guessed);
+    EXPECT_NE(error_of(load_mesh(folder.write("plain.obj", square + "f 1 2 3\n"), {own})).find("--texture"),
+              std::string::npos);
+    EXPECT_NE(
+        error_of(load_mesh(folder.write("plain.obj", text), {folder.path() / "none.png"})).find("none.png"),
+        std::string::npos);
 }
 
 TEST(Obj, MaterialsBringColourAndPicture) {
@@ -93,14 +163,17 @@ TEST(Obj, MaterialsBringColourAndPicture) {
 TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
     const std::string text = "mtllib model.mtl\n" + square + "usemtl wood\nf 1 2 3\n";
     for (const auto& [map, expected] : std::vector<std::pair<std::string, std::string>>{
-             {"gone.png", "no such file"},
+             {"gone.png",
+              "its picture \"gone.png\" is not beside it; put it there, or name another picture with "
+              "--texture FILE (map_Kd gone.png)"},
+             {"BAD.jpg", "--texture FILE, such as bad.png ("},
              {"bad.png", "PNG picture is damaged"},
              {"model.mtl", "neither PNG"},
-             {"../outside.png", "outside the model's folder"},
-             {"maps/../../outside.png", "outside the model's folder"},
-             {"/etc/hostname", "outside the model's folder"},
-             {"C:\\pictures\\wood.png", "not a plain file name"},
-             {"http://example.org/wood.png", "not a plain file name"}}) {
+             {"../outside.png", "\"outside.png\" is not beside it"},
+             {"maps/../../outside.png", "\"outside.png\" is not beside it"},
+             {"/etc/hostname", "\"hostname\" is not beside it"},
+             {"C:\\pictures\\wood.png", "\"wood.png\" is not beside it"},
+             {"http://example.org/wood.png", "\"wood.png\" is not beside it"}}) {
         const TemporaryFolder folder;
         folder.write("bad.png", "\x89PNG\r\n\x1a\n and nothing more");
         folder.write("model.mtl", "newmtl wood\nmap_Kd " + map + "\n");
@@ -121,8 +194,8 @@ TEST(Obj, WrongLinesAreRefusedByNumber) {
              {"v 1 2 three", "line 5: a number is expected, not \"three\""},
              {"v 1 2 nan", "line 5: vertex 5 is not a finite point"},
              {"v 1 2 1e999", "line 5: vertex 5 is not a finite point"},
-             {"f 1 2", "no triangles"},
-             {"p 1\nl 1 2", "no triangles"}}) {
+             {"f 1 2", "a point cloud without faces"},
+             {"p 1\nl 1 2", "a point cloud without faces"}}) {
         const std::string error = error_of(load_text("model.obj", square + line + "\n"));
         EXPECT_NE(error.find(expected), std::string::npos) << error;
     }

@@ -1,9 +1,11 @@
+#include "app/image/image.h"
 #include "tests/loaders/loaders_testing.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 namespace frustumscreen::testing {
 namespace {
@@ -117,24 +119,24 @@ TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {replaced(whole, "4 0 1 2 3", "4 0 1 2 9"), "vertex 9 is out of range"},
         {replaced(whole, "4 0 1 2 3", "4 0 1 2 -3"), "vertex -3 is out of range"},
-        {replaced(whole, "4 0 1 2 3", "4 0 1 2"), "truncated"},
+        {replaced(whole, "4 0 1 2 3", "4 0 1 2"), "the file ends too early"},
         {replaced(whole, "4 0 1 2 3", "-4 0 1 2"), "length is -4"},
         {replaced(whole, "4 0 1 2 3", "2.5 0 1 2"), "whole number"},
-        {replaced(whole, "4 0 1 2 3", "999999999 0 1 2"), "truncated"},
+        {replaced(whole, "4 0 1 2 3", "999999999 0 1 2"), "the file ends too early"},
         {replaced(whole, "1 1 0", "1 one 0"), "\"one\""},
         {replaced(whole, "1 1 0", "1 nan 0"), "vertex 2"},
         {replaced(whole, "1 1 0", "1 1e999 0"), "vertex 2"},
         {replaced(whole, "vertex 4", "vertex four"), "line 4"},
-        {replaced(whole, "vertex 4", "vertex 99999999999"), "truncated"},
+        {replaced(whole, "vertex 4", "vertex 99999999999"), "the file ends too early"},
         {replaced(whole, "float x", "real x"), "line 5"},
         {replaced(whole, "property float y\n", ""), "have no y"},
         {replaced(whole, "ascii", "utf8"), "line 2"},
-        {replaced(whole, "element face 1", "element face 0"), "no triangles"},
+        {replaced(whole, "element face 1", "element face 0"), "a point cloud without faces"},
         {replaced(whole, "list uchar int", "list float int"), "whole number"},
         {square_header.substr(0, square_header.size() - 12), "end_header"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
          "property float y\nproperty float z\nend_header\n1234",
-         "truncated"},
+         "the file ends too early"},
     };
     for (const auto& [text, expected] : cases) {
         const std::string error = error_of(load_text("square.ply", text));
@@ -142,6 +144,124 @@ TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
         EXPECT_EQ(error.find('\n'), std::string::npos);
         EXPECT_NE(error.find("square.ply"), std::string::npos);
     }
+}
+
+/// Two triangles of a square; the corners that share a vertex have other texture coordinates where `seam`.
+std::string meshlab_square(bool seam, const std::string& comment) {
+    return "ply\nformat ascii 1.0\ncomment VCGLIB generated\n" + comment +
+           "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+           "property int texnumber\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+           "3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 6 " +
+           std::string(seam ? "0.5 0.5 0.25 0.25 0 1" : "0 0 1 1 0 1") + " 1\n";
+}
+
+TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
+    const TemporaryFolder folder;
+    folder.write("my skin.png", as_text(encode_png(Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
+    folder.write("other.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(40, 50, 60, 255)))));
+    const std::string comments = "comment TextureFile my skin.png\ncomment TextureFile other.png\n";
+    for (const bool seam : {false, true}) {
+        const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", meshlab_square(seam, comments)));
+        ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+        expect_sound(*mesh);
+        EXPECT_TRUE(mesh->notes.empty());
+        ASSERT_EQ(mesh->triangles.size(), 2U);
+        EXPECT_EQ(mesh->positions.size(), seam ? 6U : 4U) << "only a seam splits vertices";
+        const auto uv = [&](std::size_t triangle, std::size_t corner) {
+            return mesh->uvs[mesh->triangles[triangle][corner]];
+        };
+        EXPECT_EQ(uv(0, 0), glm::vec2(0.0F, 1.0F)) << "v = 0 is the picture's top row";
+        EXPECT_EQ(uv(0, 2), glm::vec2(1.0F, 0.0F));
+        EXPECT_EQ(uv(1, 1), seam ? glm::vec2(0.25F, 0.75F) : glm::vec2(1.0F, 0.0F));
+        EXPECT_EQ(uv(1, 2), glm::vec2(0.0F, 0.0F));
+        const auto colour = [&](std::size_t triangle) {
+            const SourceMaterial& material = mesh->materials[mesh->triangle_materials[triangle]];
+            return mesh->textures.at(static_cast<std::size_t>(material.texture)).image->at(0, 0);
+        };
+        EXPECT_EQ(colour(0), glm::u8vec4(10, 20, 30, 255));
+        EXPECT_EQ(colour(1), glm::u8vec4(40, 50, 60, 255)) << "texnumber";
+    }
+}
+
+TEST(Ply, MutatedTextureCoordinatesGiveASoundMeshOrAnError) {
+    const TemporaryFolder folder;
+    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    std::mt19937 random(7);
+    int loaded = 0;
+    for (int round = 0; round < 600; ++round) {
+        std::string text = meshlab_square(round % 2 == 0, "comment TextureFile own.png\n");
+        for (std::size_t changes = random() % 3 + 1; changes > 0; --changes) {
+            static constexpr std::string_view marks = "0123456789 -.nae\n";
+            const std::size_t data = text.find("end_header");
+            text[data + random() % (text.size() - data)] = marks[random() % marks.size()];
+        }
+        const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", text), {own});
+        if (mesh) {
+            expect_sound(*mesh);
+            ++loaded;
+        }
+    }
+    EXPECT_GT(loaded, 100);
+}
+
+TEST(Ply, TextureCoordinatesAtVerticesAreRead) {
+    const TemporaryFolder folder;
+    folder.write("skin.png", as_text(encode_png(Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
+    std::string text = replaced(square_header, "comment a square", "comment TextureFile skin.png");
+    text =
+        replaced(text, "property float z\n",
+                 "property float z\nproperty float s\nproperty float t\nproperty uchar red\nproperty uchar "
+                 "green\nproperty uchar blue\n");
+    text += "0 0 0 0 0 9 9 9\n1 0 0 1 0 9 9 9\n1 1 0 1 1 9 9 9\n0 1 0 0 1 9 9 9\n4 0 1 2 3\n";
+    const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", text));
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+    EXPECT_EQ(mesh->uvs[2], glm::vec2(1.0F, 0.0F));
+    EXPECT_TRUE(mesh->colours.empty()) << "the picture goes before the vertices' colours";
+    ASSERT_EQ(mesh->notes.size(), 1U);
+    EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Guessed);
+}
+
+TEST(Ply, WhatIsLostIsSaid) {
+    const std::string wedge = meshlab_square(true, "");
+    const std::string faces =
+        replaced(replaced(square_header, "vertex_indices", "vertex_indices\nproperty uchar red"),
+                 "comment a square", "comment no picture") +
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 200\n";
+    const std::string two = replaced(square_header + square_data, "4 0 1 2 3", "2 0 1\n4 0 1 2 3");
+    for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+             {wedge, "--texture FILE"},
+             {replaced(wedge, "property int texnumber\n", "property int flags\n"), "--texture FILE"},
+             {faces, "they stand at the faces"},
+             {replaced(two, "face 1", "face 2"), "1 face of fewer than three corners"},
+             {replaced(square_header + square_data, "comment a square", "comment TextureFile a.png"),
+              "no texture coordinates"}}) {
+        const Result<SourceMesh> mesh = load_text("scan.ply", text);
+        ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+        expect_sound(*mesh);
+        ASSERT_EQ(mesh->notes.size(), 1U) << expected;
+        EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Lost);
+        EXPECT_NE(mesh->notes[0].text.find(expected), std::string::npos) << mesh->notes[0].text;
+    }
+}
+
+TEST(Ply, TheCuratorsPictureIsForTextureCoordinatesWithoutOne) {
+    const TemporaryFolder folder;
+    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    for (const std::string& comment : {std::string(), std::string("comment TextureFile gone.png\n")}) {
+        std::string text = meshlab_square(true, comment);
+        text = replaced(text, "6 0.5 0.5 0.25 0.25 0 1 1", "6 0.5 0.5 0.25 0.25 0 1 0");
+        const auto scan = folder.write("scan.ply", text);
+        const Result<SourceMesh> mesh = load_mesh(scan, {own});
+        ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+        expect_sound(*mesh);
+        ASSERT_EQ(mesh->textures.size(), 1U);
+        EXPECT_EQ(mesh->textures[0].image->at(0, 0), glm::u8vec4(1, 2, 3, 255));
+        EXPECT_TRUE(mesh->notes.empty());
+    }
+    const std::string error =
+        error_of(load_mesh(folder.write("plain.ply", square_header + square_data), {own}));
+    EXPECT_NE(error.find("no texture coordinates"), std::string::npos) << error;
 }
 
 TEST(Ply, AnElementWithoutPropertiesMayClaimAnyCount) {

@@ -62,8 +62,10 @@ TEST(Stl, UpperCaseWordsAndSeveralSolidsAreRead) {
 
 TEST(Stl, ATruncatedFileIsRefused) {
     const std::string binary = binary_stl({facet, facet});
-    EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 150))).find("truncated"), std::string::npos);
-    EXPECT_NE(error_of(load_text("part.stl", ascii.substr(0, 100))).find("truncated"), std::string::npos);
+    EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 150))).find("the file ends too early"),
+              std::string::npos);
+    EXPECT_NE(error_of(load_text("part.stl", ascii.substr(0, 100))).find("the file ends too early"),
+              std::string::npos);
     EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 20))).find("84"), std::string::npos);
 }
 

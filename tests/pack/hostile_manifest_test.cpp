@@ -115,7 +115,12 @@ TEST(HostileManifest, texts_are_bounded_and_clean) {
 
 TEST(HostileManifest, the_placement_is_a_box_and_a_similarity) {
     expect_refused(
-        {{"box_size", [](Json& m) { m["placement"]["box_size"][0] = 0.9; }},
+        {{"scale", [](Json& m) { m["placement"]["scale"] = 0.0; }},
+         {"scale", [](Json& m) { m["placement"]["scale"] = -1.0; }},
+         {"scale", [](Json& m) { m["placement"]["scale"] = 1e9; }},
+         {"scale", [](Json& m) { m["placement"]["scale"] = "large"; }},
+         {"scale", [](Json& m) { m["placement"]["scale"] = nullptr; }},
+         {"box_size", [](Json& m) { m["placement"]["box_size"][0] = 0.9; }},
          {"box_size", [](Json& m) { m["placement"]["box_size"][1] = 0.0; }},
          {"box_size", [](Json& m) { m["placement"]["box_size"][1] = -0.5; }},
          {"box_size",

@@ -104,3 +104,24 @@ TEST(Placement, is_not_shrunk_by_a_lowest_point_that_rounding_put_below_the_bott
     pack.extremes[0].z = -1e-12;
     EXPECT_NEAR(place(pack, make_frustum({})).metres_per_box, whole, 1e-12);
 }
+
+TEST(Placement, a_scale_is_a_factor_on_the_largest_size) {
+    Pack pack = samples::pack();
+    const PropShape prop = make_frustum({});
+    const double largest = place(pack, prop).metres_per_box;
+    for (const double scale : {0.05, 0.5, 1.25, 20.0}) {
+        pack.scale = scale;
+        EXPECT_DOUBLE_EQ(place(pack, prop).metres_per_box, scale * largest);
+        const Result<VerifiedPack> read = verify_pack(samples::bytes_of(pack));
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ((*read)->scale, scale);
+    }
+}
+
+TEST(Placement, a_pack_without_a_scale_is_at_the_largest_size) {
+    const Bytes written = samples::bytes_of(samples::pack());
+    EXPECT_FALSE(samples::take_apart(written).manifest["placement"].contains("scale"));
+    const Result<VerifiedPack> read = verify_pack(written);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ((*read)->scale, 1.0);
+}

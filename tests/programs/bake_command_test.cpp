@@ -4,8 +4,12 @@
 #include "app/pack/pack_file.h"
 #include "tests/programs/program_folder.h"
 
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace frustumscreen {
 namespace {
@@ -54,6 +58,94 @@ TEST_F(BakeCommand, WritesAPackAndReplacesAPack) {
         ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
         EXPECT_TRUE(load_pack(folder / "scan.fspack"));
     }
+}
+
+TEST_F(BakeCommand, SaysWhatItMadeOnOneScreen) {
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    EXPECT_EQ(text("err.txt"), "");
+    const std::string said = text("out.txt");
+    for (const char* part : {"scan.fspack: \"scan\" (en), ", "mm wide", "up is the file's +y", "its +z ",
+                             "triangles", "shown unless the machine needs another", "lost    nothing"}) {
+        EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+    }
+    EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 24) << said;
+}
+
+TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
+    ASSERT_EQ(bake_to("scan.fspack", "--json --up z --turn 30 --scale 0.5 --lift 0.25"), 0)
+        << text("err.txt");
+    const nlohmann::json report = nlohmann::json::parse(text("out.txt"));
+    const Result<VerifiedPack> pack = load_pack(folder / "scan.fspack");
+    ASSERT_TRUE(pack) << pack.error().message;
+    EXPECT_EQ(report["bytes"], fs::file_size(folder / "scan.fspack"));
+    EXPECT_EQ(report["up"], "+z");
+    EXPECT_EQ(report["turn_deg"], 30.0);
+    EXPECT_EQ(report["levels"].size(), (*pack)->levels.size());
+    EXPECT_EQ(report["lost"].size(), 0U);
+    // The tetrahedron's corners by hand: up is z, turned by 30 degrees, raised by a quarter of its height 1.
+    const double c = std::sqrt(0.75);
+    const double wide = c + 0.5;
+    const double longest = std::max(wide, 1.25);
+    EXPECT_NEAR((*pack)->box_size.x, wide / longest, 1e-6);
+    EXPECT_NEAR((*pack)->box_size.z, 1.25 / longest, 1e-6);
+    const Placement placement = place(**pack, make_frustum({}));
+    const glm::dvec3 foot(placement.prop_from_artifact * glm::dvec4(0, 0, 0, 1));
+    const glm::dvec3 tip(placement.prop_from_artifact * glm::dvec4(0, 0, 1, 1));
+    EXPECT_NEAR(foot.z, 0.25 * (tip.z - foot.z), 1e-9);
+    EXPECT_NEAR(report["size_m"][2], tip.z - foot.z, 1e-4); // 16-bit places
+    ASSERT_EQ(bake_to("whole.fspack", "--up z --turn 30 --lift 0.25"), 0) << text("err.txt");
+    const Result<VerifiedPack> whole = load_pack(folder / "whole.fspack");
+    EXPECT_NEAR(place(**whole, make_frustum({})).metres_per_box, 2.0 * placement.metres_per_box, 1e-12);
+}
+
+TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
+    fs::remove(folder / "scan.mtl");
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    EXPECT_NE(text("err.txt").find("scan.obj: lost: the colours: it names \"scan.mtl\""), std::string::npos);
+    EXPECT_NE(text("out.txt").find("lost    the colours"), std::string::npos);
+    EXPECT_EQ(bake_to("strict.fspack", "--strict"), 1);
+    EXPECT_NE(text("err.txt").find("--strict forbids it: the colours"), std::string::npos) << text("err.txt");
+    EXPECT_FALSE(fs::exists(folder / "strict.fspack"));
+    ASSERT_EQ(bake_to("strict.fspack", "--strict --texture skin.png"), 0) << text("err.txt");
+    EXPECT_EQ(text("err.txt"), "");
+    EXPECT_TRUE(load_pack(folder / "strict.fspack"));
+    EXPECT_EQ(bake_to("skin.png", "--force --texture skin.png"), 1) << "the picture is an input";
+}
+
+TEST_F(BakeCommand, ClearsAwayWhatAKilledRunLeft) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    const std::string left = "scan.fspack.part" + std::to_string(child);
+    put(left, "half a pack");
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    EXPECT_FALSE(fs::exists(folder / left));
+}
+
+TEST_F(BakeCommand, ThePreviewShowsFourSides) {
+    ASSERT_EQ(bake_to("scan.fspack", "--unlit"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-pack preview scan.fspack -o sides.png"), 0) << text("err.txt");
+    const Result<Bytes> file = read_file(folder / "sides.png");
+    ASSERT_TRUE(file) << file.error().message;
+    const Result<Image8> picture = decode_png8(*file, 1 << 24);
+    ASSERT_TRUE(picture) << picture.error().message;
+    std::array<int, 4> lit{};
+    for (int y = 0; y < picture->height; ++y) {
+        for (int x = 0; x < picture->width; ++x) {
+            const glm::u8vec4 texel = picture->at(x, y);
+            const bool skin =
+                std::abs(texel.r - 200) < 4 && std::abs(texel.g - 120) < 4 && std::abs(texel.b - 60) < 4;
+            lit[static_cast<std::size_t>(4 * x / picture->width)] += skin ? 1 : 0;
+        }
+    }
+    for (const int pixels : lit) {
+        EXPECT_GT(pixels, 10'000) << "of the artifact's own colour, on each side";
+    }
+    EXPECT_EQ(run("frustumscreen-pack preview scan.obj -o sides.png"), 1);
+    EXPECT_EQ(run("frustumscreen-pack preview scan.fspack -o scan.fspack"), 1);
+    EXPECT_TRUE(load_pack(folder / "scan.fspack")) << "its input is as it was";
 }
 
 TEST_F(BakeCommand, NeverReplacesItsInput) {

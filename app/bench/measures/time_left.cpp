@@ -66,13 +66,4 @@ std::optional<double> TimeLeft::expected_s(const WorkStep& step) const {
     return known_s * step.guess / known_guess;
 }
 
-std::string words_of_time(double seconds) {
-    if (seconds < 99.5) {
-        return fmt::format("{:.0f} s", std::fmax(seconds, 0.0));
-    }
-    const int minutes = static_cast<int>(std::lround(std::fmin(seconds, 1e8) / 60.0));
-    return minutes < 120 ? fmt::format("{} min", minutes)
-                         : fmt::format("{} h {} min", minutes / 60, minutes % 60);
-}
-
 } // namespace frustumscreen

@@ -43,7 +43,4 @@ private:
     double begun_s_ = 0.0; ///< when the current step began
 };
 
-/// The time as a person says it: '40 s', '4 min', '2 h 5 min'.
-[[nodiscard]] std::string words_of_time(double seconds);
-
 } // namespace frustumscreen

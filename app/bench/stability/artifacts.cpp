@@ -64,7 +64,7 @@ struct PlacingErrors {
     double matrix = 1.0; ///< of prop_from_artifact, box units
 };
 PlacingErrors placing_errors(const SourceMesh& mesh) {
-    const Result<BoxFrame> frame = make_box_frame(mesh, "z");
+    const Result<BoxFrame> frame = make_box_frame(mesh, {"z"});
     if (!frame) {
         return {};
     }

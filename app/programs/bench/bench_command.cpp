@@ -6,6 +6,7 @@
 #include "app/settings/settings.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #include "app/programs/common/progress_line.h"
 
+#include "firmware_host/base/words_of_time.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -40,6 +42,19 @@ void ProgressLine::say(std::string_view line) {
     shown_ = true;
     fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
+}
+
+void ProgressLine::show_share(std::string_view step, double done) {
+    if (!is_due()) {
+        return;
+    }
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    constexpr double enough_to_tell = 0.05;
+    const std::string left =
+        done >= enough_to_tell
+            ? fmt::format(", about {} left", words_of_time(passed.count() * (1.0 - done) / done))
+            : std::string();
+    say(fmt::format("{}{:.0f} %{} ({})", what_, 100.0 * done, left, step));
 }
 
 void ProgressLine::clear() {

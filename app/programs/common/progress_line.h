@@ -16,6 +16,8 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(std::size_t done, std::size_t all);
     void say(std::string_view line);
+    /// What is being done, the share (0..1) of all that is done, and the time that the rest takes at that speed.
+    void show_share(std::string_view step, double done);
     /// Clears the line, so that the program can print.
     void clear();
 

@@ -1,12 +1,15 @@
-/// frustumscreen-pack: verifies, lists and explains packs.
+/// frustumscreen-pack: verifies, lists, explains and draws packs.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/output_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +19,9 @@ namespace {
 
 struct Request {
     std::vector<std::string> packs;
-    std::string pack;
+    std::filesystem::path pack;
     std::string config;
+    std::filesystem::path output;
     bool json = false;
 };
 
@@ -93,8 +97,26 @@ int explain(const Request& request) {
     return 0;
 }
 
+Result<void> write_preview(const Request& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.pack}}); !safe) {
+        return safe;
+    }
+    if (Result<void> place = check_output_place(request.output); !place) {
+        return place;
+    }
+    const Result<Image8> picture = preview_of_pack(request.pack);
+    return picture ? write_file(request.output, encode_png(*picture))
+                   : tl::unexpected<Error>(picture.error());
+}
+
+int preview(const Request& request) {
+    const Result<void> written = write_preview(request);
+    return written ? 0 : complain(written.error());
+}
+
 int run(int argc, char** argv) {
-    CLI::App app("Packs for FrustumScreen: are they sound, and what do they hold?", "frustumscreen-pack");
+    CLI::App app("Packs for FrustumScreen: are they sound, what do they hold, and how do they look?",
+                 "frustumscreen-pack");
     app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
     Request request;
@@ -107,6 +129,10 @@ int run(int argc, char** argv) {
     to_explain->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
     to_explain->add_option("--config", request.config,
                            "settings (TOML) with the prop; else the default prop");
+    CLI::App* to_preview =
+        app.add_subcommand("preview", "draws the artifact from four sides into one picture");
+    to_preview->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
+    to_preview->add_option("-o,--output", request.output, "picture to write (*.png)")->required();
     for (CLI::App* command : {to_verify, to_list, to_explain}) {
         command->add_flag("--json", request.json, "for programs");
     }
@@ -115,9 +141,10 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    return app.got_subcommand(to_verify) ? verify(request)
-           : app.got_subcommand(to_list) ? list(request)
-                                         : explain(request);
+    return app.got_subcommand(to_verify)    ? verify(request)
+           : app.got_subcommand(to_list)    ? list(request)
+           : app.got_subcommand(to_explain) ? explain(request)
+                                            : preview(request);
 }
 
 } // namespace

@@ -17,7 +17,8 @@ using ByteView = std::span<const std::byte>;
 /// The number at `offset`; refuses to read past the end.
 template <typename T> [[nodiscard]] T load(ByteView bytes, std::size_t offset, std::endian order) {
     if (offset > bytes.size() || sizeof(T) > bytes.size() - offset) {
-        refuse("the data end at byte {}, {} more are needed at byte {}", bytes.size(), sizeof(T), offset);
+        refuse_cut_short("the data end at byte {}, {} more are needed at byte {}", bytes.size(), sizeof(T),
+                         offset);
     }
     std::array<std::byte, sizeof(T)> raw{};
     std::memcpy(raw.data(), bytes.data() + offset, sizeof(T));

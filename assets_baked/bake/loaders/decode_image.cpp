@@ -1,5 +1,8 @@
 #include "assets_baked/bake/loaders/decode_image.h"
 
+#include "assets_baked/bake/loaders/decode_bitmap.h"
+#include "assets_baked/bake/loaders/decode_tiff.h"
+#include "assets_baked/bake/loaders/picture_bytes.h"
 #include "firmware_host/base/file.h"
 
 #include <png.h>
@@ -15,24 +18,8 @@ namespace frustumscreen {
 
 namespace {
 
-const std::uint8_t* raw(ByteView bytes) {
-    return reinterpret_cast<const std::uint8_t*>(bytes.data());
-}
-std::uint8_t* raw(Image8& image) {
-    return reinterpret_cast<std::uint8_t*>(image.texels.data());
-}
-
 bool begins_with(ByteView bytes, std::string_view magic) {
     return as_text(bytes).starts_with(magic);
-}
-
-Result<Image8> blank_image(std::int64_t width, std::int64_t height, std::int64_t limit_texels) {
-    if (width < 1 || height < 1 || width > limit_texels / height) {
-        return bad_input(fmt::format(
-            "the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
-            width, height, limit_texels));
-    }
-    return Image8(static_cast<int>(width), static_cast<int>(height));
 }
 
 /// Keeps only the chunks that make texels: colour notes must be ignored, and text need not be unpacked.
@@ -153,7 +140,16 @@ Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     if (begins_with(bytes, "RIFF") && bytes.size() >= 12 && as_text(bytes.subspan(8, 4)) == "WEBP") {
         return decode_webp(bytes, limit_texels);
     }
-    return bad_input("the picture is neither PNG, JPEG nor WebP");
+    if (is_tiff(bytes)) {
+        return decode_tiff(bytes, limit_texels);
+    }
+    if (is_bmp(bytes)) {
+        return decode_bmp(bytes, limit_texels);
+    }
+    if (is_tga(bytes)) { // last: it has no certain mark
+        return decode_tga(bytes, limit_texels);
+    }
+    return bad_input("the picture is neither PNG, JPEG, WebP, TIFF, BMP nor TGA; save it as PNG");
 }
 
 } // namespace frustumscreen

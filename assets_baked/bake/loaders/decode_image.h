@@ -1,8 +1,8 @@
-/// Decodes a texture into 8-bit sRGB with alpha: PNG (any depth), JPEG or WebP, told apart by the first
-/// bytes.
+/// Decodes a texture into 8-bit sRGB with alpha: PNG (any depth), JPEG, WebP, TIFF, BMP or TGA, told apart by
+/// the first bytes.
 ///
 /// Colour   profiles and gamma notes inside the files are ignored, as glTF 2.0 (3.8.1) asks: texels are sRGB.
-/// Errors   not one of the three, damaged or truncated, animated, more than `limit_texels`.
+/// Errors   not one of these, damaged or truncated, animated, more than `limit_texels`.
 /// Threads  pure; any.
 #pragma once
 

@@ -30,7 +30,7 @@ public:
                 return value;
             }
         }
-        refuse("{}: the Draco stream is damaged near byte {}", place_, position_);
+        refuse_damage("{}: the Draco stream is damaged near byte {}", place_, position_);
     }
     void skip(std::uint64_t count) {
         need(count);
@@ -40,7 +40,7 @@ public:
 private:
     void need(std::uint64_t count) const {
         if (count > bytes_.size() - position_) {
-            refuse("{}: the Draco stream ends at byte {}, too early", place_, bytes_.size());
+            refuse_cut_short("{}: the Draco stream ends at byte {}", place_, bytes_.size());
         }
     }
 
@@ -51,8 +51,8 @@ private:
 
 void skip_metadata(Cursor& cursor, int level, const std::string& place) {
     if (level > most_metadata_levels) {
-        refuse("{}: the Draco stream's metadata are nested deeper than {} levels", place,
-               most_metadata_levels);
+        refuse_damage("{}: the Draco stream's metadata are nested deeper than {} levels", place,
+                      most_metadata_levels);
     }
     for (std::uint64_t entries = cursor.take_variable(); entries > 0; --entries) {
         cursor.skip(cursor.take<std::uint8_t>());
@@ -76,7 +76,7 @@ void skip_all_metadata(Cursor& cursor, const std::string& place) {
 
 DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     if (stream.size() < 11 || std::memcmp(stream.data(), "DRACO", 5) != 0) {
-        refuse("{}: is no Draco stream", place);
+        refuse_damage("{}: is no Draco stream", place);
     }
     Cursor cursor(stream, place);
     cursor.skip(5);
@@ -86,10 +86,13 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     const auto method = cursor.take<std::uint8_t>();
     const auto flags = cursor.take<std::uint16_t>();
     if (major != 2 || minor != 2) {
-        refuse("{}: Draco bitstream {}.{} cannot be read, only 2.2", place, major, minor);
+        refuse("it is packed with Draco {1}.{2}, only 2.2 can be read; export it with a newer program, or "
+               "without "
+               "Draco ({0})",
+               place, major, minor);
     }
     if (geometry != 1 || method > 1) {
-        refuse("{}: the Draco stream is not a triangle mesh", place);
+        refuse_damage("{}: the Draco stream is not a triangle mesh", place);
     }
     if ((flags & 0x8000U) != 0) {
         skip_all_metadata(cursor, place);
@@ -106,8 +109,8 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     }
     const std::uint64_t most = stream.size() * most_faces_per_byte;
     if (counts.faces > most || counts.points > most) {
-        refuse("{}: the Draco stream of {} bytes claims {} faces and {} vertices", place, stream.size(),
-               counts.faces, counts.points);
+        refuse_contradiction("{}: the Draco stream of {} bytes claims {} faces and {} vertices", place,
+                             stream.size(), counts.faces, counts.points);
     }
     return counts;
 }

@@ -59,7 +59,7 @@ void GltfAttribute::normalise() {
 
 double GltfAttribute::raw(std::size_t element, std::size_t component) const {
     if (element >= count_ || component >= components_) {
-        refuse("{}: element {} is out of range, there are {}", place_, element, count_);
+        refuse_contradiction("{}: element {} is out of range, there are {}", place_, element, count_);
     }
     if (numbers_) {
         return (*numbers_)[element * components_ + component];
@@ -78,7 +78,7 @@ double GltfAttribute::raw(std::size_t element, std::size_t component) const {
 double GltfAttribute::value(std::size_t element, std::size_t component) const {
     const double number = raw(element, component);
     if (!std::isfinite(number)) {
-        refuse("{}: element {} is not a finite number", place_, element);
+        refuse_damage("{}: element {} is not a finite number", place_, element);
     }
     return normalised_ && type_ != ComponentType::F32 ? std::max(number / one_of(type_), -1.0) : number;
 }

@@ -32,7 +32,7 @@ Bytes base64_decoded(std::string_view text, std::string_view place) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const int digit = base64_digit(text[i]);
         if (digit < 0) {
-            refuse("{}: the data URI is damaged at its base64 character {}", place, i);
+            refuse_damage("{}: the data URI is damaged at its base64 character {}", place, i);
         }
         bits = (bits << 6U) | static_cast<std::uint32_t>(digit);
         held += 6;
@@ -64,20 +64,20 @@ void check_form(const GltfMeshopt& meshopt, const std::string& place) {
     const std::size_t stride = meshopt.byte_stride;
     const bool attributes = meshopt.mode == MeshoptMode::Attributes;
     if (attributes ? stride % 4 != 0 : (stride != 2 && stride != 4)) {
-        refuse("{}.byteStride: {} is not allowed in this mode", place, stride);
+        refuse_contradiction("{}.byteStride: {} is not allowed in this mode", place, stride);
     }
     if (meshopt.mode == MeshoptMode::Triangles && meshopt.count % 3 != 0) {
-        refuse("{}.count: {} is no multiple of 3", place, meshopt.count);
+        refuse_contradiction("{}.count: {} is no multiple of 3", place, meshopt.count);
     }
     const bool filter_fits = meshopt.filter == MeshoptFilter::None ||
                              (attributes && (meshopt.filter == MeshoptFilter::Exponential || stride == 8 ||
                                              (meshopt.filter == MeshoptFilter::Octahedral && stride == 4)));
     if (!filter_fits) {
-        refuse("{}.filter: does not go with a stride of {} in this mode", place, stride);
+        refuse_contradiction("{}.filter: does not go with a stride of {} in this mode", place, stride);
     }
     if (!is_plausible(meshopt)) {
-        refuse("{}.count: {} elements cannot be packed into {} bytes", place, meshopt.count,
-               meshopt.byte_length);
+        refuse_contradiction("{}.count: {} elements cannot be packed into {} bytes", place, meshopt.count,
+                             meshopt.byte_length);
     }
 }
 
@@ -136,7 +136,7 @@ std::optional<Bytes> bytes_of_data_uri(std::string_view uri, std::string_view pl
     }
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) {
-        refuse("{}: the data URI is not base64", place);
+        refuse_damage("{}: the data URI is not base64", place);
     }
     return base64_decoded(uri.substr(comma + 1), place);
 }
@@ -155,11 +155,11 @@ GltfBuffers::GltfBuffers(const GltfModel& model, Sidecars& sidecars, std::option
         } else if (i == 0 && binary_chunk) {
             bytes = binary_chunk;
         } else if (!buffer.fallback) {
-            refuse("{}: has no data: neither a uri nor a binary chunk of a GLB", place);
+            refuse_contradiction("{}: has no data: neither a uri nor a binary chunk of a GLB", place);
         }
         if (bytes && bytes->size() < buffer.byte_length && !buffer.fallback) {
-            refuse("{}: {} bytes are declared, but there are only {}: the file is truncated", place,
-                   buffer.byte_length, bytes->size());
+            refuse_cut_short("{}: {} bytes are declared, but there are only {}", place, buffer.byte_length,
+                             bytes->size());
         }
         buffers_.push_back(bytes);
         packed_left_ += bytes ? bytes->size() : 0;
@@ -169,7 +169,7 @@ GltfBuffers::GltfBuffers(const GltfModel& model, Sidecars& sidecars, std::option
 ByteView GltfBuffers::range(std::size_t buffer, std::uint64_t offset, std::uint64_t length) const {
     const std::optional<ByteView>& bytes = buffers_[buffer];
     if (!bytes || offset > bytes->size() || length > bytes->size() - offset) {
-        refuse("buffers[{}]: has no data for bytes {} to {}", buffer, offset, offset + length);
+        refuse_contradiction("buffers[{}]: has no data for bytes {} to {}", buffer, offset, offset + length);
     }
     return bytes->subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
@@ -188,7 +188,7 @@ ByteView GltfBuffers::view(std::size_t index) {
 
 void GltfBuffers::spend_packed(std::uint64_t bytes, const std::string& place) {
     if (bytes > packed_left_) {
-        refuse("{}: the same packed data are used again and again", place);
+        refuse_contradiction("{}: the same packed data are used again and again", place);
     }
     packed_left_ -= bytes;
 }
@@ -205,8 +205,9 @@ const std::vector<std::uint32_t>& GltfBuffers::sparse_elements(std::size_t acces
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const double element = number_at(bytes, i * size_of(sparse.indices_type), sparse.indices_type);
         if (element >= static_cast<double>(count) || (i > 0 && element <= elements.back())) {
-            refuse("accessors[{}].sparse.indices: element {} is {}; ascending numbers below {} are allowed",
-                   accessor, i, element, count);
+            refuse_contradiction(
+                "accessors[{}].sparse.indices: element {} is {}; ascending numbers below {} are allowed",
+                accessor, i, element, count);
         }
         elements.push_back(static_cast<std::uint32_t>(element));
     }
@@ -221,11 +222,11 @@ Bytes GltfBuffers::unpacked(std::size_t view) {
     spend_packed(meshopt.byte_length, place);
     Bytes out(meshopt.count * meshopt.byte_stride);
     if (out.size() < model_.views[view].byte_length) {
-        refuse("{}: unpacks to {} bytes, but the view has {}", place, out.size(),
-               model_.views[view].byte_length);
+        refuse_contradiction("{}: unpacks to {} bytes, but the view has {}", place, out.size(),
+                             model_.views[view].byte_length);
     }
     if (decode(meshopt, packed, out) != 0) {
-        refuse("{}: the packed data are damaged", place);
+        refuse_damage("{}: the packed data are damaged", place);
     }
     filter(meshopt, out);
     return out;

@@ -40,7 +40,7 @@ double number_at(ByteView bytes, std::size_t offset, draco::DataType type, const
     case draco::DT_FLOAT64:
         return load_little<double>(bytes, offset);
     default:
-        refuse("{}: a Draco attribute has a type that glTF does not know", place);
+        refuse_damage("{}: a Draco attribute has a type that glTF does not know", place);
     }
 }
 
@@ -51,7 +51,7 @@ DracoNumbers numbers_of(const draco::PointAttribute& attribute, std::size_t poin
     const std::size_t component_size = byte_size(type);
     if (components == 0 || attribute.buffer() == nullptr ||
         (!attribute.is_mapping_identity() && attribute.indices_map_size() < points)) {
-        refuse("{}: the Draco stream is damaged: an attribute lacks values", place);
+        refuse_damage("{}: an attribute of the Draco stream lacks values", place);
     }
     const ByteView bytes(reinterpret_cast<const std::byte*>(attribute.buffer()->data()),
                          attribute.buffer()->data_size());
@@ -77,7 +77,7 @@ DracoMesh decode_draco(ByteView stream, const GltfDraco& draco, const std::strin
     buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) {
-        refuse("{}: the Draco stream is damaged: {}", place, decoded.status().error_msg());
+        refuse_damage("{}: Draco stream: {}", place, decoded.status().error_msg());
     }
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
 
@@ -88,8 +88,8 @@ DracoMesh decode_draco(ByteView stream, const GltfDraco& draco, const std::strin
         const draco::Mesh::Face& corners = mesh->face(face);
         for (const draco::PointIndex& corner : corners) {
             if (corner.value() >= result.points) {
-                refuse("{}: the Draco stream is damaged: face {} uses vertex {} of {}", place, face.value(),
-                       corner.value(), result.points);
+                refuse_contradiction("{}: in the Draco stream face {} uses vertex {} of {}", place,
+                                     face.value(), corner.value(), result.points);
             }
         }
         result.triangles.push_back({corners[0].value(), corners[1].value(), corners[2].value()});
@@ -97,7 +97,8 @@ DracoMesh decode_draco(ByteView stream, const GltfDraco& draco, const std::strin
     for (const auto& [name, id] : draco.attributes) {
         const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(id);
         if (attribute == nullptr) {
-            refuse("{}: the Draco stream has no attribute {} for {}", place, id, name.substr(0, 40));
+            refuse_contradiction("{}: the Draco stream has no attribute {} for {}", place, id,
+                                 name.substr(0, 40));
         }
         if (is_needed(name)) {
             result.attributes.emplace(name, numbers_of(*attribute, result.points, place));

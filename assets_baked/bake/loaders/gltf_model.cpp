@@ -37,14 +37,16 @@ constexpr std::array known_extensions = {
 void check_header(const JsonPlace& document) {
     const std::string version = document.at("asset").at("version").text();
     if (!version.starts_with("2.")) {
-        refuse("asset.version: glTF {} cannot be read, only 2.x", version.substr(0, 20));
+        refuse("glTF {} cannot be read, only 2.x (asset.version); export it as glTF 2.0",
+               version.substr(0, 20));
     }
     const std::optional<JsonPlace> required = document.find("extensionsRequired");
     for (std::size_t i = 0; required && i < required->size(); ++i) {
         const std::string name = (*required)[i].text();
         if (std::find(known_extensions.begin(), known_extensions.end(), name) == known_extensions.end()) {
-            refuse("extensionsRequired[{}]: the extension {} is not supported; export the model without it",
-                   i, name.substr(0, 80));
+            refuse("it needs the extension {} of glTF, which is not supported; export it without that "
+                   "(extensionsRequired[{}])",
+                   name.substr(0, 80), i);
         }
     }
 }
@@ -71,8 +73,8 @@ void check_range(const JsonPlace& place, const GltfModel& model, std::size_t buf
                  std::uint64_t length) {
     const std::uint64_t available = model.buffers[buffer].byte_length;
     if (offset > available || length > available - offset) {
-        refuse("{}: bytes {} to {} are out of range, buffers[{}] has {}", place.path(), offset,
-               offset + length, buffer, available);
+        refuse_contradiction("{}: bytes {} to {} are out of range, buffers[{}] has {}", place.path(), offset,
+                             offset + length, buffer, available);
     }
 }
 
@@ -84,7 +86,7 @@ Value named(const JsonPlace& place, const std::array<std::pair<std::string_view,
             return value;
         }
     }
-    refuse("{}: \"{}\" is not known", place.path(), text.substr(0, 40));
+    refuse_damage("{}: \"{}\" is not known", place.path(), text.substr(0, 40));
 }
 
 GltfMeshopt meshopt_from(const JsonPlace& place, const GltfModel& model) {
@@ -118,8 +120,8 @@ GltfBufferView view_from(const JsonPlace& place, const GltfModel& model) {
     if (const auto stride = place.find("byteStride")) {
         view.byte_stride = stride->whole(4, 252);
         if (*view.byte_stride > view.byte_length) {
-            refuse("{}: {} is more than the view's {} bytes", stride->path(), *view.byte_stride,
-                   view.byte_length);
+            refuse_contradiction("{}: {} is more than the view's {} bytes", stride->path(), *view.byte_stride,
+                                 view.byte_length);
         }
     }
     check_range(place, model, view.buffer, view.byte_offset, view.byte_length);
@@ -132,7 +134,7 @@ GltfBufferView view_from(const JsonPlace& place, const GltfModel& model) {
 ComponentType component_type_from(const JsonPlace& place) {
     const std::uint64_t number = place.whole();
     if (number < 5120 || number > 5126 || number == 5124) {
-        refuse("{}: {} is no component type of glTF 2.0", place.path(), number);
+        refuse_damage("{}: {} is no component type of glTF 2.0", place.path(), number);
     }
     return static_cast<ComponentType>(number);
 }
@@ -146,7 +148,7 @@ GltfSparse sparse_from(const JsonPlace& place, const GltfModel& model, std::size
     sparse.indices_type = component_type_from(indices.at("componentType"));
     if (sparse.indices_type != ComponentType::U8 && sparse.indices_type != ComponentType::U16 &&
         sparse.indices_type != ComponentType::U32) {
-        refuse("{}.componentType: indices are unsigned whole numbers", indices.path());
+        refuse_damage("{}.componentType: indices are unsigned whole numbers", indices.path());
     }
     const JsonPlace values = place.at("values");
     sparse.values_view = values.at("bufferView").index_into(model.views.size());
@@ -160,9 +162,10 @@ void check_elements(const std::string& place, const GltfModel& model, std::size_
     const std::uint64_t available = model.views[view].byte_length;
     if (offset > available || size > available - offset ||
         (count - 1) > (available - offset - size) / stride) {
-        refuse("{}: {} elements of {} bytes, {} apart, from byte {} do not fit into bufferViews[{}], which "
-               "has {}",
-               place, count, size, stride, offset, view, available);
+        refuse_contradiction(
+            "{}: {} elements of {} bytes, {} apart, from byte {} do not fit into bufferViews[{}], which "
+            "has {}",
+            place, count, size, stride, offset, view, available);
     }
 }
 
@@ -186,8 +189,8 @@ GltfAccessor accessor_from(const JsonPlace& place, const GltfModel& model) {
     if (accessor.view) {
         accessor.byte_stride = model.views[*accessor.view].byte_stride.value_or(element);
         if (accessor.byte_stride < element) {
-            refuse("{}: its elements have {} bytes, but bufferViews[{}] puts them {} apart", place.path(),
-                   element, *accessor.view, accessor.byte_stride);
+            refuse_contradiction("{}: its elements have {} bytes, but bufferViews[{}] puts them {} apart",
+                                 place.path(), element, *accessor.view, accessor.byte_stride);
         }
         check_elements(place.path(), model, *accessor.view, accessor.byte_offset, accessor.byte_stride,
                        element, accessor.count);

@@ -29,8 +29,9 @@ glm::dvec3 vec3_or(const JsonPlace& place, std::string_view key, double fallback
 glm::dmat4 transform_from(const JsonPlace& place) {
     if (const auto matrix = place.find("matrix")) {
         if (place.find("translation") || place.find("rotation") || place.find("scale")) {
-            refuse("{}: has a matrix and a translation, rotation or scale; only one of the two is allowed",
-                   place.path());
+            refuse_contradiction(
+                "{}: has a matrix and a translation, rotation or scale; only one of the two is allowed",
+                place.path());
         }
         return matrix_from(*matrix);
     }
@@ -39,7 +40,7 @@ glm::dmat4 transform_from(const JsonPlace& place) {
         const std::vector<double> xyzw = rotation->numbers(4);
         const glm::dquat quaternion(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
         if (glm::length(quaternion) < 1e-6) {
-            refuse("{}: is no rotation, its length is zero", rotation->path());
+            refuse_contradiction("{}: is no rotation, its length is zero", rotation->path());
         }
         transform *= glm::mat4_cast(glm::normalize(quaternion));
     }

@@ -24,8 +24,8 @@ bool is_small_unsigned(ComponentType type) {
 void expect(const GltfPrimitive& primitive, const char* name, const GltfAttribute& attribute, bool fits,
             const char* allowed) {
     if (!fits) {
-        refuse("{}.attributes.{}: {} does not have the form of {}", primitive.place, name, attribute.place(),
-               allowed);
+        refuse_contradiction("{}.attributes.{}: {} does not have the form of {}", primitive.place, name,
+                             attribute.place(), allowed);
     }
 }
 
@@ -36,8 +36,8 @@ void check_position(const GltfPrimitive& primitive, const GltfAttribute& positio
            quantised ? "three floats or small integers"
                      : "three floats (integers need KHR_mesh_quantization in extensionsUsed)");
     if (!position.has_data() && position.count() > most_positions_without_data) {
-        refuse("{}.attributes.POSITION: {} declares {} positions without data", primitive.place,
-               position.place(), position.count());
+        refuse_contradiction("{}.attributes.POSITION: {} declares {} positions without data", primitive.place,
+                             position.place(), position.count());
     }
 }
 
@@ -122,8 +122,8 @@ std::optional<GltfAttribute> GltfPrimitives::attribute(const GltfPrimitive& prim
         found.emplace(model_, buffers_, accessor->second);
     }
     if (streams.position && found->count() != streams.position->count()) {
-        refuse("{}.attributes.{}: {} elements, but POSITION has {}", primitive.place, name, found->count(),
-               streams.position->count());
+        refuse_contradiction("{}.attributes.{}: {} elements, but POSITION has {}", primitive.place, name,
+                             found->count(), streams.position->count());
     }
     return found;
 }
@@ -179,8 +179,8 @@ void GltfPrimitives::add_morphs(const GltfPrimitive& primitive, const GltfPlacem
         GltfAttribute shift(model_, buffers_, accessor->second);
         check_position(primitive, shift, model_.quantised);
         if (shift.count() != streams.position->count()) {
-            refuse("{}.targets[{}].POSITION: {} elements, but the primitive has {}", primitive.place, i,
-                   shift.count(), streams.position->count());
+            refuse_contradiction("{}.targets[{}].POSITION: {} elements, but the primitive has {}",
+                                 primitive.place, i, shift.count(), streams.position->count());
         }
         streams.morphs.emplace_back(placement.morph_weights[i], std::move(shift));
     }
@@ -218,8 +218,8 @@ std::uint32_t GltfPrimitives::corner(const Streams& streams, std::size_t i) cons
     }
     const std::uint32_t element = streams.indices ? streams.indices->whole(i) : static_cast<std::uint32_t>(i);
     if (element >= streams.position->count()) {
-        refuse("{}.indices: element {} is {}, but POSITION has {} vertices", streams.place, i, element,
-               streams.position->count());
+        refuse_contradiction("{}.indices: element {} is {}, but POSITION has {} vertices", streams.place, i,
+                             element, streams.position->count());
     }
     return element;
 }
@@ -239,8 +239,8 @@ glm::dmat4 blended(const std::vector<std::pair<GltfAttribute, GltfAttribute>>& j
                 continue;
             }
             if (joint >= transforms.size()) {
-                refuse("{}: vertex {} hangs on joint {}, but the skin has {}", place, element, joint,
-                       transforms.size());
+                refuse_contradiction("{}: vertex {} hangs on joint {}, but the skin has {}", place, element,
+                                     joint, transforms.size());
             }
             sum += weight * transforms[joint];
             total += weight;

@@ -21,7 +21,7 @@ Wrap wrap_from(const JsonPlace& sampler, std::string_view key) {
     case 33648:
         return Wrap::Mirror;
     default:
-        refuse("{}.{}: {} is no wrapping mode of glTF 2.0", sampler.path(), key, value);
+        refuse_damage("{}.{}: {} is no wrapping mode of glTF 2.0", sampler.path(), key, value);
     }
 }
 
@@ -32,7 +32,7 @@ GltfImage image_from(const JsonPlace& place, const GltfModel& model) {
     }
     image.view = place.index_or_none("bufferView", model.views.size());
     if (image.uri.has_value() == image.view.has_value()) {
-        refuse("{}: either \"uri\" or \"bufferView\" is expected", place.path());
+        refuse_damage("{}: either \"uri\" or \"bufferView\" is expected", place.path());
     }
     return image;
 }

@@ -11,11 +11,11 @@ namespace frustumscreen {
 void JsonPlace::refuse_type(const char* expected) const {
     const std::string_view place = path_.empty() ? std::string_view("the document") : std::string_view(path_);
     if (value_->is_structured()) {
-        refuse("{}: {} is expected, not an {}", place, expected, value_->type_name());
+        refuse_damage("{}: {} is expected, not an {}", place, expected, value_->type_name());
     }
     using Handler = nlohmann::json::error_handler_t;
     const std::string found = value_->dump(-1, ' ', true, Handler::replace);
-    refuse("{}: {} is expected, not {}", place, expected, found.substr(0, 40));
+    refuse_damage("{}: {} is expected, not {}", place, expected, found.substr(0, 40));
 }
 
 std::optional<JsonPlace> JsonPlace::find(std::string_view key) const {
@@ -35,7 +35,7 @@ std::optional<JsonPlace> JsonPlace::find(std::string_view key) const {
 JsonPlace JsonPlace::at(std::string_view key) const {
     std::optional<JsonPlace> member = find(key);
     if (!member) {
-        refuse("{}: \"{}\" is missing", path_.empty() ? "the document" : path_.c_str(), key);
+        refuse_damage("{}: \"{}\" is missing", path_.empty() ? "the document" : path_.c_str(), key);
     }
     return *std::move(member);
 }
@@ -69,7 +69,7 @@ std::uint64_t JsonPlace::whole(std::uint64_t least, std::uint64_t most) const {
         refuse_type("a whole number");
     }
     if (value < static_cast<double>(least) || value > static_cast<double>(most)) {
-        refuse("{}: {} is out of range, {} to {} is allowed", path_, value, least, most);
+        refuse_damage("{}: {} is out of range, {} to {} is allowed", path_, value, least, most);
     }
     return static_cast<std::uint64_t>(value);
 }
@@ -77,7 +77,7 @@ std::uint64_t JsonPlace::whole(std::uint64_t least, std::uint64_t most) const {
 std::size_t JsonPlace::index_into(std::size_t size) const {
     const std::uint64_t index = whole();
     if (index >= size) {
-        refuse("{}: {} is out of range, the file has {}", path_, index, size);
+        refuse_contradiction("{}: {} is out of range, the file has {}", path_, index, size);
     }
     return static_cast<std::size_t>(index);
 }
@@ -88,14 +88,14 @@ double JsonPlace::number() const {
     }
     const double value = value_->get<double>();
     if (!std::isfinite(value)) {
-        refuse("{}: the number is not finite", path_);
+        refuse_damage("{}: the number is not finite", path_);
     }
     return value;
 }
 
 std::vector<double> JsonPlace::numbers(std::size_t count) const {
     if (count != 0 && size() != count) {
-        refuse("{}: {} numbers are expected, there are {}", path_, count, size());
+        refuse_damage("{}: {} numbers are expected, there are {}", path_, count, size());
     }
     std::vector<double> values;
     for (std::size_t i = 0; i < size(); ++i) {

@@ -1,8 +1,8 @@
 /// load_mesh for bytes that are already in memory, so that tests and fuzzers need no file.
 #pragma once
 
+#include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 namespace frustumscreen {
 
 /// `path` names the model in messages; files beside it are read as it names them.
-[[nodiscard]] Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path);
+[[nodiscard]] Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
+                                                 const LoadOptions& options = {});
 
 } // namespace frustumscreen

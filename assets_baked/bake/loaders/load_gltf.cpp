@@ -1,7 +1,7 @@
 #include "assets_baked/bake/loaders/load_gltf.h"
 
 #include "assets_baked/bake/loaders/gltf_primitive.h"
-#include "assets_baked/bake/loaders/picture_store.h"
+#include "firmware_host/base/printable.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,17 +28,17 @@ Container split_glb(ByteView file) {
         const bool has_version = file.size() >= 8;
         const std::uint32_t version = has_version ? load_little<std::uint32_t>(file, 4) : 2;
         if (version != 2) {
-            refuse("GLB header: version {} cannot be read, only 2", version);
+            refuse("GLB of version {} cannot be read, only of 2; export it as glTF 2.0", version);
         }
-        refuse("GLB header: the file ends after {} bytes, it is truncated", file.size());
+        refuse_cut_short("GLB header: the file ends after {} bytes", file.size());
     }
     const auto version = load_little<std::uint32_t>(file, 4);
     if (version != 2) {
-        refuse("GLB header: version {} cannot be read, only 2", version);
+        refuse("GLB of version {} cannot be read, only of 2; export it as glTF 2.0", version);
     }
     const auto length = load_little<std::uint32_t>(file, 8);
     if (length > file.size()) {
-        refuse("GLB header: {} bytes are declared, the file has {}: it is truncated", length, file.size());
+        refuse_cut_short("GLB header: {} bytes are declared, the file has {}", length, file.size());
     }
     Container container;
     std::size_t position = glb_header_size;
@@ -47,11 +47,12 @@ Container split_glb(ByteView file) {
         const auto type = load_little<std::uint32_t>(file, position + 4);
         position += glb_chunk_header_size;
         if (size > length - position) {
-            refuse("GLB chunk {}: {} bytes are declared, {} are left", chunk, size, length - position);
+            refuse_contradiction("GLB chunk {}: {} bytes are declared, {} are left", chunk, size,
+                                 length - position);
         }
         const ByteView data = file.subspan(position, size);
         if ((chunk == 0) != (type == glb_chunk_json)) {
-            refuse("GLB chunk {}: the first chunk, and no other, must be JSON", chunk);
+            refuse_damage("GLB chunk {}: the first chunk, and no other, must be JSON", chunk);
         }
         if (chunk == 0) {
             container.json = as_text(data);
@@ -61,7 +62,7 @@ Container split_glb(ByteView file) {
         position += size;
     }
     if (container.json.empty()) {
-        refuse("GLB header: there is no JSON in the {} bytes that it declares", length);
+        refuse_damage("GLB header: there is no JSON in the {} bytes that it declares", length);
     }
     return container;
 }
@@ -72,16 +73,16 @@ nlohmann::json parse_json(std::string_view text) {
     } catch (const nlohmann::json::exception& error) {
         const std::string_view what = error.what();
         const std::size_t end_of_code = what.find("] ");
-        refuse("the JSON is damaged: {}",
-               end_of_code == std::string_view::npos ? what : what.substr(end_of_code + 2));
+        refuse_damage("JSON: {}",
+                      end_of_code == std::string_view::npos ? what : what.substr(end_of_code + 2));
     }
 }
 
 /// The mesh's materials and textures, made when a primitive first needs them.
 class Surfaces {
 public:
-    Surfaces(const GltfModel& model, GltfBuffers& buffers, Sidecars& sidecars, MeshAssembly& mesh)
-        : model_(model), buffers_(buffers), sidecars_(sidecars), mesh_(mesh) {}
+    Surfaces(const GltfModel& model, GltfBuffers& buffers, PictureStore& pictures, MeshAssembly& mesh)
+        : model_(model), buffers_(buffers), pictures_(pictures), mesh_(mesh) {}
 
     std::uint32_t material(std::optional<std::size_t> index) {
         const auto known = materials_.find(index);
@@ -107,7 +108,9 @@ private:
         }
         const GltfTexture& source = model_.textures[index];
         if (!source.image) {
-            refuse("textures[{}]: has no PNG, JPEG or WebP picture", index);
+            refuse(
+                "a picture is neither PNG, JPEG nor WebP; export the model with one of these (textures[{}])",
+                index);
         }
         return textures_[index] = mesh_.add_texture({image(*source.image), source.wrap_u, source.wrap_v});
     }
@@ -125,16 +128,15 @@ private:
             known = pictures_.decode(*inside, place);
         } else {
             const std::string name = percent_decoded(*source.uri, place);
-            known = pictures_.decode(*sidecars_.read(name, place), fmt::format("{} ({})", place, name));
+            known = pictures_.named(name, fmt::format("{}: {}", place, printable(name)));
         }
         return known;
     }
 
     const GltfModel& model_;
     GltfBuffers& buffers_;
-    Sidecars& sidecars_;
+    PictureStore& pictures_;
     MeshAssembly& mesh_;
-    PictureStore pictures_;
     std::map<std::optional<std::size_t>, std::uint32_t> materials_;
     std::map<std::size_t, int> textures_;
     std::map<std::size_t, std::shared_ptr<const Image8>> images_;
@@ -146,8 +148,9 @@ std::vector<std::size_t> root_nodes(const GltfModel& model) {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
         for (const std::size_t child : model.nodes[i].children) {
             if (parent[child]) {
-                refuse("nodes[{}]: is a child of nodes[{}] and of nodes[{}]; one parent is allowed", child,
-                       *parent[child], i);
+                refuse_contradiction(
+                    "nodes[{}]: is a child of nodes[{}] and of nodes[{}]; one parent is allowed", child,
+                    *parent[child], i);
             }
             parent[child] = i;
         }
@@ -188,7 +191,7 @@ std::vector<glm::dmat4> scene_from_nodes(const GltfModel& model) {
             reached[node] = true;
         }
         const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
-        refuse("nodes[{}]: is its own ancestor; the nodes' children run in a circle", lost);
+        refuse_contradiction("nodes[{}]: is its own ancestor; the nodes' children run in a circle", lost);
     }
     std::vector<glm::dmat4> scene_from_node(model.nodes.size());
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -211,8 +214,9 @@ std::vector<glm::dmat4> joint_transforms(const GltfModel& model, GltfBuffers& bu
         inverse_bind.emplace(model, buffers, *skin.inverse_bind_matrices);
         if (inverse_bind->components() != 16 || inverse_bind->type() != ComponentType::F32 ||
             inverse_bind->count() < skin.joints.size()) {
-            refuse("skins[{}].inverseBindMatrices: a 4x4 matrix of floats for each of {} joints is expected",
-                   skin_index, skin.joints.size());
+            refuse_contradiction(
+                "skins[{}].inverseBindMatrices: a 4x4 matrix of floats for each of {} joints is expected",
+                skin_index, skin.joints.size());
         }
     }
     std::vector<glm::dmat4> transforms;
@@ -228,8 +232,8 @@ std::vector<glm::dmat4> joint_transforms(const GltfModel& model, GltfBuffers& bu
 
 class SceneDrawer {
 public:
-    SceneDrawer(const GltfModel& model, GltfBuffers& buffers, Sidecars& sidecars)
-        : model_(model), buffers_(buffers), surfaces_(model, buffers, sidecars, mesh_),
+    SceneDrawer(const GltfModel& model, GltfBuffers& buffers, PictureStore& pictures, LoadNotes& notes)
+        : model_(model), buffers_(buffers), notes_(notes), surfaces_(model, buffers, pictures, mesh_),
           primitives_(model, buffers, mesh_, [this](auto index) { return surfaces_.material(index); }) {}
 
     SourceMesh draw() {
@@ -245,7 +249,7 @@ public:
                 draw_mesh(mesh, {glm::dmat4(1.0), {}, mesh.weights});
             }
         }
-        return mesh_.finish();
+        return mesh_.finish(has_points_);
     }
 
 private:
@@ -263,8 +267,10 @@ private:
         for (const std::size_t node : drawn) {
             total += model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
             if (total > most_triangles) {
-                refuse("nodes[{}]: more than {} triangles after instancing; simplify the model first", node,
-                       most_triangles);
+                refuse("it has more than {} triangles; simplify it first, for instance in MeshLab (at "
+                       "nodes[{}], parts that "
+                       "are used again counted again)",
+                       most_triangles, node);
             }
         }
     }
@@ -290,12 +296,29 @@ private:
 
     void draw_mesh(const GltfMesh& mesh, const GltfPlacement& placement) {
         for (const GltfPrimitive& primitive : mesh.primitives) {
+            note_losses(primitive);
             primitives_.draw(primitive, placement);
+        }
+    }
+
+    void note_losses(const GltfPrimitive& primitive) {
+        if (primitive.mode < 4) {
+            has_points_ = true;
+            notes_.lost("points or lines are left out ({})", primitive.place);
+            return;
+        }
+        const auto texture =
+            primitive.material ? model_.materials[*primitive.material].texture : std::nullopt;
+        if (texture && !primitive.attributes.contains(fmt::format("TEXCOORD_{}", texture->uv_set))) {
+            notes_.lost("a picture does not show, because a part has no texture coordinates for it ({})",
+                        primitive.place);
         }
     }
 
     const GltfModel& model_;
     GltfBuffers& buffers_;
+    LoadNotes& notes_;
+    bool has_points_ = false;
     MeshAssembly mesh_{'y'};
     std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< of each skin
     Surfaces surfaces_;
@@ -304,7 +327,7 @@ private:
 
 } // namespace
 
-SourceMesh load_gltf(ByteView file, const std::filesystem::path& folder) {
+SourceMesh load_gltf(ByteView file, ModelFiles& files) {
     const Container container =
         as_text(file).starts_with("glTF") ? split_glb(file) : Container{as_text(file), std::nullopt};
     GltfModel model;
@@ -312,16 +335,13 @@ SourceMesh load_gltf(ByteView file, const std::filesystem::path& folder) {
         const nlohmann::json document = parse_json(container.json);
         model = gltf_model_from(JsonPlace(document, ""));
     }
-    Sidecars sidecars(folder);
-    GltfBuffers buffers(model, sidecars, container.binary_chunk);
-    SourceMesh mesh = SceneDrawer(model, buffers, sidecars).draw();
+    GltfBuffers buffers(model, files.sidecars, container.binary_chunk);
     for (const GltfImage& image : model.images) {
         if (image.uri) {
-            sidecars.mention(percent_decoded_if_valid(*image.uri));
+            files.sidecars.mention(percent_decoded_if_valid(*image.uri));
         }
     }
-    mesh.side_files = sidecars.files();
-    return mesh;
+    return SceneDrawer(model, buffers, files.pictures, files.notes).draw();
 }
 
 } // namespace frustumscreen

@@ -13,12 +13,10 @@
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/source_mesh.h"
-
-#include <filesystem>
+#include "assets_baked/bake/loaders/model_files.h"
 
 namespace frustumscreen {
 
-[[nodiscard]] SourceMesh load_gltf(ByteView file, const std::filesystem::path& folder);
+[[nodiscard]] SourceMesh load_gltf(ByteView file, ModelFiles& files);
 
 } // namespace frustumscreen

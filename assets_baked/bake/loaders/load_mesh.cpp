@@ -61,28 +61,64 @@ Format format_of(ByteView file, const std::filesystem::path& path) {
         return Format::Obj;
     }
     if (extension == ".ply") {
-        refuse("does not begin with \"ply\", so it is no PLY file");
+        refuse("it is no PLY file, whatever its name says (it does not begin with \"ply\"); export it again");
     }
     if (extension == ".glb" || extension == ".gltf") {
-        refuse("begins neither with \"glTF\" nor with a JSON object, so it is no glTF file");
+        refuse("it is no glTF file, whatever its name says (it begins neither with \"glTF\" nor with a JSON "
+               "object); "
+               "export it again");
     }
-    refuse("is neither glTF, OBJ, PLY nor STL");
+    refuse("it is neither glTF, OBJ, PLY nor STL; export it as one of these, best as .glb");
 }
 
-SourceMesh load(ByteView file, const std::filesystem::path& path) {
+SourceMesh read(ByteView file, const std::filesystem::path& path, ModelFiles& files) {
     if (file.empty()) {
-        refuse("the file is empty");
+        refuse("the file is empty; copy it again, or export it again");
     }
     switch (format_of(file, path)) {
     case Format::Gltf:
-        return load_gltf(file, path.parent_path());
+        return load_gltf(file, files);
     case Format::Ply:
-        return load_ply(file);
+        return load_ply(file, files);
     case Format::Stl:
-        return load_stl(file);
+        return load_stl(file, files.notes);
     default:
-        return load_obj(file, path.parent_path());
+        return load_obj(file, files);
     }
+}
+
+/// Puts the curator's own picture on a model that names none.
+void wear_curators_picture(SourceMesh& mesh, PictureStore& pictures) {
+    if (!mesh.textures.empty()) {
+        return;
+    }
+    if (mesh.uvs.empty()) {
+        refuse("it has no texture coordinates, so no picture can be put on it: leave out --texture, or "
+               "export it "
+               "again with texture coordinates");
+    }
+    mesh.textures.push_back({pictures.curators()});
+    for (SourceMaterial& material : mesh.materials) {
+        material.texture = 0;
+    }
+}
+
+SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOptions& options) {
+    ModelFiles files(path.parent_path(), options);
+    SourceMesh mesh = read(file, path, files);
+    if (files.pictures.has_curators()) {
+        wear_curators_picture(mesh, files.pictures);
+        if (!files.pictures.used_curators()) {
+            (void)files.pictures.curators(); // a wrong name is an error all the same
+            files.notes.guessed("its own pictures are all there; {} is not used", options.texture.string());
+        }
+    }
+    mesh.side_files = files.sidecars.files();
+    if (!options.texture.empty()) {
+        mesh.side_files.push_back(options.texture);
+    }
+    mesh.notes = files.notes.take();
+    return mesh;
 }
 
 /// Names from the file may hold anything, but an error is one printable line.
@@ -97,24 +133,26 @@ std::string one_line(std::string message) {
 
 } // namespace
 
-Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path) {
+Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
+                                   const LoadOptions& options) {
     const auto refused = [&](const std::string& message) {
         return bad_input(one_line(path.string() + ": " + message));
     };
     try {
-        return load(file, path);
+        return load(file, path, options);
     } catch (const Refusal& refusal) {
         return refused(refusal.message);
     } catch (const std::bad_alloc&) {
-        return refused("the model does not fit into this computer's memory; simplify it first");
+        return refused(
+            "it does not fit into this computer's memory; simplify it first, for instance in MeshLab");
     } catch (const std::exception& error) { // thrown by a library
         return refused(std::string("cannot be read: ") + error.what());
     }
 }
 
-Result<SourceMesh> load_mesh(const std::filesystem::path& path) {
+Result<SourceMesh> load_mesh(const std::filesystem::path& path, const LoadOptions& options) {
     const Result<Bytes> file = read_file(path);
-    return file ? load_mesh_bytes(*file, path)
+    return file ? load_mesh_bytes(*file, path, options)
                 : Result<SourceMesh>(bad_input(one_line(file.error().message)));
 }
 

@@ -1,10 +1,9 @@
 #include "assets_baked/bake/loaders/load_obj.h"
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
-#include "assets_baked/bake/loaders/picture_store.h"
 #include "assets_baked/bake/loaders/polygon.h"
-#include "assets_baked/bake/loaders/sidecar.h"
 #include "assets_baked/bake/loaders/text.h"
+#include "firmware_host/base/printable.h"
 
 #include <tiny_obj_loader.h>
 
@@ -20,13 +19,22 @@ namespace {
 /// Materials by name, made when a face first uses them.
 class ObjMaterials {
 public:
-    ObjMaterials(const std::filesystem::path& folder, MeshAssembly& mesh) : sidecars_(folder), mesh_(mesh) {}
+    ObjMaterials(ModelFiles& files, MeshAssembly& mesh) : files_(files), mesh_(mesh) {}
 
     void read_library(const std::string& name, const std::string& place) {
-        if (!sidecars_.exists(name, place)) {
+        if (!files_.sidecars.exists(name)) {
+            missing_library_ = true;
+            if (files_.pictures.has_curators()) {
+                return; // whose picture stands for the colours
+            }
+            files_.notes.lost(
+                "the colours: it names \"{}\" for them, and there is no such file beside it; put "
+                "it there ({})",
+                printable(last_part(name)), place);
             return;
         }
-        const std::shared_ptr<const Bytes> bytes = sidecars_.read(name, place);
+        has_library_ = true;
+        const std::shared_ptr<const Bytes> bytes = files_.sidecars.read(name, place);
         std::istringstream stream{std::string(as_text(*bytes))};
         std::map<std::string, int> names;
         std::vector<tinyobj::material_t> materials;
@@ -41,7 +49,7 @@ public:
         }
     }
 
-    /// A material with an unknown name is white.
+    /// A material with an unknown name is white, or wears the curator's own picture.
     std::uint32_t number_of(const std::string& name) {
         if (const auto used = used_.find(name); used != used_.end()) {
             return used->second;
@@ -49,13 +57,25 @@ public:
         SourceMaterial made;
         if (const auto known = known_.find(name); known != known_.end()) {
             made = made_from(known->second);
+        } else if (!name.empty()) {
+            note_unknown(name);
         }
         return used_[name] = mesh_.add_material(made);
     }
 
-    [[nodiscard]] std::vector<std::filesystem::path> files() const { return sidecars_.files(); }
-
 private:
+    void note_unknown(const std::string& name) {
+        if (has_library_) {
+            files_.notes.lost(
+                "the colour of the material \"{}\": the file of materials (.mtl) does not have it",
+                printable(name));
+        } else if (!missing_library_ && !files_.pictures.has_curators()) {
+            files_.notes.lost(
+                "the colours: it names materials, but no file of materials (.mtl); export it again "
+                "with its materials");
+        }
+    }
+
     void mention_pictures(const tinyobj::material_t& material) {
         for (const std::string* name :
              {&material.diffuse_texname, &material.ambient_texname, &material.specular_texname,
@@ -63,7 +83,7 @@ private:
               &material.alpha_texname, &material.reflection_texname, &material.roughness_texname,
               &material.metallic_texname, &material.sheen_texname, &material.emissive_texname,
               &material.normal_texname}) {
-            sidecars_.mention(*name);
+            files_.sidecars.mention(*name);
         }
     }
 
@@ -84,18 +104,18 @@ private:
     }
 
     int texture(const std::string& name, bool clamp) {
-        const std::string place = "map_Kd " + name;
         std::shared_ptr<const Image8>& picture = pictures_by_name_[name];
         if (!picture) {
-            picture = pictures_.decode(*sidecars_.read(name, place), place);
+            picture = files_.pictures.named(name, "map_Kd " + printable(name));
         }
         const Wrap wrap = clamp ? Wrap::Clamp : Wrap::Repeat;
         return mesh_.add_texture({picture, wrap, wrap});
     }
 
-    Sidecars sidecars_;
+    ModelFiles& files_;
     MeshAssembly& mesh_;
-    PictureStore pictures_;
+    bool has_library_ = false;
+    bool missing_library_ = false;
     std::map<std::string, std::shared_ptr<const Image8>> pictures_by_name_;
     std::map<std::string, tinyobj::material_t> known_;
     std::map<std::string, std::uint32_t> used_;
@@ -103,19 +123,28 @@ private:
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, const std::filesystem::path& folder)
-        : text_(text), materials_(folder, mesh_) {}
+    ObjReader(std::string_view text, ModelFiles& files)
+        : text_(text), notes_(files.notes), materials_(files, mesh_) {}
 
     SourceMesh read() {
         while (!text_.empty()) {
             read_line(next_line());
         }
-        SourceMesh mesh = mesh_.finish();
-        mesh.side_files = materials_.files();
-        return mesh;
+        note_losses();
+        return mesh_.finish(!positions_.empty());
     }
 
 private:
+    void note_losses() {
+        if (faces_without_area_ > 0) {
+            notes_.lost("{} of fewer than three corners", counted(faces_without_area_, "face", "faces"));
+        }
+        if (points_lines_surfaces_ > 0) {
+            notes_.lost("{} that no triangle is made of: points, lines or curved surfaces",
+                        counted(points_lines_surfaces_, "part", "parts"));
+        }
+    }
+
     /// A backslash at the end joins a line with the next one.
     std::string_view next_line() {
         joined_.clear();
@@ -149,6 +178,8 @@ private:
             uvs_.emplace_back(uv[0], uv.size() > 1 ? 1.0 - uv[1] : 1.0);
         } else if (keyword == "f") {
             read_face(words);
+        } else if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "surf") {
+            ++points_lines_surfaces_;
         } else if (keyword == "usemtl") {
             material_ = trimmed(words.rest_of_line());
         } else if (keyword == "mtllib") {
@@ -163,12 +194,12 @@ private:
              word = words.next()) {
             const std::optional<double> value = number_from(word);
             if (!value) {
-                refuse("line {}: a number is expected, not \"{}\"", line_, word.substr(0, 40));
+                refuse_damage("line {}: a number is expected, not \"{}\"", line_, word.substr(0, 40));
             }
             values.push_back(*value);
         }
         if (values.size() < least) {
-            refuse("line {}: {} numbers are expected, there are {}", line_, least, values.size());
+            refuse_damage("line {}: {} numbers are expected, there are {}", line_, least, values.size());
         }
         return values;
     }
@@ -177,7 +208,8 @@ private:
         const std::vector<double> values = numbers(words, 3);
         const glm::dvec3 position(values[0], values[1], values[2]);
         if (!(glm::length(position) < largest_coordinate)) {
-            refuse("line {}: vertex {} is not a finite point within 1e30", line_, positions_.size() + 1);
+            refuse_contradiction("line {}: vertex {} is not a finite point within 1e30", line_,
+                                 positions_.size() + 1);
         }
         positions_.push_back(position);
         if (values.size() >= 6) {
@@ -193,11 +225,13 @@ private:
     std::uint32_t index_from(std::string_view word, std::size_t size, const char* what) {
         const std::optional<std::int64_t> number = whole_from(word);
         if (!number) {
-            refuse("line {}: the number of a {} is expected, not \"{}\"", line_, what, word.substr(0, 40));
+            refuse_damage("line {}: the number of a {} is expected, not \"{}\"", line_, what,
+                          word.substr(0, 40));
         }
         const auto count = static_cast<std::int64_t>(size);
         if (*number == 0 || *number > count || *number < -count) {
-            refuse("line {}: {} {} is out of range, there are {} so far", line_, what, *number, count);
+            refuse_contradiction("line {}: {} {} is out of range, there are {} so far", line_, what, *number,
+                                 count);
         }
         return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : count + *number);
     }
@@ -238,7 +272,8 @@ private:
         }
         triangulate_polygon(points_, triangles_);
         if (triangles_.empty()) {
-            return; // a face of fewer than three corners shows nothing
+            ++faces_without_area_;
+            return;
         }
         const std::uint32_t material = materials_.number_of(material_);
         for (const auto& [a, b, c] : triangles_) {
@@ -251,9 +286,12 @@ private:
     std::string_view text_;
     std::string joined_;
     std::size_t line_ = 0;
+    LoadNotes& notes_;
     MeshAssembly mesh_{'y'};
     ObjMaterials materials_;
     std::string material_;
+    std::size_t faces_without_area_ = 0;    ///< of fewer than three corners
+    std::size_t points_lines_surfaces_ = 0; ///< elements that are no faces
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
     std::vector<glm::vec4> colours_; ///< of the first positions; there may be fewer of them
@@ -265,11 +303,11 @@ private:
 
 } // namespace
 
-SourceMesh load_obj(ByteView file, const std::filesystem::path& folder) {
+SourceMesh load_obj(ByteView file, ModelFiles& files) {
     std::string_view text = as_text(file);
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-    return ObjReader(text, folder).read();
+    return ObjReader(text, files).read();
 }
 
 } // namespace frustumscreen

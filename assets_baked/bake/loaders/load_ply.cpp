@@ -1,10 +1,9 @@
 #include "assets_baked/bake/loaders/load_ply.h"
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
-#include "assets_baked/bake/loaders/ply_header.h"
+#include "assets_baked/bake/loaders/ply_surface.h"
+#include "assets_baked/bake/loaders/ply_values.h"
 #include "assets_baked/bake/loaders/polygon.h"
-#include "assets_baked/bake/loaders/text.h"
-#include "firmware_host/base/file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,79 +12,18 @@ namespace frustumscreen {
 
 namespace {
 
-/// Reads the values after the header one by one, text or binary.
-class PlyValues {
-public:
-    PlyValues(ByteView file, const PlyHeader& header)
-        : header_(header), data_(file.subspan(header.size)), words_(as_text(data_)) {}
-
-    double next(PlyType type, const PlyElement& element, std::uint64_t row) {
-        if (header_.is_text) {
-            return next_word(element, row);
-        }
-        if (size_of(type) > data_.size() - position_) {
-            refuse_end(element, row);
-        }
-        const double value = binary(type);
-        position_ += size_of(type);
-        return value;
-    }
-    /// A length or an index.
-    std::int64_t next_whole(PlyType type, const PlyElement& element, std::uint64_t row) {
-        const double value = next(type, element, row);
-        if (!(std::abs(value) < 9e15) || value != std::floor(value)) {
-            refuse("{} {}: a whole number is expected, not {}", element.name, row, value);
-        }
-        return static_cast<std::int64_t>(value);
-    }
-
-private:
-    [[noreturn]] static void refuse_end(const PlyElement& element, std::uint64_t row) {
-        refuse("{} {} of {}: the file ends too early, it is truncated", element.name, row, element.count);
-    }
-    double next_word(const PlyElement& element, std::uint64_t row) {
-        const std::string_view word = words_.next();
-        if (word.empty()) {
-            refuse_end(element, row);
-        }
-        const std::optional<double> number = number_from(word);
-        if (!number) {
-            refuse("{} {}: a number is expected, not \"{}\"", element.name, row, word.substr(0, 40));
-        }
-        return *number;
-    }
-    [[nodiscard]] double binary(PlyType type) const {
-        switch (type) {
-        case PlyType::I8:
-            return load<std::int8_t>(data_, position_, header_.order);
-        case PlyType::U8:
-            return load<std::uint8_t>(data_, position_, header_.order);
-        case PlyType::I16:
-            return load<std::int16_t>(data_, position_, header_.order);
-        case PlyType::U16:
-            return load<std::uint16_t>(data_, position_, header_.order);
-        case PlyType::I32:
-            return load<std::int32_t>(data_, position_, header_.order);
-        case PlyType::U32:
-            return load<std::uint32_t>(data_, position_, header_.order);
-        case PlyType::F32:
-            return static_cast<double>(load<float>(data_, position_, header_.order));
-        default:
-            return load<double>(data_, position_, header_.order);
-        }
-    }
-
-    const PlyHeader& header_;
-    ByteView data_;
-    std::size_t position_ = 0;
-    WordReader words_;
-};
-
-/// What a vertex's property stands for: 0..2 position, 3..6 colour and alpha, -1 nothing.
+/// What a vertex's property stands for: 0..2 position, 3..6 colour and alpha, 7..8 texture coordinates, -1
+/// nothing.
 int role_of(const PlyProperty& property) {
-    static constexpr std::array<std::string_view, 7> names = {"x", "y", "z", "red", "green", "blue", "alpha"};
+    static constexpr std::array<std::string_view, 15> names = {
+        "x", "y", "z", "red",       "green",     "blue",      "alpha",    "s",
+        "t", "u", "v", "texture_u", "texture_v", "texture_s", "texture_t"};
     const auto found = std::find(names.begin(), names.end(), property.name);
-    return property.list_count || found == names.end() ? -1 : static_cast<int>(found - names.begin());
+    if (property.list_count || found == names.end()) {
+        return -1;
+    }
+    const int place = static_cast<int>(found - names.begin());
+    return place < 7 ? place : 7 + (place - 7) % 2;
 }
 
 double colour01(double value, PlyType type) {
@@ -102,7 +40,9 @@ double colour01(double value, PlyType type) {
 
 class PlyReader {
 public:
-    explicit PlyReader(ByteView file) : header_(ply_header_from(file)), values_(file, header_) {}
+    PlyReader(ByteView file, ModelFiles& files)
+        : header_(ply_header_from(file)), values_(file, header_), files_(files),
+          surface_(header_.pictures, files, mesh_) {}
 
     SourceMesh read() {
         for (const PlyElement& element : header_.elements) {
@@ -125,14 +65,16 @@ private:
         for (const PlyProperty& property : element.properties) {
             roles.push_back(role_of(property));
         }
+        const auto has = [&](int role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::find(roles.begin(), roles.end(), axis) == roles.end()) {
-                refuse("the vertices have no {}", "xyz"[axis]);
+            if (!has(axis)) {
+                refuse_damage("the vertices have no {}", "xyz"[axis]);
             }
         }
-        const bool coloured = std::find(roles.begin(), roles.end(), 3) != roles.end();
+        const bool coloured = has(3);
+        const bool textured = has(7) && has(8);
         for (std::uint64_t row = 0; row < element.count; ++row) {
-            std::array<double, 7> v{0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0};
+            std::array<double, 9> v{0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0};
             for (std::size_t i = 0; i < roles.size(); ++i) {
                 read_vertex_property(element, i, roles[i], row, v);
             }
@@ -141,11 +83,15 @@ private:
                 mesh_.set_colour(
                     glm::vec4(linear_from_srgb(v[3]), linear_from_srgb(v[4]), linear_from_srgb(v[5]), v[6]));
             }
+            if (textured) {
+                mesh_.set_uv({v[7], 1.0 - v[8]});
+            }
         }
+        surface_.at_vertices(coloured, textured);
     }
 
     void read_vertex_property(const PlyElement& element, std::size_t i, int role, std::uint64_t row,
-                              std::array<double, 7>& vertex) {
+                              std::array<double, 9>& vertex) {
         const PlyProperty& property = element.properties[i];
         if (property.list_count) {
             skip_list(element, property, row);
@@ -153,14 +99,15 @@ private:
         }
         const double value = values_.next(property.type, element, row);
         if (role >= 0) {
-            vertex[static_cast<std::size_t>(role)] = role < 3 ? value : colour01(value, property.type);
+            const bool is_colour = role >= 3 && role <= 6;
+            vertex[static_cast<std::size_t>(role)] = is_colour ? colour01(value, property.type) : value;
         }
     }
 
     std::int64_t list_length(const PlyElement& element, const PlyProperty& property, std::uint64_t row) {
         const std::int64_t length = values_.next_whole(*property.list_count, element, row);
         if (length < 0) {
-            refuse("{} {}: a list's length is {}", element.name, row, length);
+            refuse_damage("{} {}: a list's length is {}", element.name, row, length);
         }
         return length;
     }
@@ -176,16 +123,30 @@ private:
         const bool faces = element.name == "face";
         const bool strips = element.name == "tristrips";
         for (std::uint64_t row = 0; row < element.count; ++row) {
+            const std::size_t first = corners_.size();
             for (const PlyProperty& property : element.properties) {
                 const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
-                if (!property.list_count) {
+                if (faces && !property.list_count) {
+                    surface_.face_value(property.name, values_.next(property.type, element, row));
+                } else if (!property.list_count) {
                     (void)values_.next(property.type, element, row);
                 } else if ((faces || strips) && corners) {
                     read_corners(element, property, row, strips);
+                } else if (faces && property.name == "texcoord") {
+                    read_texcoords(element, property, row);
                 } else {
                     skip_list(element, property, row);
                 }
             }
+            if (faces) {
+                surface_.end_face(first, corners_.size());
+            }
+        }
+    }
+
+    void read_texcoords(const PlyElement& element, const PlyProperty& property, std::uint64_t row) {
+        for (std::int64_t left = list_length(element, property, row); left > 0; --left) {
+            surface_.face_texcoord(values_.next(property.type, element, row));
         }
     }
 
@@ -214,47 +175,66 @@ private:
     void add_polygon(const std::vector<std::int64_t>& corners, std::uint64_t row) {
         for (const std::int64_t corner : corners) {
             if (corner < 0 || corner >= static_cast<std::int64_t>(most_vertices)) {
-                refuse("face {}: vertex {} is out of range", row, corner);
+                refuse_contradiction("face {}: vertex {} is out of range", row, corner);
             }
             corners_.push_back(static_cast<std::uint32_t>(corner));
         }
         polygon_ends_.push_back(corners_.size());
     }
 
+    void check_corners() const {
+        std::size_t corner = 0;
+        for (std::size_t polygon = 0; polygon < polygon_ends_.size(); ++polygon) {
+            for (; corner < polygon_ends_[polygon]; ++corner) {
+                if (corners_[corner] >= mesh_.positions().size()) {
+                    refuse_contradiction("face {}: vertex {} is out of range, the file has {}", polygon,
+                                         corners_[corner], mesh_.positions().size());
+                }
+            }
+        }
+    }
+
     void make_triangles() {
+        check_corners();
+        surface_.begin();
         std::vector<glm::dvec3> points;
         std::vector<std::array<std::uint32_t, 3>> triangles;
+        std::size_t faces_without_area = 0;
         std::size_t begin = 0;
-        for (std::size_t polygon = 0; polygon < polygon_ends_.size(); ++polygon) {
-            const auto corners = std::span(corners_).subspan(begin, polygon_ends_[polygon] - begin);
-            begin = polygon_ends_[polygon];
+        for (const std::size_t end : polygon_ends_) {
+            const auto corners = std::span(corners_).subspan(begin, end - begin);
             points.clear();
             triangles.clear();
             for (const std::uint32_t corner : corners) {
-                if (corner >= mesh_.positions().size()) {
-                    refuse("face {}: vertex {} is out of range, the file has {}", polygon, corner,
-                           mesh_.positions().size());
-                }
                 points.push_back(mesh_.positions()[corner]);
             }
             triangulate_polygon(points, triangles);
+            faces_without_area += triangles.empty() ? 1 : 0;
+            const std::uint32_t material = surface_.material(begin);
+            surface_.split(begin, corners);
             for (const auto& [a, b, c] : triangles) {
-                mesh_.add_triangle(corners[a], corners[b], corners[c], 0);
+                mesh_.add_triangle(corners[a], corners[b], corners[c], material);
             }
+            begin = end;
+        }
+        if (faces_without_area > 0) {
+            files_.notes.lost("{} of fewer than three corners", counted(faces_without_area, "face", "faces"));
         }
     }
 
     PlyHeader header_;
     PlyValues values_;
+    ModelFiles& files_;
     MeshAssembly mesh_{'y'};
+    PlySurface surface_;
     std::vector<std::uint32_t> corners_;
     std::vector<std::size_t> polygon_ends_;
 };
 
 } // namespace
 
-SourceMesh load_ply(ByteView file) {
-    return PlyReader(file).read();
+SourceMesh load_ply(ByteView file, ModelFiles& files) {
+    return PlyReader(file, files).read();
 }
 
 } // namespace frustumscreen

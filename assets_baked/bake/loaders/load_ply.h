@@ -2,16 +2,19 @@
 /// polygons cut into triangles, Stanford's triangle strips. Elements and properties with other names are
 /// skipped.
 ///
-/// Frame    the file's; up is y.
+/// Frame    the file's; up is y. Texture coordinates are turned over: 0 at the picture's top row.
 /// Colour   red, green, blue (alpha): whole numbers are 8- or 16-bit sRGB codes, floats are sRGB in 0..1.
+///          Pictures are named by comments "TextureFile NAME". Texture coordinates stand at the vertices (s, t or
+///          u, v or texture_u, texture_v) or, as MeshLab has them, at the faces' corners (a list texcoord of two
+///          numbers a corner, with the picture's number as texnumber). A picture goes before the vertices' colours.
 /// Errors   throws Refusal.
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/source_mesh.h"
+#include "assets_baked/bake/loaders/model_files.h"
 
 namespace frustumscreen {
 
-[[nodiscard]] SourceMesh load_ply(ByteView file);
+[[nodiscard]] SourceMesh load_ply(ByteView file, ModelFiles& files);
 
 } // namespace frustumscreen

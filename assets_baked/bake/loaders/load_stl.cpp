@@ -19,14 +19,17 @@ bool is_word(std::string_view word, std::string_view lower) {
     });
 }
 
-SourceMesh load_binary(ByteView file) {
+SourceMesh load_binary(ByteView file, LoadNotes& notes) {
     if (file.size() < header_size) {
-        refuse("a binary STL begins with {} bytes, the file has {}", header_size, file.size());
+        refuse_cut_short("a binary STL begins with {} bytes, the file has {}", header_size, file.size());
     }
     const std::uint64_t count = load_little<std::uint32_t>(file, header_size - 4);
     if (count > (file.size() - header_size) / facet_size) {
-        refuse("{} triangles are declared, {} are there: the file is truncated", count,
-               (file.size() - header_size) / facet_size);
+        refuse_cut_short("{} triangles are declared, {} are there", count,
+                         (file.size() - header_size) / facet_size);
+    }
+    if (as_text(file.subspan(0, header_size)).find("COLOR=") != std::string_view::npos) {
+        notes.lost("the colours: those of STL files are not read; export it as PLY, OBJ or glTF");
     }
     MeshAssembly mesh('z');
     for (std::size_t facet = 0; facet < count; ++facet) {
@@ -46,10 +49,10 @@ double coordinate(WordReader& words) {
     const std::string_view word = words.next();
     const std::optional<double> number = number_from(word);
     if (word.empty()) {
-        refuse("line {}: the text ends inside a facet: the file is truncated", words.line());
+        refuse_cut_short("line {}: the text ends inside a facet", words.line());
     }
     if (!number) {
-        refuse("line {}: a number is expected, not \"{}\"", words.line(), word.substr(0, 40));
+        refuse_damage("line {}: a number is expected, not \"{}\"", words.line(), word.substr(0, 40));
     }
     return *number;
 }
@@ -71,7 +74,7 @@ SourceMesh load_ascii(std::string_view text) {
             ++in_loop;
         } else if (is_word(word, "endloop")) {
             if (in_loop != 3) {
-                refuse("line {}: the facet has {} vertices, 3 are expected", words.line(), in_loop);
+                refuse_damage("line {}: the facet has {} vertices, 3 are expected", words.line(), in_loop);
             }
             const auto end = static_cast<std::uint32_t>(mesh.positions().size());
             mesh.add_triangle(end - 3, end - 2, end - 1, 0);
@@ -82,7 +85,7 @@ SourceMesh load_ascii(std::string_view text) {
         }
     }
     if (!ended || in_loop != 0) {
-        refuse("line {}: the text ends without \"endsolid\": the file is truncated", words.line());
+        refuse_cut_short("line {}: the text ends without \"endsolid\"", words.line());
     }
     return mesh.finish();
 }
@@ -95,10 +98,10 @@ bool has_length_of_binary_stl(ByteView file) {
                header_size + facet_size * std::uint64_t{load_little<std::uint32_t>(file, header_size - 4)};
 }
 
-SourceMesh load_stl(ByteView file) {
+SourceMesh load_stl(ByteView file, LoadNotes& notes) {
     const std::string_view text = trimmed(as_text(file.subspan(0, std::min<std::size_t>(file.size(), 1024))));
     const bool is_text = text.size() >= 5 && is_word(text.substr(0, 5), "solid");
-    return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file)) : load_binary(file);
+    return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file)) : load_binary(file, notes);
 }
 
 } // namespace frustumscreen

@@ -5,12 +5,12 @@
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/source_mesh.h"
+#include "assets_baked/bake/loaders/load_notes.h"
 
 namespace frustumscreen {
 
 /// Exactly 84 bytes, and 50 for each triangle that they declare.
 [[nodiscard]] bool has_length_of_binary_stl(ByteView file);
-[[nodiscard]] SourceMesh load_stl(ByteView file);
+[[nodiscard]] SourceMesh load_stl(ByteView file, LoadNotes& notes);
 
 } // namespace frustumscreen

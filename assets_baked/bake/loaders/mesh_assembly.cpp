@@ -12,7 +12,7 @@ namespace {
 /// picture.
 constexpr double largest_uv = 1e6;
 
-float finite_uv(double value) {
+float finite_or_zero(double value) {
     return std::abs(value) <= largest_uv ? static_cast<float>(value) : 0.0F;
 }
 
@@ -25,20 +25,33 @@ float colour_factor(float value) {
 std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* place, std::size_t number) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!(std::abs(position[axis]) <= largest_coordinate)) {
-            refuse("{} {}: its position ({}, {}, {}) is not a finite point within 1e30", place, number,
-                   position.x, position.y, position.z);
+            refuse_damage("{} {}: its position ({}, {}, {}) is not a finite point within 1e30", place, number,
+                          position.x, position.y, position.z);
         }
     }
     if (mesh_.positions.size() >= most_vertices) {
-        refuse("more than {} vertices after instancing; simplify the model first", most_vertices);
+        refuse("it has more than {} vertices; simplify it first, for instance in MeshLab", most_vertices);
     }
     mesh_.positions.push_back(position);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
 }
 
-void MeshAssembly::set_uv(const glm::dvec2& uv) {
+std::uint32_t MeshAssembly::copy_vertex(std::uint32_t vertex) {
+    const std::uint32_t copy = add_vertex(glm::dvec3(mesh_.positions[vertex]), "vertex", vertex);
+    if (vertex < mesh_.colours.size()) {
+        const glm::vec4 colour = mesh_.colours[vertex];
+        set_colour(colour);
+    }
+    return copy;
+}
+
+void MeshAssembly::set_uv(std::uint32_t vertex, const glm::dvec2& uv) {
     mesh_.uvs.resize(mesh_.positions.size(), glm::vec2(0.0F));
-    mesh_.uvs.back() = glm::vec2(finite_uv(uv.x), finite_uv(uv.y));
+    mesh_.uvs[vertex] = finite_uv(uv);
+}
+
+glm::vec2 MeshAssembly::finite_uv(const glm::dvec2& uv) {
+    return {finite_or_zero(uv.x), finite_or_zero(uv.y)};
 }
 
 void MeshAssembly::set_colour(const glm::vec4& linear) {
@@ -59,15 +72,18 @@ int MeshAssembly::add_texture(SourceTexture texture) {
 
 void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
     if (mesh_.triangles.size() >= most_triangles) {
-        refuse("more than {} triangles after instancing; simplify the model first", most_triangles);
+        refuse("it has more than {} triangles; simplify it first, for instance in MeshLab", most_triangles);
     }
     mesh_.triangles.push_back({a, b, c});
     mesh_.triangle_materials.push_back(material);
 }
 
-SourceMesh MeshAssembly::finish() {
+SourceMesh MeshAssembly::finish(bool has_points) {
+    if (mesh_.triangles.empty() && (has_points || !mesh_.positions.empty())) {
+        refuse("it is a point cloud without faces (no triangles): mesh it first, for instance in MeshLab");
+    }
     if (mesh_.triangles.empty()) {
-        refuse("holds no triangles, so there is nothing to show");
+        refuse("it has no triangles, so there is nothing to show; export the artifact itself, as a mesh");
     }
     if (mesh_.materials.empty()) {
         mesh_.materials.emplace_back();
@@ -82,7 +98,8 @@ SourceMesh MeshAssembly::finish() {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         for (const std::uint32_t vertex : mesh_.triangles[i]) {
             if (vertex >= vertices) {
-                refuse("triangle {} uses vertex {}, but there are {} vertices", i, vertex, vertices);
+                refuse_contradiction("triangle {} uses vertex {}, but there are {} vertices", i, vertex,
+                                     vertices);
             }
         }
     }

@@ -23,9 +23,17 @@ public:
 
     /// `place` names the vertex's origin in messages, for example "vertex".
     std::uint32_t add_vertex(const glm::dvec3& position, const char* place, std::size_t number);
+    /// A vertex like `vertex` in place and colour.
+    std::uint32_t copy_vertex(std::uint32_t vertex);
     /// For the last vertex added. The default is (0, 0) and white.
-    void set_uv(const glm::dvec2& uv);
+    void set_uv(const glm::dvec2& uv) { set_uv(last_vertex(), uv); }
+    void set_uv(std::uint32_t vertex, const glm::dvec2& uv);
     void set_colour(const glm::vec4& linear);
+    /// Leaves the vertices without colours, or texture coordinates, of their own.
+    void drop_colours() { mesh_.colours.clear(); }
+    void drop_uvs() { mesh_.uvs.clear(); }
+    /// What `set_uv` makes of numbers that carry no picture.
+    [[nodiscard]] static glm::vec2 finite_uv(const glm::dvec2& uv);
 
     std::uint32_t add_material(const SourceMaterial& material);
     int add_texture(SourceTexture texture);
@@ -33,10 +41,14 @@ public:
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
     [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
-    /// Refuses a mesh without triangles.
-    [[nodiscard]] SourceMesh finish();
+    /// Refuses a mesh without triangles. `has_points`: whether the file has points that belong to none.
+    [[nodiscard]] SourceMesh finish(bool has_points = false);
 
 private:
+    [[nodiscard]] std::uint32_t last_vertex() const {
+        return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+    }
+
     SourceMesh mesh_;
 };
 

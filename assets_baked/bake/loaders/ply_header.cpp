@@ -52,7 +52,7 @@ PlyType type_from(std::string_view name, std::size_t line) {
             return type;
         }
     }
-    refuse("line {}: \"{}\" is no type of PLY", line, name.substr(0, 40));
+    refuse_damage("line {}: \"{}\" is no type of PLY", line, name.substr(0, 40));
 }
 
 PlyProperty property_from(WordReader& words, std::size_t line) {
@@ -61,7 +61,7 @@ PlyProperty property_from(WordReader& words, std::size_t line) {
     if (type == "list") {
         property.list_count = type_from(words.next(), line);
         if (*property.list_count == PlyType::F32 || *property.list_count == PlyType::F64) {
-            refuse("line {}: the length of a list is a whole number", line);
+            refuse_damage("line {}: the length of a list is a whole number", line);
         }
         type = words.next();
     }
@@ -75,7 +75,7 @@ void read_format(WordReader& words, PlyHeader& header, std::size_t line) {
     header.is_text = format == "ascii";
     header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
     if (!header.is_text && format != "binary_little_endian" && format != "binary_big_endian") {
-        refuse("line {}: the format \"{}\" is not known", line, format.substr(0, 40));
+        refuse_damage("line {}: the format \"{}\" is not known", line, format.substr(0, 40));
     }
 }
 
@@ -85,7 +85,7 @@ PlyElement element_from(WordReader& words, std::size_t line) {
     const std::string_view count = words.next();
     const std::optional<std::int64_t> number = whole_from(count);
     if (!number || *number < 0) {
-        refuse("line {}: a number of elements is expected, not \"{}\"", line, count.substr(0, 40));
+        refuse_damage("line {}: a number of elements is expected, not \"{}\"", line, count.substr(0, 40));
     }
     element.count = static_cast<std::uint64_t>(*number);
     return element;
@@ -113,7 +113,7 @@ PlyHeader ply_header_from(ByteView file) {
     PlyHeader header;
     bool has_format = false;
     if (trimmed(lines.next().value_or("")) != "ply") {
-        refuse("line 1: \"ply\" is expected");
+        refuse_damage("line 1: \"ply\" is expected");
     }
     while (const std::optional<std::string_view> line = lines.next()) {
         WordReader words(*line);
@@ -125,20 +125,23 @@ PlyHeader ply_header_from(ByteView file) {
             header.elements.push_back(element_from(words, lines.line()));
         } else if (keyword == "property") {
             if (header.elements.empty()) {
-                refuse("line {}: a property comes before the first element", lines.line());
+                refuse_damage("line {}: a property comes before the first element", lines.line());
             }
             header.elements.back().properties.push_back(property_from(words, lines.line()));
+        } else if (keyword == "comment" && words.next() == "TextureFile") {
+            header.pictures.emplace_back(trimmed(words.rest_of_line()));
         } else if (keyword == "end_header") {
             if (!has_format) {
-                refuse("the header does not say the format");
+                refuse_damage("the header does not say the format");
             }
             header.size = lines.position();
             return header;
         } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-            refuse("line {}: \"{}\" is not known in a PLY header", lines.line(), keyword.substr(0, 40));
+            refuse_damage("line {}: \"{}\" is not known in a PLY header", lines.line(),
+                          keyword.substr(0, 40));
         }
     }
-    refuse("the header has no \"end_header\": the file is truncated");
+    refuse_cut_short("the header has no \"end_header\"");
 }
 
 } // namespace frustumscreen

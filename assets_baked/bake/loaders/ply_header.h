@@ -32,7 +32,8 @@ struct PlyHeader {
     bool is_text = false;
     std::endian order = std::endian::little; ///< of binary data
     std::vector<PlyElement> elements;
-    std::size_t size = 0; ///< bytes up to the data
+    std::vector<std::string> pictures; ///< of the comments "TextureFile NAME", as MeshLab writes them
+    std::size_t size = 0;              ///< bytes up to the data
 };
 
 [[nodiscard]] PlyHeader ply_header_from(ByteView file);

@@ -1,6 +1,9 @@
 /// How the readers of this room refuse a file: they throw one sentence, which load_mesh.cpp turns into an
 /// Error. A reader makes hundreds of checks in nested places; a throw keeps each of them one line. No
 /// exception leaves the room.
+///
+/// The sentence is for a curator: what is the matter and what to do. Where only the file's own makers can say
+/// more, the place and the numbers stand in brackets.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,12 +14,35 @@
 namespace frustumscreen {
 
 struct Refusal {
-    std::string message; ///< place inside the file, what was found, what is allowed
+    std::string message;
 };
 
+/// The whole sentence.
 template <typename... Arguments>
 [[noreturn]] void refuse(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     throw Refusal{fmt::format(format, std::forward<Arguments>(arguments)...)};
+}
+
+// For the others the arguments are what stands in the brackets: the place inside the file and what was found.
+
+/// Each part can be read, but they do not fit together.
+template <typename... Arguments>
+[[noreturn]] void refuse_contradiction(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    refuse("the file's own numbers contradict each other ({}): export it again",
+           fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// A part is not what its format has there.
+template <typename... Arguments>
+[[noreturn]] void refuse_damage(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    refuse("the file is damaged or not written as its format says ({}): copy it again, or export it again",
+           fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+template <typename... Arguments>
+[[noreturn]] void refuse_cut_short(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    refuse("the file ends too early ({}): copy it again, or export it again",
+           fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
 } // namespace frustumscreen

@@ -1,8 +1,10 @@
 #include "assets_baked/bake/loaders/sidecar.h"
 
 #include "assets_baked/bake/loaders/refusal.h"
+#include "firmware_host/base/printable.h"
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
@@ -30,6 +32,29 @@ bool leaves_folder(const std::filesystem::path& name) {
     return name.is_absolute();
 }
 
+bool is_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+}
+
+/// Letters beyond ASCII count as they are.
+bool same_but_for_case(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// By its ending.
+bool is_picture_name(const std::string& name) {
+    static constexpr std::array endings = {".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga"};
+    const std::string ending = std::filesystem::path(name).extension().string();
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](const char* each) { return same_but_for_case(ending, each); });
+}
+
 int hexadecimal(char c) {
     if (c >= '0' && c <= '9') {
         return c - '0';
@@ -38,43 +63,97 @@ int hexadecimal(char c) {
     return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
+/// The first name in the folder, by the alphabet, that `fits`.
+template <typename Fits>
+std::optional<std::string> first_in(const std::filesystem::path& folder, const Fits& fits) {
+    std::optional<std::string> first;
+    std::error_code stop;
+    std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, stop);
+    for (; !stop && entry != std::filesystem::directory_iterator(); entry.increment(stop)) {
+        const std::string name = entry->path().filename().string();
+        if (fits(name) && (!first || name < *first)) {
+            first = name;
+        }
+    }
+    return first;
+}
+
+/// `name` inside `folder`, part by part; each part may be written with other capital letters.
+std::optional<std::filesystem::path> find_in_any_case(std::filesystem::path folder,
+                                                      const std::filesystem::path& name) {
+    for (const std::filesystem::path& part : name.lexically_normal()) {
+        std::error_code ignored;
+        if (std::filesystem::exists(folder / part, ignored)) {
+            folder /= part;
+            continue;
+        }
+        const auto found =
+            first_in(folder, [&](const std::string& each) { return same_but_for_case(each, part.string()); });
+        if (!found) {
+            return std::nullopt;
+        }
+        folder /= *found;
+    }
+    return is_file(folder) ? std::optional(folder) : std::nullopt;
+}
+
 } // namespace
 
-std::filesystem::path Sidecars::path_of(std::string_view name, std::string_view place) const {
+std::string_view last_part(std::string_view name) {
+    return name.substr(name.find_last_of("/\\") + 1); // npos + 1 is 0
+}
+
+std::optional<std::filesystem::path> Sidecars::find(std::string_view name) const {
     if (name.empty() || name.find('\0') != std::string_view::npos) {
-        refuse("{}: the file name is empty or holds a null character", place);
+        return std::nullopt;
     }
-    if (has_scheme(name)) {
-        refuse("{}: \"{}\" is not a plain file name; only files beside the model are read", place,
-               name.substr(0, 80));
+    const std::filesystem::path portable(with_slashes(name));
+    if (!has_scheme(name) && !leaves_folder(portable)) {
+        const std::filesystem::path exact = (folder_ / portable).lexically_normal();
+        if (is_file(exact)) {
+            return exact;
+        }
+        if (auto found = find_in_any_case(folder_, portable)) {
+            return found;
+        }
     }
-    const std::string portable = with_slashes(name);
-    if (leaves_folder(portable)) {
-        refuse("{}: \"{}\" lies outside the model's folder; put the file beside the model", place,
-               name.substr(0, 80));
-    }
-    return (folder_ / portable).lexically_normal();
+    const std::string_view last = last_part(name);
+    return last.empty() || last == "." || last == ".." ? std::nullopt : find_in_any_case(folder_, last);
 }
 
 std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_view place) {
-    const std::filesystem::path path = path_of(name, place);
-    if (const auto known = read_.find(path); known != read_.end() && known->second) {
+    const std::optional<std::filesystem::path> path = find(name);
+    if (!path) {
+        refuse("it names the file \"{}\", and there is no such file beside it; put it there ({})",
+               printable(last_part(name)), place);
+    }
+    if (const auto known = read_.find(*path); known != read_.end() && known->second) {
         return known->second;
     }
-    Result<Bytes> bytes = read_file(path);
+    const std::string relative = path->lexically_relative(folder_.empty() ? "." : folder_).string();
+    if (std::filesystem::path(with_slashes(name)).lexically_normal() != relative) {
+        notes_.guessed("it names the file \"{}\"; {} beside it is taken", printable(name), relative);
+    }
+    Result<Bytes> bytes = read_file(*path);
     if (!bytes) {
         refuse("{}: {}", place, bytes.error().message);
     }
     auto shared = std::make_shared<const Bytes>(std::move(*bytes));
-    read_.insert_or_assign(path, shared);
+    read_.insert_or_assign(*path, shared);
     return shared;
 }
 
+std::optional<std::string> Sidecars::like(std::string_view name) const {
+    const std::string stem = std::filesystem::path(last_part(name)).stem().string();
+    return first_in(folder_, [&](const std::string& each) {
+        return !stem.empty() && same_but_for_case(std::filesystem::path(each).stem().string(), stem) &&
+               is_picture_name(each);
+    });
+}
+
 void Sidecars::mention(std::string_view name) {
-    const std::string portable = with_slashes(name);
-    if (!name.empty() && name.find('\0') == std::string_view::npos && !has_scheme(name) &&
-        !leaves_folder(portable)) {
-        read_.try_emplace((folder_ / portable).lexically_normal());
+    if (const auto path = find(name)) {
+        read_.try_emplace(*path);
     }
 }
 
@@ -84,11 +163,6 @@ std::vector<std::filesystem::path> Sidecars::files() const {
         files.push_back(path);
     }
     return files;
-}
-
-bool Sidecars::exists(std::string_view name, std::string_view place) const {
-    std::error_code ignored;
-    return std::filesystem::exists(path_of(name, place), ignored);
 }
 
 std::string percent_decoded_if_valid(std::string_view uri) {
@@ -112,7 +186,7 @@ std::string percent_decoded_if_valid(std::string_view uri) {
 std::string percent_decoded(std::string_view uri, std::string_view place) {
     std::string plain = percent_decoded_if_valid(uri);
     if (plain.empty() && !uri.empty()) {
-        refuse("{}: \"{}\" has a % without two hexadecimal digits", place, uri.substr(0, 80));
+        refuse_damage("{}: \"{}\" has a % without two hexadecimal digits", place, uri.substr(0, 80));
     }
     return plain;
 }

@@ -1,14 +1,18 @@
-/// Files that a model names: .bin, pictures, .mtl. They must lie in the model's own folder or below it.
+/// Files that a model names: .bin, pictures, .mtl. Only those in the model's own folder or below it are read.
 ///
-/// Errors   throws Refusal: a name that leaves the folder or has a scheme (http:, file:, C:), a file that is
-///          missing or unreadable.
+/// A name from another computer is understood: backslashes, other capital letters, and a path that leads
+/// elsewhere (C:\scans\skin.png), of which only the last part counts.
+///
+/// Errors   throws Refusal: an empty name, a file that is missing or unreadable.
 #pragma once
 
+#include "assets_baked/bake/loaders/load_notes.h"
 #include "firmware_host/base/file.h"
 
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,25 +21,32 @@ namespace frustumscreen {
 
 class Sidecars {
 public:
-    explicit Sidecars(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// `notes` hears of a file that was found under another name than the model's.
+    Sidecars(std::filesystem::path folder, LoadNotes& notes) : folder_(std::move(folder)), notes_(notes) {}
 
     /// Bytes of the file called `name` (plain, not percent-encoded). Each file is read once, however often it
     /// is named. `place` begins the message of a refusal.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
-    [[nodiscard]] bool exists(std::string_view name, std::string_view place) const;
+    [[nodiscard]] bool exists(std::string_view name) const { return find(name).has_value(); }
+    /// A file beside the model that differs only in its ending from `name`: skin.jpg for skin.png.
+    [[nodiscard]] std::optional<std::string> like(std::string_view name) const;
 
-    /// Notes a file that the model names but that is not read, such as a map of normals. A name that `read`
-    /// would refuse is ignored.
+    /// Notes a file that the model names but that is not read, such as a map of normals.
     void mention(std::string_view name);
     /// Every file that was read or mentioned, by its path.
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
 private:
-    [[nodiscard]] std::filesystem::path path_of(std::string_view name, std::string_view place) const;
+    /// Where the file is that the model means by `name`.
+    [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view name) const;
 
     std::filesystem::path folder_;
+    LoadNotes& notes_;
     std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_; ///< null: only mentioned
 };
+
+/// The last part of a path that is written for any system.
+[[nodiscard]] std::string_view last_part(std::string_view name);
 
 /// Turns %20 and the like into bytes (RFC 3986, 2.1).
 [[nodiscard]] std::string percent_decoded(std::string_view uri, std::string_view place);

@@ -1,0 +1,165 @@
+#include "app/programs/bake/bake_report.h"
+
+#include "app/pack/pack_file.h"
+#include "assets_baked/bake/box_frame.h"
+#include "firmware_host/base/words_of_time.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double mm_per_m = 1000.0;
+
+double metres_per_box(const BakeResult& result) {
+    return place(result.pack, result.prop.shape).metres_per_box;
+}
+
+/// Of the artifact itself, without the room below a raised one.
+glm::dvec3 size_m(const BakeResult& result) {
+    double lowest = result.pack.box_size.z;
+    for (const glm::dvec3& extreme : result.pack.extremes) {
+        if (extreme != glm::dvec3(0.0)) {
+            lowest = std::min(lowest, extreme.z);
+        }
+    }
+    return (result.pack.box_size - glm::dvec3(0.0, 0.0, lowest)) * metres_per_box(result);
+}
+
+/// The file's axis that looks at the visitor without a turn.
+std::string front_of(const std::string& up) {
+    const glm::dvec3 axis = glm::transpose(up_rotation(up).value_or(glm::dmat3(1.0))) * glm::dvec3(0, -1, 0);
+    for (int k = 0; k < 3; ++k) {
+        if (std::abs(axis[k]) > 0.5) {
+            return fmt::format("{}{}", axis[k] > 0.0 ? '+' : '-', "xyz"[k]);
+        }
+    }
+    return "+y";
+}
+
+std::string signed_axis(const std::string& up) {
+    return up.starts_with('-') || up.starts_with('+') ? up : "+" + up;
+}
+
+/// What a reader of this level alone reads of the file.
+std::uint64_t bytes_of(const BakeResult& result, std::size_t level) {
+    const PackLevel& of = result.pack.levels[level];
+    std::uint64_t bytes = 0;
+    for (const PackPart& part : result.parts) {
+        const bool relief = of.technique == LevelTechnique::Relief && part.name.starts_with("relief/");
+        if (relief || part.name == fmt::format("levels/{}.bin", level) ||
+            part.name == fmt::format("textures/{}.png", of.texture)) {
+            bytes += part.stored_bytes;
+        }
+    }
+    return bytes;
+}
+
+std::string in_units(std::uint64_t bytes) {
+    return bytes < 1'000'000 ? fmt::format("{:.0f} kB", std::ceil(static_cast<double>(bytes) / 1e3))
+                             : fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+}
+
+std::string standing_text(const BakeResult& result) {
+    std::string text = fmt::format("up is the file's {}{}; ", signed_axis(result.up),
+                                   result.up_given ? "" : ", as its format has it (--up for another)");
+    if (result.turn_deg == 0.0) {
+        return text + fmt::format("its {} looks at the visitor{}", front_of(result.up),
+                                  result.turn_given ? "" : ", where it shows most (--turn to change)");
+    }
+    return text + fmt::format("its {} is turned {:g} {} from the visitor, {}wise seen from above{}",
+                              front_of(result.up), std::abs(result.turn_deg),
+                              std::abs(result.turn_deg) == 1.0 ? "degree" : "degrees",
+                              result.turn_deg > 0.0 ? "counter-clock" : "clock",
+                              result.turn_given ? "" : ", where it shows most (--turn 0 leaves it)");
+}
+
+std::string levels_text(const BakeResult& result) {
+    std::string text = fmt::format("  {:<8}{:<10}{:>10}{:>10}{:>10}{:>9}\n", "level", "kind", "triangles",
+                                   "size", "mean mm", "95 % mm");
+    const double mm = metres_per_box(result) * mm_per_m;
+    for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
+        const PackLevel& level = result.pack.levels[k];
+        text += fmt::format("  {:<8}{:<10}{:>10}{:>10}{:>10.3f}{:>9.3f}{}\n", k,
+                            level.technique == LevelTechnique::Relief ? "relief" : "mesh",
+                            level.indices.size() / 3, in_units(bytes_of(result, k)),
+                            level.error.mean_box * mm, level.error.p95_box * mm,
+                            k == result.pack.default_level ? "  shown unless the machine needs another" : "");
+    }
+    return text;
+}
+
+std::string notes_text(const BakeResult& result, SourceNote::Kind kind, const char* name) {
+    std::string text;
+    for (const SourceNote& note : result.notes) {
+        if (note.kind == kind) {
+            text += fmt::format("  {:<8}{}\n", name, note.text);
+        }
+    }
+    return text;
+}
+
+std::vector<std::string> texts_of(const BakeResult& result, SourceNote::Kind kind) {
+    std::vector<std::string> texts;
+    for (const SourceNote& note : result.notes) {
+        if (note.kind == kind) {
+            texts.push_back(note.text);
+        }
+    }
+    return texts;
+}
+
+} // namespace
+
+std::string report_text(const BakeResult& result) {
+    const glm::dvec3 size = size_m(result) * mm_per_m;
+    const std::string lost = notes_text(result, SourceNote::Kind::Lost, "lost");
+    return fmt::format("{}: \"{}\" ({}), {}, from {} triangles in {}\n", result.file.string(),
+                       result.pack.title, fmt::join(result.pack.languages, ", "), in_units(result.file_bytes),
+                       result.pack.provenance.source_triangles, words_of_time(result.seconds)) +
+           fmt::format("  {:<8}{:.0f} mm wide, {:.0f} deep, {:.0f} high in the usual {}{}\n", "size", size.x,
+                       size.y, size.z, result.pack.prop_kind,
+                       result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
+           fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
+           (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
+           notes_text(result, SourceNote::Kind::Guessed, "guessed");
+}
+
+Json report_json(const BakeResult& result) {
+    const glm::dvec3 size = size_m(result);
+    const double mm = metres_per_box(result) * mm_per_m;
+    Json levels = Json::array();
+    for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
+        const PackLevel& level = result.pack.levels[k];
+        levels.push_back({{"technique", level.technique == LevelTechnique::Relief ? "relief" : "mesh"},
+                          {"triangles", level.indices.size() / 3},
+                          {"bytes", bytes_of(result, k)},
+                          {"mean_mm", level.error.mean_box * mm},
+                          {"p95_mm", level.error.p95_box * mm},
+                          {"max_mm", level.error.max_box * mm},
+                          {"colour_rmse", level.error.colour_rmse}});
+    }
+    return {{"file", result.file.string()},
+            {"bytes", result.file_bytes},
+            {"title", result.pack.title},
+            {"seconds", result.seconds},
+            {"prop", result.pack.prop_kind},
+            {"size_m", {size.x, size.y, size.z}},
+            {"up", signed_axis(result.up)},
+            {"front", front_of(result.up)},
+            {"turn_deg", result.turn_deg},
+            {"scale", result.pack.scale},
+            {"levels", levels},
+            {"default_level", result.pack.default_level},
+            {"lost", texts_of(result, SourceNote::Kind::Lost)},
+            {"guessed", texts_of(result, SourceNote::Kind::Guessed)}};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,41 @@
+/// What the bake says at its end: for a person on one screen, for programs as JSON.
+///
+/// Sizes and errors are those on the usual prop of the kind that was baked for.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "app/pack/pack_contents.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Everything that was decided and made.
+struct BakeResult {
+    std::filesystem::path file;
+    std::uint64_t file_bytes = 0;
+    Pack pack;
+    std::vector<PackPart> parts;
+    BakedProp prop;
+    std::string up;        ///< as "y" or "-z"
+    bool up_given = false; ///< else it is the format's
+    double turn_deg = 0.0;
+    bool turn_given = false; ///< else it was chosen
+    std::vector<SourceNote> notes;
+    double seconds = 0.0;
+};
+
+/// Ends with a line break.
+[[nodiscard]] std::string report_text(const BakeResult& result);
+/// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
+/// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, lost: [], guessed: []}
+[[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
+
+} // namespace frustumscreen

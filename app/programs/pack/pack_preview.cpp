@@ -1,0 +1,158 @@
+#include "app/programs/pack/pack_preview.h"
+
+#include "app/exhibit/canvas.h"
+#include "app/pack/pack_file.h"
+#include "app/settings/settings.h"
+#include "app/show/offline_renderer.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int drawn_px = 1280;               ///< of the square picture of the whole prop
+constexpr int side_px = 560;                 ///< of what is kept of it
+constexpr int caption_px = 56;               ///< the strip below it
+constexpr glm::dvec3 eye_m(0.0, -0.6, 0.45); ///< settings take a projector from 30 degrees upwards
+
+/// Settings of a table whose projector stands at the eye, with the prop's sphere filling the picture.
+Result<CheckedSettings> settings_for(const PropSettings& prop) {
+    const PropShape shape = make_prop(prop);
+    double radius_m = 0.0;
+    for (const glm::dvec3& corner : shape.corners) {
+        radius_m = std::max(radius_m, glm::distance(corner, shape.middle));
+    }
+    const double distance_m = glm::distance(eye_m, shape.middle);
+    const double focal_px = 0.5 * drawn_px / std::tan(std::asin(radius_m / distance_m));
+    const std::string text = fmt::format(
+        "[projector]\nwidth = {0}\nheight = {0}\nfx = {1}\n"
+        "position_m = [{2}, {3}, {4}]\naim_m = [0.0, 0.0, {5}]\n"
+        "[prop]\nkind = \"{6}\"\nbase_m = {7}\n{8}"
+        "[eye]\ndefault_m = [{2}, {3}, {4}]\n"
+        "[tracker]\nkind = \"none\"\n",
+        drawn_px, focal_px, eye_m.x, eye_m.y, eye_m.z, shape.middle.z, name_of(prop.kind), prop.base_m,
+        prop.kind == PropKind::Cube ? std::string()
+                                    : fmt::format("top_m = {}\nheight_m = {}\n", prop.top_m, prop.height_m));
+    return parse_settings(text, "preview");
+}
+
+/// Turned so that each side in turn looks at the eye.
+std::array<RigidTransform, 4> turned_props() {
+    std::array<RigidTransform, 4> props;
+    for (std::size_t k = 0; k < props.size(); ++k) {
+        const double angle = -0.5 * std::numbers::pi * static_cast<double>(k);
+        props[k].rotation = glm::angleAxis(angle, glm::dvec3(0, 0, 1));
+    }
+    return props;
+}
+
+/// What the renderer draws, read from the file.
+struct Scene {
+    VerifiedPack pack;
+    ScenePlan plan;
+    OfflineOptions options;
+};
+
+Result<Scene> load_scene(const std::filesystem::path& file) {
+    OfflineOptions options;
+    options.technique = "finest";
+    options.light = false;
+    for (const RigidTransform& table_from_prop : turned_props()) {
+        options.views.push_back({table_from_prop, eye_m});
+    }
+    ScenePlan plan;
+    Result<VerifiedPack> pack =
+        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
+            const Result<CheckedSettings> settings = settings_for(is_cube ? cube_settings() : PropSettings{});
+            if (!settings) {
+                return tl::unexpected<Error>(settings.error());
+            }
+            Result<ScenePlan> made = plan_offline(*settings, outline, options);
+            if (!made) {
+                return tl::unexpected<Error>(made.error());
+            }
+            plan = *std::move(made);
+            return plan.levels;
+        });
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    return Scene{*std::move(pack), std::move(plan), std::move(options)};
+}
+
+/// The square about the picture's middle line that holds what is lit in any of the pictures, with a margin.
+struct Frame {
+    glm::dvec2 corner{0.0};
+    double size = drawn_px;
+};
+
+Frame frame_of(const std::array<Image8, 4>& sides) {
+    constexpr int dark = 8; // a code up to which nobody sees light
+    constexpr double margin = 1.1;
+    int top = drawn_px;
+    int bottom = -1;
+    int across = 0; // from the middle
+    for (const Image8& side : sides) {
+        for (int y = 0; y < side.height; ++y) {
+            for (int x = 0; x < side.width; ++x) {
+                const glm::u8vec4 texel = side.at(x, y);
+                if (std::max({texel.r, texel.g, texel.b}) > dark) {
+                    top = std::min(top, y);
+                    bottom = std::max(bottom, y);
+                    across = std::max(across, std::abs(2 * x + 1 - side.width) / 2 + 1);
+                }
+            }
+        }
+    }
+    if (bottom < top) {
+        return {};
+    }
+    const double size = margin * std::max(2 * across, bottom + 1 - top);
+    return {{0.5 * (drawn_px - size), 0.5 * (top + bottom + 1 - size)}, size};
+}
+
+} // namespace
+
+Result<Image8> preview_of_pack(const std::filesystem::path& file) {
+    static constexpr std::array<std::string_view, 4> names = {"front", "right", "back", "left"};
+    static constexpr Colour grey(150, 150, 150);
+    const Result<Scene> scene = load_scene(file);
+    if (!scene) {
+        return tl::unexpected<Error>(scene.error());
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    const Result<std::unique_ptr<OfflineRenderer>> renderer =
+        OfflineRenderer::create(scene->pack, scene->plan, scene->options);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    std::array<Image8, 4> sides;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        sides[k] = (*renderer)->draw(turned_props()[k], eye_m).colour;
+    }
+    const Frame frame = frame_of(sides);
+    Canvas canvas(static_cast<int>(names.size()) * side_px, side_px + caption_px, Colour(0));
+    int left = 0;
+    for (std::size_t k = 0; k < names.size(); ++k, left += side_px) {
+        canvas.picture(sides[k], frame.corner, glm::dvec2(frame.size), {left, 0}, {side_px, side_px});
+        canvas.text(*typesetter, names[k], {left + 0.5 * side_px, side_px + 0.5 * caption_px}, 24.0, grey,
+                    {0.5, 0.5});
+    }
+    return canvas.take();
+}
+
+} // namespace frustumscreen

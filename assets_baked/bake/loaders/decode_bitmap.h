@@ -1,0 +1,25 @@
+/// BMP and TGA pictures.
+///
+/// A TGA file has no mark at its beginning: `is_tga` says that its header could be one, and that no other kind of
+/// picture begins so.
+///
+/// Errors   damaged or truncated, more than `limit_texels`.
+/// Threads  pure; any.
+/// Library  stb_image. It takes what is cut off for black and trusts the sizes, so both are checked here first.
+#pragma once
+
+#include "app/image/image.h"
+#include "assets_baked/bake/loaders/bytes.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+[[nodiscard]] bool is_bmp(ByteView bytes);
+[[nodiscard]] Result<Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels);
+
+[[nodiscard]] bool is_tga(ByteView bytes);
+[[nodiscard]] Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels);
+
+} // namespace frustumscreen

@@ -1,0 +1,21 @@
+/// TIFF pictures: the first of the file, 1 to 16 bits a channel, grey, palette, RGB, with or without alpha, in
+/// any packing that libtiff knows.
+///
+/// Colour   codes as they are; alpha that was multiplied into the colours is taken out again.
+/// Errors   damaged or truncated, floating point, more than `limit_texels`.
+/// Threads  pure; any.
+/// Library  libtiff, with its messages caught and each of its allocations bounded.
+#pragma once
+
+#include "app/image/image.h"
+#include "assets_baked/bake/loaders/bytes.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+[[nodiscard]] bool is_tiff(ByteView bytes);
+[[nodiscard]] Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels);
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// What the decoders of pictures share.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/image/image.h"
+#include "assets_baked/bake/loaders/bytes.h"
+#include "firmware_host/base/result.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+[[nodiscard]] inline const std::uint8_t* raw(ByteView bytes) {
+    return reinterpret_cast<const std::uint8_t*>(bytes.data());
+}
+[[nodiscard]] inline std::uint8_t* raw(Image8& image) {
+    return reinterpret_cast<std::uint8_t*>(image.texels.data());
+}
+
+/// Errors   a side below 1, or more texels than allowed.
+[[nodiscard]] inline Result<Image8> blank_image(std::int64_t width, std::int64_t height,
+                                                std::int64_t limit_texels) {
+    if (width < 1 || height < 1 || width > limit_texels / height) {
+        return bad_input(fmt::format(
+            "the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
+            width, height, limit_texels));
+    }
+    return Image8(static_cast<int>(width), static_cast<int>(height));
+}
+
+} // namespace frustumscreen

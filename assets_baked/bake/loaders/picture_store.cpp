@@ -1,0 +1,40 @@
+#include "assets_baked/bake/loaders/picture_store.h"
+
+#include "firmware_host/base/printable.h"
+
+namespace frustumscreen {
+
+std::shared_ptr<const Image8> PictureStore::decode(ByteView bytes, std::string_view place) {
+    Result<Image8> picture = decode_image(bytes, texels_left_);
+    if (!picture) {
+        refuse("{} ({})", picture.error().message, place);
+    }
+    texels_left_ -= static_cast<std::int64_t>(picture->texels.size());
+    return std::make_shared<const Image8>(*std::move(picture));
+}
+
+std::shared_ptr<const Image8> PictureStore::named(std::string_view name, std::string_view place) {
+    if (sidecars_.exists(name)) {
+        return decode(*sidecars_.read(name, place), place);
+    }
+    if (has_curators()) {
+        return curators();
+    }
+    const std::optional<std::string> like = sidecars_.like(name);
+    refuse("its picture \"{}\" is not beside it; put it there, or name another picture with --texture FILE{} "
+           "({})",
+           printable(last_part(name)), like ? ", such as " + printable(*like) : std::string(), place);
+}
+
+std::shared_ptr<const Image8> PictureStore::curators() {
+    if (!curators_) {
+        const Result<Bytes> bytes = read_file(texture_);
+        if (!bytes) {
+            refuse("--texture {}", bytes.error().message);
+        }
+        curators_ = decode(*bytes, "--texture " + texture_.string());
+    }
+    return curators_;
+}
+
+} // namespace frustumscreen
