@@ -1,5 +1,6 @@
 #include "app/simulation/visitor_view.h"
 
+#include "app/simulation/room_light.h"
 #include "firmware_host/base/parallel.h"
 
 #include <nlohmann/json.hpp>
@@ -15,11 +16,6 @@ namespace {
 constexpr double prop_share_of_picture = 0.62;
 constexpr double largest_sine = 0.9;
 
-/// The room around the table: enough to read the shapes by, faint against the projector.
-constexpr double prop_albedo = 0.85;
-constexpr double table_albedo = 0.30;
-constexpr double ambient_light = 0.020; ///< on a surface that faces `ambient_from`, after exposure
-const glm::dvec3 ambient_from = glm::normalize(glm::dvec3(-0.35, -0.45, 0.82));
 constexpr double contact_shadow_reach_m = 0.035;
 
 /// A place that a visitor's ray meets.
@@ -30,13 +26,6 @@ struct Place {
     bool lit = false; ///< in sight of the projector's lens
 };
 
-/// cos / d^2 of the projector's light at a place; 0 if it comes from behind.
-double received(const glm::dvec3& projector_m, const glm::dvec3& point_m, const glm::dvec3& normal) {
-    const glm::dvec3 to_light = projector_m - point_m;
-    const double distance = glm::length(to_light);
-    return std::max(0.0, glm::dot(normal, to_light) / (distance * distance * distance));
-}
-
 class Room {
 public:
     Room(const VisitorScene& scene, const Image8& picture, const VisitorViewOptions& options)
@@ -45,11 +34,7 @@ public:
           projector_from_table_(scene.table_from_projector.inverse()),
           eye_in_prop_(prop_from_table_.point(scene.eye_m)),
           lens_in_prop_(prop_from_table_.point(scene.table_from_projector.translation)) {
-        const PropFace& side = scene.prop.faces.front();
-        const glm::dvec3 middle =
-            (side.corners[0] + side.corners[1] + side.corners[2] + side.corners[3]) / 4.0;
-        const double light = received(lens(), middle, side.plane.normal);
-        exposure_ = light > 0.0 ? 1.0 / light : 1.0 / received(lens(), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+        exposure_ = exposure_of(scene.prop, lens());
     }
 
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
@@ -83,9 +68,8 @@ public:
         if (!options_.light) {
             return light;
         }
-        light *= exposure_ * received(lens(), place.point_m, place.normal);
-        const double room =
-            ambient_light * (0.35 + 0.65 * std::max(0.0, glm::dot(place.normal, ambient_from)));
+        light *= exposure_ * received_from(lens(), place.point_m, place.normal);
+        const double room = room_light_on(place.normal);
         return place.on_prop ? prop_albedo * (light + room)
                              : table_albedo * (light + room * contact_shadow(place.point_m));
     }

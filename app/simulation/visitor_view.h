@@ -6,11 +6,8 @@
 /// lights it, if one does.
 ///
 /// Frames   table T; metres. Pixels as in pinhole.h.
-/// Light    linear inside, sRGB codes at both edges. With `light`, the projector's light falls as cos / d^2,
-///          a faint room light shows the white prop and the dark table, and the exposure is that of an eye
-///          used to the dark: the middle of an upright side face, the prop at the table's centre, counts as
-///          1. Without it, a surface sends back the projector's code as it is, and nothing where no light
-///          falls.
+/// Light    linear inside, sRGB codes at both edges. With `light`, it is that of room_light.h. Without it, a
+///          surface sends back the projector's code as it is, and nothing where no light falls.
 /// Threads  uses all cores; deterministic. Offline only.
 /// Errors   none.
 #pragma once
