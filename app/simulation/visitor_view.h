@@ -23,8 +23,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
+
+/// A thing of the room, along the axes of the table's frame, which only the room's light reaches.
+struct Block {
+    glm::dvec3 low_m{0.0};
+    glm::dvec3 high_m{0.0};
+    double albedo = 0.3;
+};
 
 /// Everything that stands around the visitor.
 struct VisitorScene {
@@ -34,6 +42,7 @@ struct VisitorScene {
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
     glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
+    std::vector<Block> blocks = {};    ///< shade nothing; none around a picture that is measured
 };
 
 struct VisitorCamera {
