@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -58,11 +59,51 @@ void check_prop(const Settings& settings, Fitness& fitness) {
                                 prop.base_m, shorter));
 }
 
+/// The key that a person changes to move the picture.
+std::string_view position_key(const Fitness& fitness) {
+    return fitness.names("projector.table_from_projector") ? "projector.table_from_projector"
+                                                           : "projector.position_m";
+}
+
+/// "x 0.80 to 1.60 m, y -0.25 to 0.25 m"; nothing if a part of the picture never meets the table's plane.
+std::optional<std::string> place_of_picture(const ProjectorSettings& projector) {
+    const Pinhole& p = projector.pinhole;
+    const RigidTransform& pose = projector.table_from_projector;
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec2& corner :
+         {glm::dvec2(0, 0), glm::dvec2(p.width, 0), glm::dvec2(p.width, p.height), glm::dvec2(0, p.height)}) {
+        const glm::dvec3 ray = pose.direction(p.ray(corner));
+        if (ray.z >= 0.0) {
+            return std::nullopt;
+        }
+        const glm::dvec2 meets(pose.translation - ray * (pose.translation.z / ray.z));
+        low = glm::min(low, meets);
+        high = glm::max(high, meets);
+    }
+    return fmt::format("x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m", low.x, high.x, low.y, high.y);
+}
+
+/// The prop must find a place on the table where its bottom lies in the picture.
+void check_picture(const Settings& settings, Fitness& fitness) {
+    const TableSettings& table = settings.table;
+    const std::optional<std::string> place = place_of_picture(settings.projector);
+    const std::string there = fmt::format(
+        "on the table's plane the picture lies at {}, the table at x {:.2f} to {:.2f} m, y {:.2f} to "
+        "{:.2f} m; move or aim the projector, or take out a lens shift",
+        place.value_or("no bounded place"), -0.5 * table.width_m, 0.5 * table.width_m, -0.5 * table.depth_m,
+        0.5 * table.depth_m);
+    fitness.require(!picture_on_table(settings, 0.0).empty(), position_key(fitness),
+                    "throws its picture beside the table: " + there);
+    fitness.require(!picture_on_table(settings, 0.0, 0.5 * settings.prop.base_m).empty(),
+                    position_key(fitness),
+                    fmt::format("throws its picture so that the prop, {} m wide, nowhere stands in it: {}",
+                                settings.prop.base_m, there));
+}
+
 void check_projector(const Settings& settings, Fitness& fitness) {
     const RigidTransform& pose = settings.projector.table_from_projector;
-    const std::string_view position = fitness.names("projector.table_from_projector")
-                                          ? "projector.table_from_projector"
-                                          : "projector.position_m";
+    const std::string_view position = position_key(fitness);
     const double least_height = settings.prop.height_m + least_clearance_m;
     fitness.require(
         pose.translation.z >= least_height, position,
@@ -73,8 +114,7 @@ void check_projector(const Settings& settings, Fitness& fitness) {
         downward >= least_downward, position,
         fmt::format("looks {:.1f} degrees below the horizon; allowed are 30 to 90, down at the table",
                     glm::degrees(std::asin(std::clamp(downward, -1.0, 1.0)))));
-    fitness.require(!picture_on_table(settings, 0.0).empty(), position,
-                    "throws its picture beside the table; aim it at the table (0, 0, 0)");
+    check_picture(settings, fitness);
 }
 
 void check_eye(const Settings& settings, Fitness& fitness) {

@@ -210,10 +210,13 @@ void panel_settings(auto& fields, auto& panel) {
                   "gpio, keys: a button that is down for longer is ignored until it comes up");
 }
 
-void exhibit_settings(auto& fields, auto& exhibit) {
+template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) {
     fields.paths("packs", exhibit.packs, most_packs, "shown in this order");
-    fields.parsed("language", exhibit.language, std::identity(), parse_language_tag,
-                  "language tags such as \"en\" or \"de-CH\"", "of the captions, at first");
+    if constexpr (Fields::reads) {
+        exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
+    }
+    fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
+                  "of the captions, at first");
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");
     fields.number("caption_height_m", exhibit.caption_height_m, {0.002, 0.2, "metres"},
                   "of a letter's em on the table; 24 pt are 0.0085 m");

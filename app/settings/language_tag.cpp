@@ -1,26 +1,54 @@
 #include "app/settings/language_tag.h"
 
+#include <algorithm>
+#include <cctype>
+
 namespace frustumscreen {
 
-std::optional<std::string> parse_language_tag(std::string_view tag) {
-    std::size_t length = 0;
-    bool first = true;
-    for (const char c : tag) {
-        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        if (c == '-' && length > 0) {
-            first = false;
-            length = 0;
-        } else if (letter || (!first && c >= '0' && c <= '9')) {
-            ++length;
-        } else {
-            return std::nullopt;
-        }
-        if (length > 8) {
-            return std::nullopt;
-        }
+namespace {
+
+/// ISO 639-1. A language that has a code of two letters is always named by that one (RFC 5646, 2.2.1).
+constexpr std::string_view two_letter_codes =
+    "aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de "
+    "dv dz ee el en eo es et eu fa ff fi fj fo fr fy ga gd gl gn gu gv ha he hi ho hr ht hu hy hz ia "
+    "id ie ig ii ik io is it iu ja jv ka kg ki kj kk kl km kn ko kr ks ku kv kw ky la lb lg li ln lo "
+    "lt lu lv mg mh mi mk ml mn mr ms mt my na nb nd ne ng nl nn no nr nv ny oc oj om or os pa pi pl "
+    "ps pt qu rm rn ro ru rw sa sc sd se sg sh si sk sl sm sn so sq sr ss st su sv sw ta te tg th ti "
+    "tk tl tn to tr ts tt tw ty ug uk ur uz ve vi vo wa wo xh yi yo za zh zu ";
+
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// Codes of three letters are too many for a list here: any three letters are taken for one.
+bool is_language_code(std::string_view code) {
+    if (code.size() == 3) {
+        return true;
     }
-    const bool well = length > 0 && tag.find('-') != 1 && !(first && length < 2);
-    return well ? std::optional(std::string(tag)) : std::nullopt;
+    std::string lower(code);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    return code.size() == 2 && two_letter_codes.find(lower + " ") != std::string_view::npos;
+}
+
+} // namespace
+
+std::optional<std::string> parse_language_tag(std::string_view tag) {
+    const std::string_view code = tag.substr(0, tag.find('-'));
+    if (!std::all_of(code.begin(), code.end(), is_letter) || !is_language_code(code)) {
+        return std::nullopt;
+    }
+    for (std::size_t begin = code.size(); begin < tag.size();) {
+        const std::size_t end = std::min(tag.find('-', begin + 1), tag.size());
+        const std::string_view subtag = tag.substr(begin + 1, end - begin - 1);
+        if (subtag.empty() || subtag.size() > 8 || !std::all_of(subtag.begin(), subtag.end(), [](char c) {
+                return is_letter(c) || (c >= '0' && c <= '9');
+            })) {
+            return std::nullopt;
+        }
+        begin = end;
+    }
+    return std::string(tag);
 }
 
 } // namespace frustumscreen

@@ -1,6 +1,7 @@
-/// A language as the settings name it.
+/// A language as settings and captions name it.
 ///
 /// Threads  pure; any.
+/// Source   BCP 47 (RFC 5646); ISO 639-1.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,11 @@
 
 namespace frustumscreen {
 
-/// Returns nothing if `tag` does not look like a BCP 47 tag: letters, then subtags of letters and digits.
+inline constexpr std::string_view allowed_language_tags =
+    "language tags such as \"en\" or \"de-CH\", which begin with a code of ISO 639";
+
+/// Returns nothing if `tag` is no BCP 47 tag (a language, then subtags of letters and digits), or begins with two
+/// letters that are no language. Codes of three letters are not looked up.
 [[nodiscard]] std::optional<std::string> parse_language_tag(std::string_view tag);
 
 } // namespace frustumscreen

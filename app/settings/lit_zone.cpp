@@ -360,8 +360,8 @@ double area_of(const std::vector<glm::dvec2>& polygon) {
     return 0.5 * twice;
 }
 
-std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z) {
-    return clipped_to_picture(table_within(settings.table, 0.0), Scene(settings), z, 0.0);
+std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z, double circle_m) {
+    return clipped_to_picture(table_within(settings.table, 0.0), Scene(settings), z, circle_m);
 }
 
 Rectangle lit_rectangle(const Settings& settings) {

@@ -55,8 +55,10 @@ struct LitZone {
 [[nodiscard]] bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
                                                      const glm::dvec3& eye);
 
-/// The part of the table, lifted to height `z`, that the picture covers. Convex.
-[[nodiscard]] std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z);
+/// The part of the table, lifted to height `z`, that the picture covers, with `circle_m` around each of its points.
+/// Convex.
+[[nodiscard]] std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z,
+                                                       double circle_m = 0.0);
 
 [[nodiscard]] double area_of(const std::vector<glm::dvec2>& polygon);
 

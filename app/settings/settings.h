@@ -118,6 +118,7 @@ struct PanelSettings {
 
 struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
+    std::string packs_key;                    ///< where the settings name them, for messages
     std::string language = "en";
     bool captions = true;
     double caption_height_m = 0.010;

@@ -241,6 +241,10 @@ void TableReader::rigid(std::string_view key, RigidTransform& value, const Range
     read_matrix(key, matrix, range);
     if (const auto rigid = rigid_from_matrix(matrix)) {
         value = *rigid;
+    } else if (rigid_from_matrix(glm::transpose(matrix))) {
+        refuse(key,
+               "is written row by row; allowed is column by column: numbers 13 to 15 are the translation in "
+               "metres");
     } else {
         refuse(key,
                "scales, shears, mirrors or has a last row other than 0 0 0 1; allowed is a rotation and a "

@@ -61,8 +61,14 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
     return {pack, std::string(message)};
 }
 
+/// `what`, behind the place that it is about, where there is one.
+std::string after(const std::string& place, const std::string& what) {
+    return place.empty() ? what : place + ": " + what;
+}
+
 /// The message must be complete: some people do not see the lines on standard error before it.
-tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) {
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
+                                      const std::string& packs_key) {
     if (left_out.empty()) {
         return fail(ErrorKind::BadConfiguration,
                     "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
@@ -70,9 +76,10 @@ tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out) 
     }
     const std::string first = left_out.front().pack + ": " + left_out.front().reason;
     return fail(ErrorKind::BadConfiguration,
-                left_out.size() == 1 ? "the pack cannot be shown: " + first
+                after(packs_key, left_out.size() == 1
+                                     ? "the pack cannot be shown: " + first
                                      : fmt::format("none of the {} packs can be shown; the first: {}",
-                                                   left_out.size(), first));
+                                                   left_out.size(), first)));
 }
 
 std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
@@ -210,12 +217,13 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
             needs = united(needs, artifact->plan.needs);
             artifacts.push_back(std::move(*artifact));
         } else {
-            say_line(options.program, fmt::format("left out: {}", artifact.error().message));
+            say_line(options.program,
+                     after(options.packs_key, fmt::format("left out: {}", artifact.error().message)));
             left_out.push_back(pack_left_out(file.string(), artifact.error().message));
         }
     }
     if (artifacts.empty()) {
-        return nothing_to_show(left_out);
+        return nothing_to_show(left_out, options.packs_key);
     }
     if (Result<void> ready = renderer->prepare(needs); !ready) {
         return tl::unexpected<Error>(ready.error());

@@ -31,6 +31,7 @@ struct ArtifactShowOptions {
     int samples = default_samples;  ///< a pixel, that there is room for
     unsigned economies = AllEconomies;
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
+    std::string packs_key = {}; ///< where the settings name the packs, for messages; empty: nowhere
 };
 
 /// What a show uses, planned and observed.

@@ -1,11 +1,13 @@
 #include "app/simulation/visitor_view.h"
 
+#include "app/simulation/room_light.h"
 #include "firmware_host/base/parallel.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace frustumscreen {
@@ -15,12 +17,8 @@ namespace {
 constexpr double prop_share_of_picture = 0.62;
 constexpr double largest_sine = 0.9;
 
-/// The room around the table: enough to read the shapes by, faint against the projector.
-constexpr double prop_albedo = 0.85;
-constexpr double table_albedo = 0.30;
-constexpr double ambient_light = 0.020; ///< on a surface that faces `ambient_from`, after exposure
-const glm::dvec3 ambient_from = glm::normalize(glm::dvec3(-0.35, -0.45, 0.82));
 constexpr double contact_shadow_reach_m = 0.035;
+constexpr double faded_at_m = 2.0; ///< to half
 
 /// A place that a visitor's ray meets.
 struct Place {
@@ -28,13 +26,39 @@ struct Place {
     glm::dvec3 normal{0.0};  ///< table frame
     bool on_prop = false;
     bool lit = false; ///< in sight of the projector's lens
+    double albedo = table_albedo;
+    double room_share = 1.0; ///< of the room's light, that arrives
 };
 
-/// cos / d^2 of the projector's light at a place; 0 if it comes from behind.
-double received(const glm::dvec3& projector_m, const glm::dvec3& point_m, const glm::dvec3& normal) {
-    const glm::dvec3 to_light = projector_m - point_m;
-    const double distance = glm::length(to_light);
-    return std::max(0.0, glm::dot(normal, to_light) / (distance * distance * distance));
+struct BlockHit {
+    double t = std::numeric_limits<double>::infinity();
+    glm::dvec3 normal{0.0};
+    const Block* block = nullptr;
+};
+
+/// Where a ray from outside first meets a block.
+BlockHit first_block(const std::vector<Block>& blocks, const glm::dvec3& origin,
+                     const glm::dvec3& direction) {
+    BlockHit first;
+    for (const Block& block : blocks) {
+        double enters = 0.0;
+        double leaves = first.t;
+        glm::dvec3 normal(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = (block.low_m[axis] - origin[axis]) / direction[axis];
+            const double b = (block.high_m[axis] - origin[axis]) / direction[axis];
+            if (std::min(a, b) > enters) {
+                enters = std::min(a, b);
+                normal = glm::dvec3(0.0);
+                normal[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
+            }
+            leaves = std::min(leaves, std::max(a, b));
+        }
+        if (enters > 0.0 && enters < leaves) {
+            first = {enters, normal, &block};
+        }
+    }
+    return first;
 }
 
 class Room {
@@ -45,33 +69,34 @@ public:
           projector_from_table_(scene.table_from_projector.inverse()),
           eye_in_prop_(prop_from_table_.point(scene.eye_m)),
           lens_in_prop_(prop_from_table_.point(scene.table_from_projector.translation)) {
-        const PropFace& side = scene.prop.faces.front();
-        const glm::dvec3 middle =
-            (side.corners[0] + side.corners[1] + side.corners[2] + side.corners[3]) / 4.0;
-        const double light = received(lens(), middle, side.plane.normal);
-        exposure_ = light > 0.0 ? 1.0 / light : 1.0 / received(lens(), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+        exposure_ = exposure_of(scene.prop, lens());
     }
 
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
         const glm::dvec3 in_prop = prop_from_table_.direction(direction);
         PropHit hit;
-        if (enter(scene_.prop, eye_in_prop_, in_prop, hit)) {
+        const BlockHit block = first_block(scene_.blocks, scene_.eye_m, direction);
+        if (enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < block.t) {
             const auto bound = static_cast<std::size_t>(hit.face);
             const Plane& plane = scene_.prop.bounds[bound];
             return Place{scene_.eye_m + hit.t * direction, scene_.table_from_prop.direction(plane.normal),
-                         true, bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0};
+                         true, bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
+                         prop_albedo};
         }
         const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
         const glm::dvec3 point = scene_.eye_m + t * direction;
-        if (t <= 0.0 || std::abs(point.x) > scene_.table_size_m.x / 2.0 ||
-            std::abs(point.y) > scene_.table_size_m.y / 2.0) {
+        if (block.block != nullptr && (t <= 0.0 || block.t < t || !on_table(point))) {
+            const glm::dvec3 meets = scene_.eye_m + block.t * direction;
+            return Place{meets, block.normal, false, false, block.block->albedo, fading(meets)};
+        }
+        if (t <= 0.0 || !on_table(point)) {
             return std::nullopt;
         }
         PropHit shade;
         const bool shadowed =
             enter(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
             shade.t < 1.0;
-        return Place{point, glm::dvec3(0, 0, 1), false, !shadowed};
+        return Place{point, glm::dvec3(0, 0, 1), false, !shadowed, table_albedo, contact_shadow(point)};
     }
 
     /// Linear light that a place sends to the eye.
@@ -83,11 +108,8 @@ public:
         if (!options_.light) {
             return light;
         }
-        light *= exposure_ * received(lens(), place.point_m, place.normal);
-        const double room =
-            ambient_light * (0.35 + 0.65 * std::max(0.0, glm::dot(place.normal, ambient_from)));
-        return place.on_prop ? prop_albedo * (light + room)
-                             : table_albedo * (light + room * contact_shadow(place.point_m));
+        light *= exposure_ * received_from(lens(), place.point_m, place.normal);
+        return place.albedo * (light + place.room_share * room_light_on(place.normal));
     }
 
     [[nodiscard]] glm::dvec3 lens() const { return scene_.table_from_projector.translation; }
@@ -118,6 +140,14 @@ private:
             picture_.at(std::clamp(x, 0, picture_.width - 1), std::clamp(y, 0, picture_.height - 1));
         const std::array<float, 256>& linear = linear_from_srgb8();
         return {linear[code.r], linear[code.g], linear[code.b]};
+    }
+    [[nodiscard]] bool on_table(const glm::dvec3& point_m) const {
+        return std::abs(point_m.x) <= scene_.table_size_m.x / 2.0 &&
+               std::abs(point_m.y) <= scene_.table_size_m.y / 2.0;
+    }
+    /// The room's own light is around the table.
+    [[nodiscard]] static double fading(const glm::dvec3& point_m) {
+        return 1.0 / (1.0 + glm::dot(point_m, point_m) / (faded_at_m * faded_at_m));
     }
     /// Less of the room's light arrives close to the prop.
     [[nodiscard]] double contact_shadow(const glm::dvec3& point_m) const {

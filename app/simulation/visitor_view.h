@@ -6,11 +6,8 @@
 /// lights it, if one does.
 ///
 /// Frames   table T; metres. Pixels as in pinhole.h.
-/// Light    linear inside, sRGB codes at both edges. With `light`, the projector's light falls as cos / d^2,
-///          a faint room light shows the white prop and the dark table, and the exposure is that of an eye
-///          used to the dark: the middle of an upright side face, the prop at the table's centre, counts as
-///          1. Without it, a surface sends back the projector's code as it is, and nothing where no light
-///          falls.
+/// Light    linear inside, sRGB codes at both edges. With `light`, it is that of room_light.h. Without it, a
+///          surface sends back the projector's code as it is, and nothing where no light falls.
 /// Threads  uses all cores; deterministic. Offline only.
 /// Errors   none.
 #pragma once
@@ -26,8 +23,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
+
+/// A thing of the room, along the axes of the table's frame, which only the room's light reaches.
+struct Block {
+    glm::dvec3 low_m{0.0};
+    glm::dvec3 high_m{0.0};
+    double albedo = 0.3;
+};
 
 /// Everything that stands around the visitor.
 struct VisitorScene {
@@ -37,6 +42,7 @@ struct VisitorScene {
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
     glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
+    std::vector<Block> blocks = {};    ///< shade nothing; none around a picture that is measured
 };
 
 struct VisitorCamera {

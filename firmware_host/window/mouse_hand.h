@@ -1,4 +1,5 @@
-/// Moves the prop with a mouse: dragging slides it about, the wheel turns it.
+/// Moves the prop and the visitor's eye with a mouse: one drag slides the prop, the wheel turns it, another drag takes
+/// the eye around the table.
 ///
 /// Frame    table T, metres, radians; the prop stands upright on the table.
 /// Threads  values.
@@ -10,14 +11,18 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace frustumscreen {
 
 class MouseHand {
 public:
-    /// The prop's centre stays within `half_extent_m` of the table's.
-    explicit MouseHand(const glm::dvec2& half_extent_m) : half_extent_m_(half_extent_m) {}
+    /// The prop's centre stays within `half_extent_m` of the table's. The eye begins at `eye_m` and keeps its distance
+    /// from the table's centre.
+    explicit MouseHand(const glm::dvec2& half_extent_m, const glm::dvec3& eye_m = {0.0, -0.55, 0.5})
+        : half_extent_m_(half_extent_m), eye_distance_m_(glm::length(eye_m)),
+          eye_azimuth_(std::atan2(eye_m.y, eye_m.x)), eye_elevation_(std::asin(eye_m.z / eye_distance_m_)) {}
 
     /// Takes hold at the mouse's place on the table; the prop does not jump there.
     void take(const glm::dvec2& at_m) { grip_m_ = centre_m_ - at_m; }
@@ -28,17 +33,34 @@ public:
         }
     }
     void turn(double angle) { angle_ += angle; }
+    /// Takes the eye around the table and up; it stays between 5 and 85 degrees above it.
+    void look(double around, double up) {
+        eye_azimuth_ += around;
+        eye_elevation_ = std::clamp(eye_elevation_ + up, lowest_, highest_);
+    }
 
     [[nodiscard]] PoseSample prop(MonotonicTime now) const {
         return {now, prop_station, glm::dvec3(centre_m_, 0.0),
                 glm::angleAxis(angle_, glm::dvec3(0.0, 0.0, 1.0)), true};
     }
+    [[nodiscard]] PoseSample head(MonotonicTime now) const {
+        const glm::dvec3 direction(std::cos(eye_azimuth_) * std::cos(eye_elevation_),
+                                   std::sin(eye_azimuth_) * std::cos(eye_elevation_),
+                                   std::sin(eye_elevation_));
+        return {now, head_station, eye_distance_m_ * direction, {1.0, 0.0, 0.0, 0.0}, true};
+    }
 
 private:
+    static constexpr double lowest_ = 0.0873;
+    static constexpr double highest_ = 1.4835;
+
     glm::dvec2 half_extent_m_;
     glm::dvec2 centre_m_{0.0};
     double angle_ = 0.0;
     std::optional<glm::dvec2> grip_m_; ///< from the mouse to the prop's centre, while it is held
+    double eye_distance_m_;
+    double eye_azimuth_;
+    double eye_elevation_;
 };
 
 } // namespace frustumscreen

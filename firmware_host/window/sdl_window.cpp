@@ -9,6 +9,7 @@
 #include <SDL.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double turn_of_a_notch = 0.0873; ///< 5 degrees
 constexpr double turn_of_a_pixel = 0.0087; ///< half a degree
+constexpr double used_share_of_desktop = 0.9;
 
 tl::unexpected<Error> no_window(const char* what) {
     return fail(ErrorKind::BadConfiguration, fmt::format("window: {}: {}", what, SDL_GetError()));
@@ -38,22 +40,28 @@ bool unseen_unasked(std::string_view driver) {
 /// The window with two OpenGL ES contexts, the renderer's and the copy's, and what mouse and keys did.
 class SdlWindow {
 public:
-    explicit SdlWindow(const WindowSetUp& set_up) : set_up_(set_up), hand_(set_up.half_extent_m) {}
+    explicit SdlWindow(const WindowSetUp& set_up)
+        : set_up_(set_up), hand_(set_up.half_extent_m, set_up.eye_m) {}
     ~SdlWindow();
     SdlWindow(const SdlWindow&) = delete;
     SdlWindow& operator=(const SdlWindow&) = delete;
 
     [[nodiscard]] Result<void> open();
-    void show() const;
+    void show();
     void pump(MonotonicTime now);
 
     [[nodiscard]] const PictureFramebuffer& picture() const { return *picture_; }
+    [[nodiscard]] bool has_shown() const { return shown_; }
     [[nodiscard]] const MouseHand& hand() const { return hand_; }
     [[nodiscard]] std::vector<PanelEvent>& presses() { return presses_; }
 
 private:
+    [[nodiscard]] Result<void> create_window();
+    void keep_help();
     [[nodiscard]] PixelSize drawable() const;
     [[nodiscard]] std::optional<glm::dvec2> on_table(int x, int y) const;
+    void draw_help(PixelSize target) const;
+    void moved(const SDL_MouseMotionEvent& motion);
     void pressed(SDL_Keycode key, MonotonicTime now);
 
     WindowSetUp set_up_;
@@ -62,6 +70,13 @@ private:
     SDL_GLContext copying_ = nullptr;
     std::optional<PictureFramebuffer> picture_;
     std::optional<PictureCopy> copy_;
+    std::optional<SeenSurfacesPass> visitor_;
+    std::optional<GlTexture> help_texture_; ///< of codes, and the framebuffer that it is copied from
+    std::optional<GlFramebuffer> help_;
+    SeenSurfaces seen_;
+    bool helps_ = false;
+    bool shown_ = false; ///< there was a picture to show
+    bool stale_ = false; ///< the window shows something else than it should
     MouseHand hand_;
     std::vector<PanelEvent> presses_;
 };
@@ -79,11 +94,8 @@ Result<void> SdlWindow::open() {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
-    window_ =
-        SDL_CreateWindow("FrustumScreen", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, set_up_.width,
-                         set_up_.height, SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (window_ == nullptr) {
-        return no_window("no window can be opened");
+    if (Result<void> opened = create_window(); !opened) {
+        return opened;
     }
     copying_ = SDL_GL_CreateContext(window_);
     if (copying_ == nullptr) {
@@ -95,6 +107,12 @@ Result<void> SdlWindow::open() {
         return tl::unexpected<Error>(copy.error());
     }
     copy_ = std::move(*copy);
+    Result<SeenSurfacesPass> visitor = SeenSurfacesPass::create();
+    if (!visitor) {
+        return tl::unexpected<Error>(visitor.error());
+    }
+    visitor_ = std::move(*visitor);
+    keep_help();
     SDL_GL_SetAttribute(SDL_GL_SHARE_WITH_CURRENT_CONTEXT, 1);
     drawing_ = SDL_GL_CreateContext(window_);
     if (drawing_ == nullptr) {
@@ -108,11 +126,29 @@ Result<void> SdlWindow::open() {
     return {};
 }
 
+/// Both halves side by side, as large as the picture where the desktop has room.
+Result<void> SdlWindow::create_window() {
+    SDL_Rect room{0, 0, 2 * set_up_.width, set_up_.height};
+    double scale = 1.0;
+    if (SDL_GetDisplayUsableBounds(0, &room) == 0) {
+        scale = std::min({1.0, used_share_of_desktop * room.w / (2.0 * set_up_.width),
+                          used_share_of_desktop * room.h / set_up_.height});
+    }
+    window_ = SDL_CreateWindow("FrustumScreen - H: help", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                               static_cast<int>(2.0 * scale * set_up_.width),
+                               static_cast<int>(scale * set_up_.height),
+                               SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    return window_ != nullptr ? Result<void>{} : no_window("no window can be opened");
+}
+
 SdlWindow::~SdlWindow() {
     picture_.reset();
     if (copying_ != nullptr) {
         SDL_GL_MakeCurrent(window_, copying_);
         copy_.reset();
+        visitor_.reset();
+        help_.reset();
+        help_texture_.reset();
         SDL_GL_DeleteContext(copying_);
     }
     if (drawing_ != nullptr) {
@@ -124,13 +160,53 @@ SdlWindow::~SdlWindow() {
     SDL_Quit();
 }
 
-void SdlWindow::show() const {
+void SdlWindow::show() {
     glFinish();
     SDL_GL_MakeCurrent(window_, copying_);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    copy_->draw(*picture_, drawable(), TopRow::Last, {0, 0, set_up_.width, set_up_.height});
+    const PixelSize target = drawable();
+    const PixelSize half{std::max(target.width / 2, 1), target.height};
+    copy_->draw(*picture_, half, TopRow::Last, {0, 0, set_up_.width, set_up_.height});
+    if (set_up_.see) {
+        seen_.triangles.clear();
+        seen_.lines.clear();
+        set_up_.see(hand_.prop({}), hand_.head({}).position_m, half, seen_);
+        visitor_->draw(*picture_, seen_, {half.width, 0, half.width, half.height});
+    }
+    if (helps_ && help_) {
+        draw_help(target);
+    }
     SDL_GL_SwapWindow(window_);
     SDL_GL_MakeCurrent(window_, drawing_);
+    stale_ = false;
+    shown_ = true;
+}
+
+void SdlWindow::keep_help() {
+    if (set_up_.help.rgba.empty()) {
+        return;
+    }
+    help_texture_ = GlTexture::generate();
+    help_ = GlFramebuffer::generate();
+    glBindTexture(GL_TEXTURE_2D, help_texture_->get());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, set_up_.help.size.width, set_up_.help.size.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, set_up_.help.rgba.data());
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, help_->get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, help_texture_->get(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/// In the window's middle; the window's rows count from the bottom.
+void SdlWindow::draw_help(PixelSize target) const {
+    const PixelSize& size = set_up_.help.size;
+    const int x = (target.width - size.width) / 2;
+    const int y = (target.height - size.height) / 2;
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, help_->get());
+    glBlitFramebuffer(0, 0, size.width, size.height, x, y + size.height, x + size.width, y,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 PixelSize SdlWindow::drawable() const {
@@ -144,9 +220,26 @@ std::optional<glm::dvec2> SdlWindow::on_table(int x, int y) const {
     PixelSize window;
     SDL_GetWindowSize(window_, &window.width, &window.height);
     window = {std::max(window.width, 1), std::max(window.height, 1)};
-    const PixelRectangle place = letterbox({set_up_.width, set_up_.height}, window);
+    const PixelSize half{std::max(window.width / 2, 1), window.height};
+    if (x >= half.width && set_up_.table_from_view) {
+        return set_up_.table_from_view({x - half.width + 0.5, y + 0.5}, hand_.head({}).position_m, half);
+    }
+    const PixelRectangle place = letterbox({set_up_.width, set_up_.height}, half);
     return set_up_.table_from_picture({(x + 0.5 - place.x) * set_up_.width / place.width,
                                        (y + 0.5 - place.y) * set_up_.height / place.height});
+}
+
+void SdlWindow::moved(const SDL_MouseMotionEvent& motion) {
+    if (const auto at = on_table(motion.x, motion.y)) {
+        hand_.move(*at);
+    }
+    if ((motion.state & SDL_BUTTON_RMASK) != 0) {
+        hand_.turn(turn_of_a_pixel * motion.xrel);
+    }
+    if ((motion.state & SDL_BUTTON_MMASK) != 0) { // as if the table were turned and tipped
+        hand_.look(-turn_of_a_pixel * motion.xrel, turn_of_a_pixel * motion.yrel);
+    }
+    stale_ = stale_ || motion.state != 0;
 }
 
 void SdlWindow::pressed(SDL_Keycode key, MonotonicTime now) {
@@ -154,6 +247,9 @@ void SdlWindow::pressed(SDL_Keycode key, MonotonicTime now) {
         std::raise(SIGTERM);
     } else if (key >= SDLK_1 && key <= SDLK_3) {
         presses_.push_back({now, static_cast<int>(key - SDLK_1), PressKind::Press});
+    } else if (key == SDLK_h) {
+        helps_ = !helps_;
+        stale_ = true;
     }
 }
 
@@ -181,19 +277,21 @@ void SdlWindow::pump(MonotonicTime now) {
             }
             break;
         case SDL_MOUSEMOTION:
-            if (const auto at = on_table(event.motion.x, event.motion.y)) {
-                hand_.move(*at);
-            }
-            if ((event.motion.state & SDL_BUTTON_RMASK) != 0) {
-                hand_.turn(turn_of_a_pixel * event.motion.xrel);
-            }
+            moved(event.motion);
             break;
         case SDL_MOUSEWHEEL:
             hand_.turn(turn_of_a_notch * event.wheel.y);
+            stale_ = true;
+            break;
+        case SDL_WINDOWEVENT:
+            stale_ = true;
             break;
         default:
             break;
         }
+    }
+    if (stale_ && shown_) {
+        show(); // the exhibit presents only what it has drawn anew
     }
 }
 
@@ -203,17 +301,15 @@ public:
     [[nodiscard]] int width() const override { return window_->picture().width(); }
     [[nodiscard]] int height() const override { return window_->picture().height(); }
     [[nodiscard]] unsigned framebuffer() const override { return window_->picture().name(); }
-    [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
+    [[nodiscard]] int buffer_age() const override { return window_->has_shown() ? 1 : 0; }
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override {
         window_->show();
-        presented_ = true;
         return now;
     }
     [[nodiscard]] std::string name() const override { return "window, " + gl_driver_name(); }
 
 private:
     std::shared_ptr<SdlWindow> window_;
-    bool presented_ = false;
 };
 
 class MouseTracker final : public Tracker {
@@ -222,6 +318,7 @@ public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
         window_->pump(now);
         samples.push_back(window_->hand().prop(now));
+        samples.push_back(window_->hand().head(now));
         return {};
     }
     [[nodiscard]] std::string name() const override { return "mouse"; }

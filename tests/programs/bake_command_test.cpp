@@ -178,6 +178,34 @@ TEST_F(BakeCommand, LooksAtTheOutputBeforeTheWork) {
     refused("/proc/scan.fspack", "/proc: nothing can be written into this folder");
 }
 
+TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"--caption 'en=A cat.' --caption 'en=A dog.'",
+         "--caption 'en=A dog.': there is a caption in en already; write one for each language"},
+        {"--language en --language de --language en", "--language 'en': it is named already"},
+        {"--language english",
+         "--language 'english': there is no such language; allowed are language tags such as"},
+        {"--language xx", "--language 'xx': there is no such language"},
+        {"--caption 'de=Eine Katze.'", "--caption 'de=Eine Katze.': the languages are en; add --language de"},
+        {"--caption 'A cat.'", "--caption 'A cat.': write LANGUAGE=TEXT"}};
+    for (const auto& [arguments, message] : wrong) {
+        EXPECT_EQ(bake_to("scan.fspack", arguments), 2) << arguments;
+        const std::string said = text("err.txt");
+        EXPECT_EQ(said.rfind("frustumscreen-bake: " + message, 0), 0U) << said;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+        EXPECT_FALSE(fs::exists(folder / "scan.fspack"));
+    }
+    ASSERT_EQ(
+        bake_to("scan.fspack", "--title Cat --language en --language de --caption 'de=Eine Katze=Kater.'"), 0)
+        << text("err.txt");
+    const auto pack = load_pack(folder / "scan.fspack");
+    ASSERT_TRUE(pack);
+    ASSERT_EQ((*pack)->captions.size(), 2U);
+    EXPECT_EQ((*pack)->captions[0].text, "");
+    EXPECT_EQ((*pack)->captions[1].title, "Cat");
+    EXPECT_EQ((*pack)->captions[1].text, "Eine Katze=Kater.");
+}
+
 /// A file system of one megabyte, where the test may make one.
 TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
     fs::create_directory(folder / "small");

@@ -139,6 +139,16 @@ TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
         "frustumscreen: none of the 2 packs can be shown; the first: cat.fspack: there is no such file\n");
 }
 
+TEST_F(RunCommand, SaysWhichSettingNamesAMissingPack) {
+    std::filesystem::remove(folder / "rings.fspack");
+    EXPECT_EQ(exit_status("--seconds 1"), 1);
+    EXPECT_EQ(
+        as_text(*read_file(folder / "err.txt")),
+        "frustumscreen: kiosk.toml:9: exhibit.packs: left out: rings.fspack: there is no such file\n"
+        "frustumscreen: kiosk.toml:9: exhibit.packs: the pack cannot be shown: rings.fspack: there is no "
+        "such file\n");
+}
+
 TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
     std::filesystem::remove(folder / "poses.csv");
     const std::string command = fmt::format(
@@ -166,11 +176,11 @@ TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
     const Bytes quiet = *read_file(folder / "err.txt");
     EXPECT_EQ(as_text(quiet).find("captions"), std::string_view::npos);
-    write_settings("replay", "language = \"xx\"\n");
+    write_settings("replay", "language = \"cy\"\n");
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
     const Bytes errors = *read_file(folder / "err.txt");
     EXPECT_EQ(as_text(errors).rfind(
-                  "frustumscreen: no artifact has captions in 'xx'; en is shown; there are en\n", 0),
+                  "frustumscreen: no artifact has captions in 'cy'; en is shown; there are en\n", 0),
               0U)
         << as_text(errors);
 }

@@ -1,4 +1,6 @@
+#include "app/programs/sheet/room_picture.h"
 #include "app/programs/sheet/sheet_animation.h"
+#include "app/programs/sheet/sheet_cameras.h"
 #include "app/programs/sheet/sheet_frames.h"
 #include "app/programs/sheet/sheet_picture.h"
 #include "app/programs/sheet/sheet_table.h"
@@ -104,6 +106,49 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
     EXPECT_GT(sheet->width, sheet->height);
 }
 
+TEST_F(Sheet, ThePropFillsMostOfTheVisitorsPicture) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    ASSERT_TRUE(read);
+    for (const SheetFrame& frame : read->frames) {
+        const VisitorScene scene = visitor_scene(**settings, frame.situation, 320, 200);
+        const VisitorCamera camera = framed_camera(scene, {544, 340});
+        double top = 1e9;
+        double bottom = -1e9;
+        for (const glm::dvec3& corner : scene.prop.corners) {
+            const glm::dvec3 seen =
+                camera.table_from_camera.inverse().point(scene.table_from_prop.point(corner));
+            const double row = camera.pinhole.fy * seen.y / seen.z + camera.pinhole.cy;
+            top = std::min(top, row);
+            bottom = std::max(bottom, row);
+        }
+        EXPECT_NEAR(bottom - top, 0.85 * 340, 0.5);
+        EXPECT_NEAR(0.5 * (bottom + top), 170.0, 0.5);
+    }
+}
+
+TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(read && typesetter);
+    const VisitorScene scene = visitor_scene(**settings, read->frames[1].situation, 320, 200);
+    const VisitorCamera camera = room_camera(scene, {760, 880});
+    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
+    for (const glm::dvec3 point :
+         {glm::dvec3(-0.4, -0.25, 0.0), glm::dvec3(0.4, 0.25, 0.0), glm::dvec3(0.0, 0.0, 1.2)}) {
+        const auto pixel = camera.pinhole.pixel(camera_from_table.point(point));
+        ASSERT_TRUE(pixel);
+        EXPECT_GT(pixel->x, 0.0);
+        EXPECT_GT(pixel->y, 0.0);
+        EXPECT_LT(pixel->x, 760.0);
+        EXPECT_LT(pixel->y, 880.0);
+    }
+    // The artifact looks as to the visitor: the camera is on the line from the prop through the eye.
+    const glm::dvec3 prop = scene.table_from_prop.point(scene.prop.middle);
+    const glm::dvec3 to_eye = glm::normalize(scene.eye_m - prop);
+    EXPECT_NEAR(glm::dot(to_eye, glm::normalize(camera.table_from_camera.translation - prop)), 1.0, 1e-12);
+    EXPECT_TRUE(room_picture(**settings, read->frames[1], *typesetter));
+}
+
 TEST_F(Sheet, APictureOfAnotherShapeThanTheProjectorsIsRefused) {
     ASSERT_TRUE(write_file(folder / "frame_00001.png", encode_png(Image8(200, 200))));
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
@@ -136,6 +181,29 @@ TEST_F(Sheet, TheAnimationLoopsForEverThereAndBack) {
     EXPECT_EQ(frames, 6);
     EXPECT_GE(end_ms, 500);
     WebPAnimDecoderDelete(decoder);
+}
+
+TEST_F(Sheet, AClosedAnimationPlaysForwardsAndWithoutLoss) {
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    ASSERT_TRUE(read);
+    const Result<Bytes> webp =
+        visitor_animation(**settings, read->frames, {160, 100, 80.0F, true, true}, [](auto, auto) {});
+    ASSERT_TRUE(webp) << webp.error().message;
+    const WebPData data{reinterpret_cast<const std::uint8_t*>(webp->data()), webp->size()};
+    WebPDemuxer* demuxer = WebPDemux(&data);
+    ASSERT_NE(demuxer, nullptr);
+    EXPECT_EQ(WebPDemuxGetI(demuxer, WEBP_FF_FRAME_COUNT), 4U);
+    WebPIterator frame;
+    int all_ms = 0;
+    for (int more = WebPDemuxGetFrame(demuxer, 1, &frame); more != 0; more = WebPDemuxNextFrame(&frame)) {
+        WebPBitstreamFeatures features;
+        ASSERT_EQ(WebPGetFeatures(frame.fragment.bytes, frame.fragment.size, &features), VP8_STATUS_OK);
+        EXPECT_EQ(features.format, 2); // lossless
+        all_ms += frame.duration;
+    }
+    EXPECT_EQ(all_ms, 400);
+    WebPDemuxReleaseIterator(&frame);
+    WebPDemuxDelete(demuxer);
 }
 
 } // namespace

@@ -1,5 +1,10 @@
+#include "app/settings/language_tag.h"
+#include "app/settings/missing_files.h"
 #include "tests/settings/settings_text.h"
 
+#include <nlohmann/json.hpp>
+
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -94,8 +99,12 @@ TEST(Refusals, OfMatricesThatAreNotRigid) {
          {":2: projector.table_from_projector", "mirrors"}},
         {matrix("[2,0,0,0, 0,-2,0,0, 0,0,-2,0, 0,0,1.2,1]"), {":2: projector.table_from_projector scales"}},
         {matrix("[1,0.1,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]"), {"shears"}},
-        // Row by row instead of column by column: the translation stands in the last row.
-        {matrix("[1,0,0,0, 0,-1,0,0, 0,0,-1,1.2, 0,0,0,1]"), {"last row"}},
+        {matrix("[1,0,0,0, 0,-1,0,0, 0,0,-1,1.2, 0,0,0,1]"),
+         {":2: projector.table_from_projector is written row by row; allowed is column by column"}},
+        {"[tracker]\ntable_from_tracker = [0,-1,0,0.1, 1,0,0,0.2, 0,0,1,0, 0,0,0,1]",
+         {":2: tracker.table_from_tracker is written row by row", "numbers 13 to 15"}},
+        // Wrong in either order.
+        {matrix("[1,0,0,0.5, 0,-1,0,0, 0,0,-1,1.2, 0,0,1,1]"), {"last row other than 0 0 0 1"}},
         {matrix("[1,0,0]"), {"is a list of 3", "16 numbers, column by column"}},
         {"[tracker]\ntable_from_tracker = [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]",
          {":2: tracker.table_from_tracker"}},
@@ -121,7 +130,14 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 2]",
          {":2: projector.position_m looks -90.0 degrees"}},
         {"[projector]\nposition_m = [0, -5, 1]",
-         {":2: projector.position_m throws its picture beside the table"}},
+         {":2: projector.position_m throws its picture beside the table",
+          "x -0.33 to 0.33 m, y -5.21 to -4.79 m, the table at x -0.40 to 0.40 m, y -0.25 to 0.25 m"}},
+        {"[projector]\ncx = -1280",
+         {"throws its picture beside the table", "x 0.80 to 1.60 m", "lens shift"}},
+        {"[projector]\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 2,0,1.2,1]",
+         {":2: projector.table_from_projector throws its picture beside the table"}},
+        {"[projector]\nposition_m = [0.75, 0, 1.2]",
+         {":2: projector.position_m throws its picture so that the prop, 0.16 m wide, nowhere stands in it"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 1]",
          {":3: projector.aim_m gives no direction"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 5, 1]",
@@ -163,6 +179,60 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[exhibit]\nlanguage = \"e\"", {":2: exhibit.language", "\"de-CH\""}},
         {"[exhibit]\nlanguage = \"../etc\"", {":2: exhibit.language"}},
     });
+}
+
+TEST(Refusals, OfLanguagesThatThereAreNot) {
+    for (const std::string tag : {"xx", "english", "en_GB", "de-", "-de", "de--CH", "d", "", "e n", "1a",
+                                  "dé", "de-farmhouses", "germ"}) {
+        const std::string message = refusal("[exhibit]\nlanguage = \"" + tag + "\"");
+        EXPECT_NE(message.find(":2: exhibit.language is the text \"" + tag + "\"; allowed "),
+                  std::string::npos)
+            << tag << ": " << message;
+    }
+    for (const std::string tag :
+         {"en", "EL", "de-CH", "zh-Hant-TW", "gsw", "es-419", "sl-rozaj-biske", "de-CH-1996"}) {
+        EXPECT_EQ(refusal("[exhibit]\nlanguage = \"" + tag + "\""), "") << tag;
+    }
+}
+
+/// Debian's own list, where it is installed, has the same codes of two letters.
+TEST(Refusals, OfNoLanguageOfIso639) {
+    std::ifstream file("/usr/share/iso-codes/json/iso_639-3.json");
+    const nlohmann::json codes = nlohmann::json::parse(file, nullptr, false);
+    if (codes.is_discarded()) {
+        GTEST_SKIP() << "the package iso-codes is not installed";
+    }
+    std::set<std::string> known;
+    for (const nlohmann::json& language : codes.at("639-3")) {
+        known.insert(language.value("alpha_2", ""));
+    }
+    ASSERT_GT(known.size(), 150U);
+    for (char first = 'a'; first <= 'z'; ++first) {
+        for (char second = 'a'; second <= 'z'; ++second) {
+            const std::string code{first, second};
+            EXPECT_EQ(parse_language_tag(code).has_value(), known.count(code) == 1) << code;
+        }
+    }
+}
+
+/// Files that are named are looked for by `missing_files` alone: settings are right without them.
+TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
+    const auto settings = parse_settings("[tracker]\nkind = \"replay\"\nposes = \"visit.csv\"\n[exhibit]\n"
+                                         "packs = [\n\"cat.fspack\", \"README.md\", \"docs\"]\n",
+                                         FRUSTUMSCREEN_SOURCE_DIR "/kiosk.toml");
+    ASSERT_TRUE(settings) << settings.error().message;
+    const std::string folder = FRUSTUMSCREEN_SOURCE_DIR;
+    EXPECT_EQ(
+        missing_files(**settings),
+        (std::vector<std::string>{
+            folder + "/kiosk.toml:5: exhibit.packs: " + folder +
+                "/cat.fspack: there is no such file; make it with frustumscreen-bake, or take it off the "
+                "list",
+            folder + "/kiosk.toml:5: exhibit.packs: " + folder + "/docs: this is a folder; name a file in it",
+            folder + "/kiosk.toml:3: tracker.poses: " + folder +
+                "/visit.csv: there is no such file; make it with frustumscreen record, or choose another "
+                "tracker.kind"}));
+    EXPECT_TRUE(missing_files(parsed("[tracker]\nkind = \"usb\"\nposes = \"visit.csv\"\n")).empty());
 }
 
 TEST(Refusals, NotOfLinesThatOnlyLookAlike) {

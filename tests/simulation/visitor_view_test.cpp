@@ -235,5 +235,38 @@ TEST(VisitorView, LightFallsWithTheCosineAndTheSquareOfTheDistance) {
     EXPECT_NEAR(light(side) / light(top), expected, 0.04 * expected);
 }
 
+/// Without any picture the room's light alone is seen: table and prop are dark grey.
+TEST(VisitorView, ExposesADarkRoomsTableToDarkGreyAndWhiteOnASideToWhite) {
+    VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.6, -0.1, 0.5});
+    const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 200, 200);
+    const auto code_at = [&](const Image8& picture, const glm::dvec3& point) {
+        const Image8 view = visitor_view(scene, picture, camera);
+        const glm::dvec2 pixel = *camera.pinhole.pixel(camera.table_from_camera.inverse().point(point));
+        return int(view.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)).g);
+    };
+    const glm::dvec3 side(0.0625, 0.0, 0.06);
+    const glm::dvec3 table(0.17, 0.0, 0.0);
+    const Image8 dark(1280, 800, glm::u8vec4(0, 0, 0, 255));
+    EXPECT_GT(code_at(dark, table), 24);
+    EXPECT_LT(code_at(dark, table), 48);
+    EXPECT_GT(code_at(dark, side), 24);
+    EXPECT_LT(code_at(dark, side), 64);
+    EXPECT_GT(code_at(Image8(1280, 800, glm::u8vec4(255)), side), 230);
+}
+
+TEST(VisitorView, ShowsABlockWhereItIsTheNearest) {
+    VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.0, -0.6, 0.4});
+    const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 120, 120);
+    const Image8 white(1280, 800, glm::u8vec4(255));
+    const Image8 before = visitor_view(scene, white, camera);
+    scene.blocks = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind all
+    const Image8 walled = visitor_view(scene, white, camera);
+    EXPECT_EQ(walled.at(60, 60), before.at(60, 60));
+    scene.blocks.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen before the eye
+    const Image8 hidden = visitor_view(scene, white, camera);
+    EXPECT_EQ(hidden.at(60, 60), glm::u8vec4(0, 0, 0, 255));
+    EXPECT_GT(before.at(60, 60).g, 100);
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -33,5 +33,19 @@ TEST(MouseHand, TurnsAboutTheVertical) {
     EXPECT_NEAR(front.y, 1.0, 1e-12);
 }
 
+TEST(MouseHand, TakesTheEyeAroundTheTable) {
+    MouseHand hand({0.3, 0.2}, {0.0, -0.6, 0.6});
+    EXPECT_EQ(hand.head({}).station, head_station);
+    EXPECT_NEAR(glm::distance(hand.head({}).position_m, {0.0, -0.6, 0.6}), 0.0, 1e-12);
+    hand.look(glm::half_pi<double>(), 0.0);
+    EXPECT_NEAR(glm::distance(hand.head({}).position_m, {0.6, 0.0, 0.6}), 0.0, 1e-12);
+    for (const double up : {9.0, -9.0}) { // never below the table, never over the pole
+        hand.look(0.0, up);
+        const glm::dvec3 eye = hand.head({}).position_m;
+        EXPECT_GT(eye.z, 0.05);
+        EXPECT_GT(eye.x, 0.05);
+    }
+}
+
 } // namespace
 } // namespace frustumscreen

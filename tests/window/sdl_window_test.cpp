@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <vector>
@@ -26,6 +27,23 @@ protected:
         set_up.table_from_picture = [](const glm::dvec2& pixel) { // a millimetre a pixel, top = far
             return std::optional(glm::dvec2(pixel.x - width / 2, height / 2 - pixel.y) * 1e-3);
         };
+        set_up.table_from_view = [](const glm::dvec2& pixel, const glm::dvec3&,
+                                    PixelSize half) { // a centimetre a pixel
+            EXPECT_EQ(half, (PixelSize{width, height}));
+            return std::optional(glm::dvec2(pixel.x - width / 2, height / 2 - pixel.y) * 1e-2);
+        };
+        set_up.half_extent_m = {1.0, 1.0};
+        set_up.see = [this](const PoseSample& prop, const glm::dvec3& eye_m, PixelSize, SeenSurfaces& seen) {
+            seen_prop_m_ = prop.position_m;
+            seen_eye_m_ = eye_m;
+            // The upper half of the view: the picture at half its light, and a green light of its own.
+            for (const glm::vec2 corner : {glm::vec2(-1, 0), glm::vec2(1, 0), glm::vec2(1, 1),
+                                           glm::vec2(-1, 0), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+                seen.triangles.push_back(
+                    {glm::vec4(corner, 0, 1), {0.5F, 0.5F, 1.0F}, 0.5F, {0.0F, 0.2F, 0.0F}});
+            }
+        };
+        set_up.help = {{2, 2}, {1, 2, 3, 255, 4, 5, 6, 255, 7, 8, 9, 255, 10, 11, 12, 255}};
         Result<Window> opened = open_window(set_up);
         ASSERT_TRUE(opened) << opened.error().message;
         window_ = std::move(*opened);
@@ -57,12 +75,31 @@ protected:
     PoseSample prop(std::int64_t us) {
         std::vector<PoseSample> samples;
         EXPECT_TRUE(window_.tracker->poll(from_microseconds(us), samples));
-        EXPECT_EQ(samples.size(), 1U);
+        EXPECT_EQ(samples.size(), 2U);
+        EXPECT_EQ(samples[1].station, head_station);
+        head_m_ = samples[1].position_m;
         EXPECT_EQ(samples[0].time, from_microseconds(us));
         return samples[0];
     }
 
+    /// A code of the window itself; rows from the top.
+    [[nodiscard]] std::array<unsigned char, 4> shown(int x, int y) const {
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        std::array<unsigned char, 4> texel{};
+        glReadPixels(x, height - 1 - y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, texel.data());
+        return texel;
+    }
+    void present(float red, float green, float blue) {
+        glBindFramebuffer(GL_FRAMEBUFFER, window_.display->framebuffer());
+        glClearColor(red, green, blue, 1.0F);
+        glClear(GL_COLOR_BUFFER_BIT);
+        ASSERT_TRUE(window_.display->present(from_microseconds(1)));
+    }
+
     Window window_;
+    glm::dvec3 head_m_{0.0};
+    glm::dvec3 seen_prop_m_{0.0};
+    glm::dvec3 seen_eye_m_{0.0};
 };
 
 TEST_F(AWindow, IsADisplayThatKeepsItsPicture) {
@@ -94,6 +131,46 @@ TEST_F(AWindow, TheMouseSlidesAndTurnsTheProp) {
     EXPECT_NEAR(glm::degrees(glm::angle(prop(4).rotation)), 45.0, 1.0);
 }
 
+TEST_F(AWindow, TheMiddleDragTakesTheEyeAround) {
+    static_cast<void>(prop(1));
+    const glm::dvec3 before = head_m_;
+    EXPECT_NEAR(glm::distance(before, {0.0, -0.55, 0.5}), 0.0, 1e-9);
+    motion(10, 10, 90, SDL_BUTTON_MMASK);
+    EXPECT_EQ(prop(2).position_m, glm::dvec3(0.0));
+    EXPECT_NEAR(glm::length(head_m_), glm::length(before), 1e-9);
+    EXPECT_NEAR(head_m_.z, before.z, 1e-9);
+    EXPECT_NEAR(head_m_.x, -0.55 * std::sin(0.0087 * 90), 1e-9);
+}
+
+TEST_F(AWindow, ShowsThePictureAndBesideItWhatTheEyeSees) {
+    present(1.0F, 0.0F, 0.0F);
+    EXPECT_EQ(shown(width / 2, height / 2), (std::array<unsigned char, 4>{255, 0, 0, 255}));
+    // Half of the red light, 0.2 of green: codes 188 and 124.
+    EXPECT_EQ(shown(width + width / 2, height / 4), (std::array<unsigned char, 4>{188, 124, 0, 255}));
+    EXPECT_EQ(shown(width + width / 2, 3 * height / 4), (std::array<unsigned char, 4>{0, 0, 0, 255}));
+}
+
+TEST_F(AWindow, ADragInTheVisitorsHalfFollowsWhatIsSeenThere) {
+    present(0.0F, 0.0F, 0.0F);
+    button(SDL_MOUSEBUTTONDOWN, SDL_BUTTON_LEFT, width + 160, 100);
+    motion(width + 170, 95, 10, SDL_BUTTON_LMASK);
+    EXPECT_NEAR(glm::distance(prop(2).position_m, {0.10, 0.05, 0.0}), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(seen_prop_m_, {0.10, 0.05, 0.0}), 0.0, 1e-9); // shown at once
+}
+
+TEST_F(AWindow, HelpLiesOverItUntilItIsTakenAway) {
+    present(0.0F, 0.0F, 1.0F);
+    for (int time = 0; time < 2; ++time) {
+        EXPECT_EQ(shown(width - 1, height / 2 - 1), (std::array<unsigned char, 4>{0, 0, 255, 255}));
+        key(SDLK_h);
+        static_cast<void>(prop(2 * time));
+        EXPECT_EQ(shown(width - 1, height / 2 - 1), (std::array<unsigned char, 4>{1, 2, 3, 255}));
+        EXPECT_EQ(shown(width, height / 2), (std::array<unsigned char, 4>{10, 11, 12, 255}));
+        key(SDLK_h);
+        static_cast<void>(prop(2 * time + 1));
+    }
+}
+
 TEST_F(AWindow, KeysAreButtonsAndEscapeEnds) {
     key(SDLK_2);
     key(SDLK_1);
@@ -119,7 +196,7 @@ TEST(NoDesktop, IsSaidAndNotTakenForOne) {
     for (const char* display : {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}) {
         ::unsetenv(display);
     }
-    const Result<Window> opened = open_window({width, height, {}, {}});
+    const Result<Window> opened = open_window({});
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().message.rfind("window: there is no desktop here: ", 0), 0U)
         << opened.error().message;

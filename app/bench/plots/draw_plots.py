@@ -11,12 +11,15 @@ import csv
 import json
 import math
 import sys
+import textwrap
+from contextlib import contextmanager
 from pathlib import Path
 
 from panels import Failure, Panel, Series, save_column, save_sheet
 
 COST = "median frame time / that of the floor"
 FAINT = 0.3
+LONGEST_TITLE = 40  # letters of an artifact's, over a panel
 WORST_POSE_COLOUR = 6
 
 
@@ -116,6 +119,7 @@ def family_series(rows, kind, error):
 
 def error_time_panels(rows, title, limits):
     set_up = rows[0]["set_up"]
+    title = textwrap.shorten(title, LONGEST_TITLE, placeholder=" ...")
     panels = []
     for name, unit, error, least, limit in ERRORS:
         panel = Panel(f"{name}: {title}, {set_up} set-up", COST, unit, y_least=least)
@@ -256,19 +260,27 @@ TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_":
           "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup}
 
 
+@contextmanager
+def tables_of(where):
+    """Says in one line that a table is not what is read here."""
+    try:
+        yield
+    except (KeyError, ValueError, TypeError) as error:
+        raise Failure(f"{where}: is not what this frustumscreen-bench writes ({error}); measure again") from error
+
+
 def draw(path):
     for start, drawn in TABLES.items():
         if path.stem == start or start.endswith("_") and path.stem.startswith(start):
-            try:
+            with tables_of(path):
                 return drawn(path)
-            except (KeyError, ValueError, TypeError) as error:
-                raise Failure(f"{path}: is not what this frustumscreen-bench writes ({error}); measure again") from error
     raise Failure(f"{path}: no table that is drawn")
 
 
 def main(arguments):
     if len(arguments) > 2 and arguments[0] == "--overall":
-        draw_overall(Path(arguments[1]), [Path(folder) for folder in arguments[2:]])
+        with tables_of("a table of " + ", ".join(arguments[2:])):
+            draw_overall(Path(arguments[1]), [Path(folder) for folder in arguments[2:]])
     else:
         for path in arguments:
             draw(Path(path))

@@ -7,7 +7,8 @@ Units: the data's own; places in points.
 import math
 import os
 import sys
-from dataclasses import dataclass, field
+import textwrap
+from dataclasses import dataclass, field, replace
 
 try:
     import matplotlib
@@ -22,6 +23,9 @@ except ImportError:
 # Dark enough on white, and told apart with any colour vision (Okabe & Ito 2008, darkened).
 COLOURS = ("#00507f", "#b34700", "#00694d", "#8a3d6d", "#1f1f1f", "#7a6200", "#2f7fb0", "#d0308f")
 LIMIT_COLOUR = "#a00000"
+WIDER_FONT = 1.15  # words are text in the file; another font may need so much more room
+LEGEND_GAP = 12
+NOTE_LETTER = 7.0  # points, of a note's letter at most, on average
 DOT = 72  # dots an inch, so that a pixel of the canvas is a point of the file
 matplotlib.rcParams.update({
     "svg.hashsalt": "frustumscreen", "svg.fonttype": "none", "figure.dpi": DOT, "savefig.dpi": DOT,
@@ -74,7 +78,7 @@ class Frame:
     below: int = 58
 
 
-ALONE = Frame(870, 460, 76, 216)
+ALONE = Frame(654, 460, 76, 0)  # its legend stands beside it, as wide as its words are
 ON_SHEET = Frame(520, 430, 72, 18)
 
 
@@ -99,17 +103,23 @@ def shown(series, panel):
     return points
 
 
+def log_ticks(decades):
+    """At least three ticks over any range."""
+    if decades < 0.5:
+        return MaxNLocator(6, steps=(1, 2, 2.5, 5, 10))
+    digits = (1, 1.5, 2, 3, 4, 5, 6, 8) if decades < 0.9 else (1, 2, 5) if decades < 3.2 else (1,)
+    return LogLocator(10, digits, numticks=15)
+
+
 def settle(axis, values, log, least):
     """The ends of an axis, its ticks and their words; some room beyond the values."""
     low, high = (min(values), max(values)) if values else (1.0, 10.0)
     if log:
         low, high = math.log10(low), math.log10(high)
-        room = 0.06 * (high - low) if high > low else 0.3
+        room = max(0.06 * (high - low), 0.02) if high > low else 0.3
         low = max(low - room, math.log10(least)) if least > 0 else low - room
         ends = 10**low, 10**(high + room)
-        decades = high + room - low
-        digits = (1, 1.5, 2, 3, 4, 5, 6, 8) if decades < 0.9 else (1, 2, 5) if decades < 2.6 else (1,)
-        axis.set_major_locator(LogLocator(10, digits, numticks=15))
+        axis.set_major_locator(log_ticks(high + room - low))
     else:
         ends = min(low, 0.0), high + (0.06 * (high - min(low, 0.0)) or 1.0)
         axis.set_major_locator(MaxNLocator(6, steps=(1, 2, 5, 10)))
@@ -235,8 +245,8 @@ class Drawing:
         text.remove()
 
     def legend(self):
-        self.axes.legend(handles=legend_lines([self.panel]), loc="upper left", bbox_to_anchor=(1.01, 1.0),
-                         borderaxespad=0)
+        self.axes.legend(handles=legend_lines([self.panel]), loc="upper left", borderaxespad=0,
+                         bbox_to_anchor=(1 + LEGEND_GAP / self.axes.bbox.width, 1.0))
 
 
 def line_of(series, **more):
@@ -259,6 +269,14 @@ def legend_lines(panels):
     return list(found.values())
 
 
+def width_of(panels, columns=1):
+    """The room that their legend takes, whatever the font."""
+    figure = new_figure(1000, 1000)
+    handles = legend_lines(panels)
+    legend = figure.legend(handles=handles, ncol=max(columns, 1), columnspacing=1.6)
+    return WIDER_FONT * legend.get_window_extent(figure.canvas.get_renderer()).width if handles else 0
+
+
 def new_figure(width, height):
     figure = Figure(figsize=(width / DOT, height / DOT), facecolor="white")
     FigureCanvasAgg(figure)  # measures the words
@@ -277,9 +295,11 @@ def save(path, figure):
 
 def save_column(path, panels):
     """The panels one below the other, each with its legend."""
-    figure = new_figure(ALONE.width, ALONE.height * len(panels))
+    beside = max((width_of([panel]) for panel in panels), default=0)
+    frame = replace(ALONE, width=ALONE.width + LEGEND_GAP + math.ceil(beside), right=LEGEND_GAP + math.ceil(beside))
+    figure = new_figure(frame.width, frame.height * len(panels))
     for k, panel in enumerate(panels):
-        Drawing(figure, panel, ALONE, 0, k * ALONE.height, f"panel{k}").legend()
+        Drawing(figure, panel, frame, 0, k * frame.height, f"panel{k}").legend()
     save(path, figure)
 
 
@@ -288,14 +308,18 @@ def save_sheet(path, heading, panels, columns, notes):
     rows = -(-len(panels) // columns)
     width, top = ON_SHEET.width * columns, 50
     bottom = top + rows * ON_SHEET.height
-    height = bottom + 44 + 22 * len(notes)
+    handles = legend_lines(panels)
+    room = width - 2 * ON_SHEET.left
+    legend_columns = next((count for count in range(len(handles), 1, -1) if width_of(panels, count) <= room), 1)
+    below = bottom + 22 * -(-len(handles) // legend_columns) + 22
+    notes = [line for note in notes for line in textwrap.wrap(note, int(room / NOTE_LETTER))]
+    height = below + 22 * len(notes)
     figure = new_figure(width, height)
     figure.text(ON_SHEET.left / width, 1 - 36 / height, heading, fontsize=21, fontweight="bold")
     for k, panel in enumerate(panels):
         Drawing(figure, panel, ON_SHEET, k % columns * ON_SHEET.width, top + k // columns * ON_SHEET.height, f"panel{k}")
-    handles = legend_lines(panels)
-    figure.legend(handles=handles, ncol=max(len(handles), 1), loc="upper left", borderaxespad=0, columnspacing=1.6,
+    figure.legend(handles=handles, ncol=legend_columns, loc="upper left", borderaxespad=0, columnspacing=1.6,
                   bbox_to_anchor=(ON_SHEET.left / width, 1 - bottom / height))
     for k, note in enumerate(notes):
-        figure.text(ON_SHEET.left / width, 1 - (bottom + 48 + 22 * k) / height, note, color="#505050", fontsize=11.5)
+        figure.text(ON_SHEET.left / width, 1 - (below + 4 + 22 * k) / height, note, color="#505050", fontsize=11.5)
     save(path, figure)

@@ -1,8 +1,10 @@
 /// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file.
 #include "app/programs/common/guarded_main.h"
+#include "app/settings/language_tag.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/artifacts/write_glb.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -42,7 +44,8 @@ int run(int argc, char** argv) {
     app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %")->capture_default_str();
     auto* output_option = app.add_option("-o,--output", output, "GLB file to write");
     auto* list_option = app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
-    app.add_option("--language", language, "Language of --list: en, de, fr, es, el")->capture_default_str();
+    app.add_option("--language", language, "Language of --list: en, de, fr, es, el; English for others")
+        ->capture_default_str();
     list_option->excludes(name_option)->excludes(output_option);
     try {
         app.parse(argc, argv);
@@ -51,6 +54,12 @@ int run(int argc, char** argv) {
         }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!parse_language_tag(language)) {
+        fmt::print(stderr,
+                   "frustumscreen-artifact: --language '{}': there is no such language; allowed are {}\n",
+                   printable(language, 40), allowed_language_tags);
+        return 2;
     }
     if (list) {
         return list_artifacts(language);

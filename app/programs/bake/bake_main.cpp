@@ -4,6 +4,7 @@
 #include "app/pack/pack_magic.h"
 #include "app/pack/sha256.h"
 #include "app/programs/bake/bake_report.h"
+#include "app/programs/bake/captions_of.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
@@ -41,29 +42,15 @@ struct Arguments {
     std::string title;
     std::string licence;
     std::vector<std::string> languages;
-    std::vector<std::string> captions; ///< LANGUAGE=TEXT
+    std::vector<std::string> captions;  ///< LANGUAGE=TEXT
+    std::vector<PackCaption> described; ///< of both, for each language
 };
 
 Result<void> describe(Pack& pack, const Arguments& arguments) {
-    pack.title = arguments.title.empty() ? arguments.input.stem().string() : arguments.title;
-    pack.languages = arguments.languages.empty() ? std::vector<std::string>{"en"} : arguments.languages;
-    for (const std::string& language : pack.languages) {
-        pack.captions.push_back({language, pack.title, ""});
-    }
-    for (const std::string& caption : arguments.captions) {
-        const std::size_t equals = caption.find('=');
-        const std::string language = caption.substr(0, equals);
-        const auto known = std::find_if(pack.captions.begin(), pack.captions.end(),
-                                        [&](const PackCaption& c) { return c.language == language; });
-        if (equals == std::string::npos) {
-            return bad_input(
-                fmt::format("--caption '{}': write LANGUAGE=TEXT, such as \"en=A cat.\"", caption));
-        }
-        if (known == pack.captions.end()) {
-            return bad_input(fmt::format("--caption '{}': the languages are {}; add --language {}", caption,
-                                         fmt::join(pack.languages, ", "), language));
-        }
-        known->text = caption.substr(equals + 1);
+    pack.title = arguments.title;
+    pack.captions = arguments.described;
+    for (const PackCaption& caption : pack.captions) {
+        pack.languages.push_back(caption.language);
     }
     const Result<Bytes> source = read_file(arguments.input);
     if (!source) {
@@ -234,14 +221,22 @@ int run(int argc, char** argv) {
                  "refuse a file of which something would be lost; nothing is written");
     app.add_flag("--json", arguments.json, "the report for programs");
     app.add_option("--title", arguments.title, "title (default: the file's name)");
-    app.add_option("--language", arguments.languages, "language of a caption, BCP 47; may be repeated");
-    app.add_option("--caption", arguments.captions, "LANGUAGE=TEXT; may be repeated");
+    app.add_option("--language", arguments.languages, "language of a caption, BCP 47; once for each");
+    app.add_option("--caption", arguments.captions, "LANGUAGE=TEXT; once for each language");
     app.add_option("--licence", arguments.licence, "licence of the artifact");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    arguments.title = arguments.title.empty() ? arguments.input.stem().string() : arguments.title;
+    Result<std::vector<PackCaption>> captions =
+        captions_of(arguments.title, arguments.languages, arguments.captions);
+    if (!captions) {
+        fmt::print(stderr, "frustumscreen-bake: {}\n", captions.error().message);
+        return 2;
+    }
+    arguments.described = std::move(*captions);
     arguments.options.prop = arguments.prop == "cube" ? baked_cube() : baked_frustum();
     try {
         const Result<BakeResult> done = work(arguments);

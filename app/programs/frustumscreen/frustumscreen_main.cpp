@@ -1,55 +1,21 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/config_command.h"
 #include "app/programs/frustumscreen/plan_command.h"
 #include "app/programs/frustumscreen/record_command.h"
 #include "app/programs/frustumscreen/render_command.h"
 #include "app/programs/frustumscreen/run_command.h"
-#include "app/settings/config_json.h"
-#include "app/settings/settings.h"
-#include "app/settings/settings_page.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
 namespace frustumscreen {
 namespace {
-
-int config_command(int argc, char** argv) {
-    CLI::App app("Prints the resolved, checked settings, or what settings there are.",
-                 "frustumscreen config");
-    std::filesystem::path file;
-    bool json = false;
-    bool describe = false;
-    app.add_option("--config", file, "the kiosk's settings, TOML");
-    app.add_flag("--json", json, "as JSON (the only form)");
-    app.add_flag("--describe", describe, "every setting with its default and what it is; needs no --config");
-    try {
-        app.parse(argc, argv);
-        if (file.empty() && !describe) {
-            throw CLI::RequiredError("--config");
-        }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (describe) {
-        fmt::print("{}", settings_page());
-        return 0;
-    }
-    const Result<CheckedSettings> settings = load_settings(file);
-    if (!settings) {
-        fmt::print(stderr, "frustumscreen: {}\n", settings.error().message);
-        return 1;
-    }
-    fmt::print("{}", config_json(*settings));
-    return 0;
-}
 
 void print_usage(std::FILE* to) {
     fmt::print(to, "usage: frustumscreen run|record|render|plan|config [--help] ...\n"
@@ -57,7 +23,7 @@ void print_usage(std::FILE* to) {
                    "  record  what the tracker sends, into a file\n"
                    "  render  a pose file into pictures, without devices\n"
                    "  plan    what a scene needs, what it leaves out, and what that saves\n"
-                   "  config  the resolved, checked settings\n"
+                   "  config  the resolved, checked settings; what they mean on the table\n"
                    "  --version\n");
 }
 

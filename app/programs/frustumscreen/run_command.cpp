@@ -141,6 +141,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     ArtifactShowOptions options = request.show;
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
+        options.packs_key = settings.exhibit.packs_key;
     }
     Result<std::unique_ptr<ArtifactShow>> artifacts =
         ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0});

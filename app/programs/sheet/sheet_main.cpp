@@ -2,6 +2,7 @@
 /// alone.
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/sheet/room_picture.h"
 #include "app/programs/sheet/sheet_animation.h"
 #include "app/programs/sheet/sheet_frames.h"
 #include "app/programs/sheet/sheet_picture.h"
@@ -26,6 +27,7 @@ struct Request {
     std::vector<std::string> labels;
     std::filesystem::path sheet;
     std::filesystem::path animation;
+    std::filesystem::path room;
     std::filesystem::path table;
     std::size_t rows = 8;
     std::size_t animation_frames = 64;
@@ -56,17 +58,26 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--animation-frames", request.animation_frames, "at most so many pictures each way")
         ->check(CLI::Range(2, 600))
         ->capture_default_str();
+    app.add_flag("--closed", request.animation_options.closed,
+                 "the last picture leads to the first: play forwards only, not there and back");
+    app.add_flag("--lossless", request.animation_options.lossless,
+                 "the animation without loss, several times as large");
     app.add_option("--width", request.animation_options.width, "the animation's width")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     app.add_option("--height", request.animation_options.height, "the animation's height")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
+    app.add_option(
+        "--room", request.room,
+        "picture of the first frame to write, PNG: the table in its room, the projector's picture, the "
+        "visitor's view");
     app.add_option("--table", request.table, "table of frame times and errors to write, .html or .md");
     try {
         app.parse(argc, argv);
-        if (request.sheet.empty() && request.animation.empty() && request.table.empty()) {
-            throw CLI::ValidationError("nothing to make; give -o, --animation or --table");
+        if (request.sheet.empty() && request.animation.empty() && request.room.empty() &&
+            request.table.empty()) {
+            throw CLI::ValidationError("nothing to make; give -o, --animation, --room or --table");
         }
         if (request.poses.size() > request.folders.size() || request.labels.size() > request.folders.size()) {
             throw CLI::ValidationError("more --poses or --label than --frames");
@@ -76,6 +87,50 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     return 0;
+}
+
+Result<void> draw_sheet(const Request& request, const Settings& settings,
+                        const std::vector<FrameFolder>& folders) {
+    if (request.sheet.empty()) {
+        return {};
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    std::vector<SheetFrame> frames;
+    for (const FrameFolder& folder : folders) {
+        const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
+        frames.insert(frames.end(), chosen.begin(), chosen.end());
+    }
+    ProgressLine progress("contact sheet");
+    const Result<Image8> sheet =
+        contact_sheet(settings, frames, request.sheet_options, *typesetter,
+                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+    return sheet ? write_file(request.sheet, encode_png(*sheet)) : tl::unexpected<Error>(sheet.error());
+}
+
+Result<void> draw_room(const Request& request, const Settings& settings, const SheetFrame& frame) {
+    if (request.room.empty()) {
+        return {};
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    const Result<Image8> picture = room_picture(settings, frame, *typesetter);
+    return picture ? write_file(request.room, encode_png(*picture)) : tl::unexpected<Error>(picture.error());
+}
+
+Result<void> draw_animation(const Request& request, const Settings& settings, const FrameFolder& folder) {
+    if (request.animation.empty()) {
+        return {};
+    }
+    ProgressLine progress("animation");
+    const Result<Bytes> animation = visitor_animation(
+        settings, evenly(folder.frames, request.animation_frames), request.animation_options,
+        [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+    return animation ? write_file(request.animation, *animation) : tl::unexpected<Error>(animation.error());
 }
 
 Result<void> make(const Request& request) {
@@ -93,38 +148,14 @@ Result<void> make(const Request& request) {
         }
         folders.push_back(std::move(*folder));
     }
-    if (!request.sheet.empty()) {
-        const Result<Typesetter> typesetter = Typesetter::open();
-        if (!typesetter) {
-            return tl::unexpected<Error>(typesetter.error());
-        }
-        std::vector<SheetFrame> frames;
-        for (const FrameFolder& folder : folders) {
-            const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
-            frames.insert(frames.end(), chosen.begin(), chosen.end());
-        }
-        ProgressLine progress("contact sheet");
-        const Result<Image8> sheet =
-            contact_sheet(**settings, frames, request.sheet_options, *typesetter,
-                          [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-        if (!sheet) {
-            return tl::unexpected<Error>(sheet.error());
-        }
-        if (Result<void> written = write_file(request.sheet, encode_png(*sheet)); !written) {
-            return written;
-        }
+    if (Result<void> drawn = draw_sheet(request, **settings, folders); !drawn) {
+        return drawn;
     }
-    if (!request.animation.empty()) {
-        ProgressLine progress("animation");
-        const Result<Bytes> animation = visitor_animation(
-            **settings, evenly(folders.front().frames, request.animation_frames), request.animation_options,
-            [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-        if (!animation) {
-            return tl::unexpected<Error>(animation.error());
-        }
-        if (Result<void> written = write_file(request.animation, *animation); !written) {
-            return written;
-        }
+    if (Result<void> drawn = draw_room(request, **settings, folders.front().frames.front()); !drawn) {
+        return drawn;
+    }
+    if (Result<void> drawn = draw_animation(request, **settings, folders.front()); !drawn) {
+        return drawn;
     }
     if (!request.table.empty()) {
         std::vector<FrameRecord> records;

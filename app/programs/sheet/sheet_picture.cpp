@@ -1,6 +1,7 @@
 #include "app/programs/sheet/sheet_picture.h"
 
 #include "app/exhibit/canvas.h"
+#include "app/programs/sheet/sheet_cameras.h"
 #include "app/simulation/visitor_view.h"
 
 #include <fmt/format.h>
@@ -26,37 +27,11 @@ constexpr glm::ivec2 projector_tile{400, 340};
 constexpr glm::ivec2 visitor_tile{544, 340};
 constexpr glm::ivec2 cell(projector_tile.x + 4 + visitor_tile.x, projector_tile.y + label_height);
 
-constexpr double most_zoom = 1.5; ///< of a view that shows the prop alone
-constexpr double least_zoom = 0.5;
-constexpr double filled = 0.94;  ///< share of the tile
-constexpr int lit_code = 40;     ///< letters in a picture are brighter
-constexpr int between_looks = 4; ///< pixels from one that is looked at to the next
-constexpr double beside_the_prop_px = 4.0;
-
 /// A part of the projector's picture, in its pixels.
 struct Crop {
     glm::dvec2 low{0.0};
     glm::dvec2 size{1.0};
 };
-
-std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) {
-    const RigidTransform projector_from_prop = scene.table_from_projector.inverse() * scene.table_from_prop;
-    std::vector<std::array<glm::dvec2, 4>> outlines;
-    for (const PropFace& face : scene.prop.faces) {
-        std::array<glm::dvec2, 4> outline{};
-        bool visible = true;
-        for (std::size_t k = 0; k < outline.size(); ++k) {
-            const std::optional<glm::dvec2> pixel =
-                scene.projector.pixel(projector_from_prop.point(face.corners[k]));
-            visible = visible && pixel.has_value();
-            outline[k] = pixel.value_or(glm::dvec2(0.0));
-        }
-        if (visible) {
-            outlines.push_back(outline);
-        }
-    }
-    return outlines;
-}
 
 /// A crop around the prop, in the tile's shape, a little wider.
 Crop around(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture) {
@@ -89,73 +64,6 @@ std::string where(const Situation& situation) {
         glm::length(sight) * 100.0, glm::degrees(elevation));
 }
 
-bool inside(const std::array<glm::dvec2, 4>& outline, const glm::dvec2& pixel) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        const glm::dvec2 edge = outline[(k + 1) % outline.size()] - outline[k];
-        const glm::dvec2 to = pixel - outline[k];
-        const double beside = (edge.x * to.y - edge.y * to.x) / std::max(glm::length(edge), 1e-9);
-        least = std::min(least, beside);
-        most = std::max(most, beside);
-    }
-    return least >= -beside_the_prop_px || most <= beside_the_prop_px;
-}
-
-/// Where the picture lights the table itself: the caption.
-std::vector<glm::dvec3> lit_on_table(const VisitorScene& scene, const Image8& picture,
-                                     const std::vector<std::array<glm::dvec2, 4>>& outlines) {
-    std::vector<glm::dvec3> points;
-    for (int y = 0; y < picture.height; y += between_looks) {
-        for (int x = 0; x < picture.width; x += between_looks) {
-            const glm::u8vec4 code = picture.at(x, y);
-            const glm::dvec2 pixel(x + 0.5, y + 0.5);
-            if (std::max({code.r, code.g, code.b}) < lit_code ||
-                std::any_of(outlines.begin(), outlines.end(),
-                            [&](const auto& outline) { return inside(outline, pixel); })) {
-                continue;
-            }
-            const glm::dvec3 lens = scene.table_from_projector.translation;
-            const glm::dvec3 ray = scene.table_from_projector.direction(scene.projector.ray(pixel));
-            if (ray.z < 0.0) {
-                points.push_back(lens - ray * (lens.z / ray.z));
-            }
-        }
-    }
-    return points;
-}
-
-/// The visitor's camera, turned a little and as wide as the prop and its caption need.
-VisitorCamera framed(const VisitorScene& scene, const Image8& picture,
-                     const std::vector<std::array<glm::dvec2, 4>>& outlines) {
-    VisitorCamera camera =
-        visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, visitor_tile.x, visitor_tile.y);
-    std::vector<glm::dvec3> points = lit_on_table(scene, picture, outlines);
-    for (const PropFace& face : scene.prop.faces) {
-        for (const glm::dvec3& corner : face.corners) {
-            points.push_back(scene.table_from_prop.point(corner));
-        }
-    }
-    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high = -low;
-    for (const glm::dvec3& point : points) {
-        if (const auto pixel = camera.pinhole.pixel(camera_from_table.point(point)); pixel) {
-            low = glm::min(low, *pixel);
-            high = glm::max(high, *pixel);
-        }
-    }
-    const glm::dvec2 size = glm::max(high - low, glm::dvec2(1.0));
-    const double scale = std::clamp(filled * std::min(visitor_tile.x / size.x, visitor_tile.y / size.y),
-                                    least_zoom, most_zoom);
-    const glm::dvec2 centre(camera.pinhole.cx, camera.pinhole.cy);
-    const glm::dvec2 moved = glm::dvec2(visitor_tile) / 2.0 + scale * (centre - (low + high) / 2.0);
-    camera.pinhole.fx = camera.pinhole.fy = camera.pinhole.fx * scale;
-    camera.pinhole.cx = moved.x;
-    camera.pinhole.cy = moved.y;
-    return camera;
-}
-
 void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& frame, const Image8& picture,
                 const glm::ivec2& corner, const Typesetter& typesetter) {
     const VisitorScene scene = visitor_scene(settings, frame.situation, picture.width, picture.height);
@@ -171,7 +79,7 @@ void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& fram
     }
     canvas.picture(tile.image(), {0, 0}, glm::dvec2(projector_tile), corner, projector_tile);
 
-    const VisitorCamera camera = framed(scene, picture, outlines);
+    const VisitorCamera camera = framed_camera(scene, visitor_tile);
     const glm::ivec2 right = corner + glm::ivec2(projector_tile.x + 4, 0);
     canvas.picture(visitor_view(scene, picture, camera), {0, 0}, glm::dvec2(visitor_tile), right,
                    visitor_tile);

@@ -1,6 +1,8 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/window/help_picture.h"
+#include "app/programs/window/visitor_half.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
@@ -19,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 namespace frustumscreen {
 namespace {
@@ -32,8 +35,9 @@ struct Request {
 
 int read_arguments(int argc, char** argv, Request& request, bool& done) {
     CLI::App app(
-        "The exhibit in a window. Drag: slide the prop; wheel or right drag: turn it; 1, 2, 3: the buttons; "
-        "Esc: end.",
+        "The exhibit in a window: left the projector's picture, right what the visitor sees. Drag: slide the "
+        "prop; "
+        "wheel or right drag: turn it; middle drag: move the eye; 1, 2, 3: the buttons; H: help; Esc: end.",
         "frustumscreen-window");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
@@ -74,6 +78,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     options.program = "frustumscreen-window";
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
+        options.packs_key = settings.exhibit.packs_key;
     }
     DevicePlan devices;
     devices.tracker = TrackerKind::Simulated;
@@ -90,6 +95,24 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     return std::make_unique<LiveExhibit>(settings, std::move(*show), std::move(exhibit), display.name());
 }
 
+/// `visitor` outlives the window.
+WindowSetUp set_up_of(const Settings& settings, const VisitorHalf& visitor, WindowHelp help) {
+    const glm::dvec2 table(settings.table.width_m, settings.table.depth_m);
+    WindowSetUp set_up;
+    set_up.width = settings.projector.pinhole.width;
+    set_up.height = settings.projector.pinhole.height;
+    set_up.half_extent_m = 0.5 * (table - settings.prop.base_m);
+    set_up.eye_m = settings.eye.default_m;
+    set_up.table_from_picture = table_from_picture(settings.projector);
+    set_up.table_from_view = [&visitor](const glm::dvec2& pixel, const glm::dvec3& eye_m, PixelSize half) {
+        return visitor.on_table(pixel, eye_m, half);
+    };
+    set_up.see = [&visitor](const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
+                            SeenSurfaces& seen) { visitor.see(prop, eye_m, half, seen); };
+    set_up.help = std::move(help);
+    return set_up;
+}
+
 Result<void> run(const Request& request) {
     const StopSignals stop_signals;
     const Journal journal("frustumscreen-window");
@@ -101,10 +124,13 @@ Result<void> run(const Request& request) {
     Settings settings = **checked;
     settings.tracker.kind = TrackerKind::Simulated; // the mouse goes anywhere on the table, as a hand does
     settings.tracker.display_latency_ms = 0.0;
-    const Pinhole& pinhole = settings.projector.pinhole;
-    const glm::dvec2 table(settings.table.width_m, settings.table.depth_m);
-    Result<Window> window = open_window({pinhole.width, pinhole.height, 0.5 * (table - settings.prop.base_m),
-                                         table_from_picture(settings.projector)});
+    settings.eye.tracked = true;
+    Result<WindowHelp> help = help_picture();
+    if (!help) {
+        return tl::unexpected<Error>(help.error());
+    }
+    const VisitorHalf visitor(settings);
+    Result<Window> window = open_window(set_up_of(settings, visitor, std::move(*help)));
     if (!window) {
         return tl::unexpected<Error>(window.error());
     }

@@ -13,6 +13,9 @@ class Svg:
     def texts(self):
         return ["".join(text.itertext()) for text in self.root.iter(f"{SVG}text")]
 
+    def width(self):
+        return float(self.root.get("width").removesuffix("pt"))
+
     def place_of_texts(self, words):
         places = []
         for text in self.root.iter(f"{SVG}text"):

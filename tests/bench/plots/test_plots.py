@@ -227,6 +227,33 @@ class Panels(Plots):
         svg = self.drawn([Panel("t", "x", "y", [Series("s", [(0, 1), (1, -1), (nan, 1), (1, nan), (1, inf), (1, 1)])])])
         self.assertEqual(len(svg.marks("panel0/s")), 1)
 
+    def test_an_axis_has_ticks_over_any_range(self):
+        for high in (1.0, 1.01, 1.3, 2, 7, 40, 300, 1e5, 1e12):
+            for low in (1e-4, 1.7, 2e6):
+                svg = self.drawn([Panel("t", "x", "y", [Series("s", [(low, low), (low * high, low * high)])])])
+                for axis in (0, 1):
+                    self.assertGreaterEqual(len(svg.ticks(0, axis)), 3, (low, high))
+                    self.assertLessEqual(len(svg.ticks(0, axis)), 15, (low, high))
+
+    def test_a_legend_has_room_for_its_words(self):
+        words = "a technique whose name is very long, on the finest level, in the worst of all poses"
+        svg = self.drawn([Panel("t", "x", "y", [Series("short", [(1, 1), (2, 2)])]),
+                          Panel("t", "x", "y", [Series(words, [(1, 1), (2, 2)])])])
+        (left, _), = svg.place_of_texts(words)
+        self.assertGreater(svg.width(), left + 6.5 * len(words))  # 6.5 px a letter: a wide font
+        self.assertGreater(svg.place_of_texts("short")[0][0], max(x for x, _ in svg.marks("panel0/short")))
+        sheet = self.folder / "sheet.svg"
+        panels = [Panel("t", "x", "y", [Series(f"{k} {words}", [(1, 1), (2, 2)], k)]) for k in range(3)]
+        note = "Artifacts: " + ", ".join(f"artifact {k}" for k in range(60)) + "."
+        save_sheet(sheet, "s", panels, 3, [note])
+        svg = Svg(sheet)
+        for k in range(3):
+            (left, _), = svg.place_of_texts(f"{k} {words}")
+            self.assertGreater(svg.width(), left + 6.5 * len(words))
+        lines = [text for text in svg.texts() if "artifact" in text]
+        self.assertEqual(" ".join(lines), note)
+        self.assertLess(max(map(len, lines)) * 6.5, svg.width())
+
     def test_what_lies_below_the_least_of_the_axis_is_drawn_there(self):
         panel = Panel("t", "x", "y", [Series("s", [(1, 1), (2, 0.001), (3, 1e-7), (4, 0)])], y_least=0.001)
         svg = self.drawn([panel])
@@ -286,6 +313,12 @@ class WhatIsBroken(Plots):
         self.assert_said([table], "holds no rows")
         table.write_bytes(b"\xff\xfe\n\n")
         self.assert_said([table], "error_time.csv: .*measure again")
+
+    def test_a_sheet_of_an_old_table_is_one_line(self):
+        folder = self.error_time()
+        table = folder / "error_time.csv"
+        table.write_text(table.read_text().replace("best_eye_image", "_", 1))
+        self.assert_said(["--overall", folder / "all.svg", folder], "best_eye_image.*measure again")
 
     def test_a_report_without_a_title_is_one_line(self):
         folder = self.error_time()

@@ -1,0 +1,78 @@
+#include "app/programs/frustumscreen/config_command.h"
+
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/setup_page.h"
+#include "app/settings/config_json.h"
+#include "app/settings/missing_files.h"
+#include "app/settings/settings_page.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    bool json = false; ///< the default
+    bool explain = false;
+    bool describe = false;
+};
+
+int read_arguments(int argc, char** argv, Request& request, bool& done) {
+    CLI::App app(
+        "Prints the resolved, checked settings, what they mean on the table, or what settings there are.",
+        "frustumscreen config");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML");
+    CLI::Option* const json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
+    CLI::Option* const explain = app.add_flag(
+        "--explain", request.explain, "in words: the picture on the table, the light on the prop, the zone");
+    app.add_flag("--describe", request.describe,
+                 "every setting with its default and what it is; needs no --config")
+        ->excludes(json)
+        ->excludes(explain);
+    explain->excludes(json);
+    try {
+        app.parse(argc, argv);
+        if (request.config.empty() && !request.describe) {
+            throw CLI::RequiredError("--config");
+        }
+    } catch (const CLI::ParseError& error) {
+        done = true;
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return 0;
+}
+
+Result<void> print_config(const Request& request) {
+    if (request.describe) {
+        fmt::print("{}", settings_page());
+        return {};
+    }
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    for (const std::string& missing : missing_files(**settings)) {
+        say_line("frustumscreen", missing);
+    }
+    fmt::print("{}", request.explain ? setup_page(**settings) : config_json(*settings));
+    return {};
+}
+
+} // namespace
+
+int config_command(int argc, char** argv) {
+    Request request;
+    bool done = false;
+    if (const int status = read_arguments(argc, argv, request, done); done) {
+        return status;
+    }
+    return exit_status("frustumscreen", print_config(request));
+}
+
+} // namespace frustumscreen

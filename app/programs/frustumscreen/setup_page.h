@@ -1,0 +1,17 @@
+/// What the settings mean on the table, in words, for whoever stands on the ladder: the picture, what a pixel is there,
+/// where the prop stays lit, how much light its faces get, and what an error of mounting or tracking costs.
+///
+/// Units    millimetres, metres, degrees and pixels, each written out; table coordinates.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/settings/settings.h"
+
+#include <string>
+
+namespace frustumscreen {
+
+/// Ends with a line break.
+[[nodiscard]] std::string setup_page(const Settings& settings);
+
+} // namespace frustumscreen

@@ -1,0 +1,93 @@
+#include "app/programs/sheet/room_picture.h"
+
+#include "app/exhibit/canvas.h"
+#include "app/programs/sheet/sheet_cameras.h"
+#include "app/simulation/room.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Colour background{14, 15, 18};
+constexpr Colour words{190, 194, 200};
+constexpr Colour beam{150, 190, 230};
+constexpr double beam_opacity = 0.16;
+constexpr Colour outline_colour{66, 96, 100};
+
+constexpr int gap = 10;
+constexpr int label_height = 34;
+constexpr double label_px = 17.0;
+constexpr glm::ivec2 room_tile{760, 880};
+constexpr int right_width = 600;
+constexpr glm::ivec2 visitor_tile{right_width, 471};
+
+/// The edges of the light between the lens and the picture on the table.
+void draw_beam(Canvas& canvas, const VisitorScene& scene, const VisitorCamera& camera) {
+    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
+    const glm::dvec3& lens = scene.table_from_projector.translation;
+    const auto from = camera.pinhole.pixel(camera_from_table.point(lens));
+    const glm::dvec2 size(scene.projector.width, scene.projector.height);
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
+        const glm::dvec3 ray = scene.table_from_projector.direction(scene.projector.ray(corner * size));
+        const auto to = camera.pinhole.pixel(camera_from_table.point(lens - ray * (lens.z / ray.z)));
+        if (ray.z < 0.0 && from && to) {
+            canvas.line(*from, *to, 2.0, beam, beam_opacity);
+        }
+    }
+}
+
+Image8 projector_view(const VisitorScene& scene, const Image8& picture, const glm::ivec2& size) {
+    Canvas canvas(size.x, size.y, Colour(0));
+    canvas.picture(picture, {0, 0}, {picture.width, picture.height}, {0, 0}, size);
+    for (std::array<glm::dvec2, 4> outline : face_outlines(scene)) {
+        for (glm::dvec2& point : outline) {
+            point *= glm::dvec2(size) / glm::dvec2(picture.width, picture.height);
+        }
+        canvas.outline(outline, 1.0, outline_colour, 0.55);
+    }
+    return canvas.take();
+}
+
+void place(Canvas& canvas, const Image8& image, const glm::ivec2& corner, const char* label,
+           const Typesetter& typesetter) {
+    const glm::ivec2 size(image.width, image.height);
+    canvas.picture(image, {0, 0}, glm::dvec2(size), corner, size);
+    canvas.text(typesetter, label, {corner.x + 2.0, corner.y + size.y + 7.0}, label_px, words);
+}
+
+} // namespace
+
+Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame, const Typesetter& typesetter) {
+    const Result<Image8> picture = read_picture(frame, settings.projector.pinhole);
+    if (!picture) {
+        return tl::unexpected<Error>(picture.error());
+    }
+    const VisitorScene scene = visitor_scene(settings, frame.situation, picture->width, picture->height);
+    VisitorScene in_room = scene;
+    const VisitorCamera bystander = room_camera(scene, room_tile);
+    in_room.eye_m = bystander.table_from_camera.translation;
+    in_room.blocks = room_around(scene.table_size_m, scene.table_from_projector.translation);
+    Canvas room(visitor_view(in_room, *picture, bystander));
+    draw_beam(room, scene, bystander);
+
+    const glm::ivec2 projector_tile(right_width, right_width * picture->height / picture->width);
+    const int right = 2 * gap + room_tile.x;
+    const int below = gap + projector_tile.y + label_height;
+    Canvas canvas(right + right_width + gap,
+                  gap + std::max(room_tile.y, projector_tile.y + label_height + visitor_tile.y) +
+                      label_height,
+                  background);
+    place(canvas, room.image(), {gap, gap}, "The table in its room, seen over the visitor\u2019s shoulder",
+          typesetter);
+    place(canvas, projector_view(scene, *picture, projector_tile), {right, gap},
+          "The projector\u2019s picture", typesetter);
+    VisitorScene seen = scene;
+    seen.blocks = in_room.blocks;
+    place(canvas, visitor_view(seen, *picture, framed_camera(scene, visitor_tile)), {right, below},
+          "What the visitor sees", typesetter);
+    return canvas.take();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// One large picture of what the exhibit is: the table in its room, the projector's picture, the visitor's view.
+///
+/// Threads  one; the views use all cores inside.
+/// Errors   a picture that cannot be read.
+#pragma once
+
+#include "app/exhibit/text_image.h"
+#include "app/image/image.h"
+#include "app/programs/sheet/sheet_frames.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/result.h"
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame,
+                                          const Typesetter& typesetter);
+
+} // namespace frustumscreen

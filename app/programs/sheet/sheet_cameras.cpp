@@ -1,0 +1,80 @@
+#include "app/programs/sheet/sheet_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double behind_the_visitor = 4.5; ///< times the eye's distance from the prop
+constexpr double seen_share = 0.92;        ///< of the picture, from the table's legs to the projector
+
+/// Turns and zooms until the points fill `share` of the picture, at most, and stand in its middle.
+void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm::dvec2& share) {
+    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec3& point : points) {
+        if (const auto pixel = camera.pinhole.pixel(camera_from_table.point(point)); pixel) {
+            low = glm::min(low, *pixel);
+            high = glm::max(high, *pixel);
+        }
+    }
+    Pinhole& pinhole = camera.pinhole;
+    const glm::dvec2 size(pinhole.width, pinhole.height);
+    const glm::dvec2 room = share * size / glm::max(high - low, glm::dvec2(1.0));
+    const double zoom = std::min(room.x, room.y);
+    const glm::dvec2 centre = size / 2.0 + zoom * (glm::dvec2(pinhole.cx, pinhole.cy) - (low + high) / 2.0);
+    pinhole.fx *= zoom;
+    pinhole.fy *= zoom;
+    pinhole.cx = centre.x;
+    pinhole.cy = centre.y;
+}
+
+} // namespace
+
+VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size) {
+    VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, size.x, size.y);
+    std::vector<glm::dvec3> points;
+    for (const glm::dvec3& corner : scene.prop.corners) {
+        points.push_back(scene.table_from_prop.point(corner));
+    }
+    frame(camera, points, {1.0, prop_share_of_height});
+    return camera;
+}
+
+VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size) {
+    const glm::dvec3 prop = scene.table_from_prop.point(scene.prop.middle);
+    VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop,
+                                          glm::mix(prop, scene.eye_m, behind_the_visitor), size.x, size.y);
+    std::vector<glm::dvec3> points{scene.table_from_projector.translation + glm::dvec3(0.0, 0.0, 0.12)};
+    for (const double side : {-0.5, 0.5}) {
+        points.emplace_back(side * scene.table_size_m.x, -0.5 * scene.table_size_m.y, -0.2);
+        points.emplace_back(side * scene.table_size_m.x, 0.5 * scene.table_size_m.y, 0.0);
+    }
+    frame(camera, points, glm::dvec2(seen_share));
+    return camera;
+}
+
+std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) {
+    const RigidTransform projector_from_prop = scene.table_from_projector.inverse() * scene.table_from_prop;
+    std::vector<std::array<glm::dvec2, 4>> outlines;
+    for (const PropFace& face : scene.prop.faces) {
+        std::array<glm::dvec2, 4> outline{};
+        bool visible = true;
+        for (std::size_t k = 0; k < outline.size(); ++k) {
+            const std::optional<glm::dvec2> pixel =
+                scene.projector.pixel(projector_from_prop.point(face.corners[k]));
+            visible = visible && pixel.has_value();
+            outline[k] = pixel.value_or(glm::dvec2(0.0));
+        }
+        if (visible) {
+            outlines.push_back(outline);
+        }
+    }
+    return outlines;
+}
+
+} // namespace frustumscreen

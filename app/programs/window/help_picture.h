@@ -1,0 +1,13 @@
+/// What mouse and keys do, as a picture over the window.
+///
+/// Errors   the typeface's files are missing.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/window/sdl_window.h"
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<WindowHelp> help_picture();
+
+} // namespace frustumscreen

@@ -1,0 +1,132 @@
+#include "app/programs/window/visitor_half.h"
+
+#include "app/simulation/room_light.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+using Quad = std::array<glm::dvec3, 4>; ///< table frame
+
+const glm::dvec3 up(0.0, 0.0, 1.0);
+const glm::vec3 outline_light(0.10F, 0.28F, 0.30F);
+/// Light is linear between a surface's corners; over a table it is not.
+constexpr int table_cells = 8;
+
+/// Turns points of the table frame into vertices.
+class Viewer {
+public:
+    Viewer(const VisitorCamera& camera, const ProjectorSettings& projector, double exposure)
+        : clip_from_table_(camera.pinhole.clip_from_point() * camera.table_from_camera.inverse().matrix()),
+          projector_(projector), projector_from_table_(projector.table_from_projector.inverse()),
+          exposure_(exposure) {}
+
+    /// A surface that sends back `albedo` of the light. `lit`: the projector's reaches it.
+    [[nodiscard]] SeenVertex surface(const glm::dvec3& point, const glm::dvec3& normal, double albedo,
+                                     bool lit) const {
+        const double received = received_from(projector_.table_from_projector.translation, point, normal);
+        SeenVertex vertex = line(point, glm::vec3(static_cast<float>(albedo * room_light_on(normal))));
+        vertex.gain = lit ? static_cast<float>(albedo * exposure_ * received) : 0.0F;
+        return vertex;
+    }
+    [[nodiscard]] SeenVertex line(const glm::dvec3& point, const glm::vec3& light) const {
+        glm::dvec4 clip = clip_from_table_ * glm::dvec4(point, 1.0);
+        clip.y = -clip.y; // the pinhole's is -1 at the top
+        const Pinhole& p = projector_.pinhole;
+        const glm::dvec3 ray = projector_from_table_.point(point);
+        return {glm::vec4(clip),
+                glm::vec3((p.fx * ray.x + p.cx * ray.z) / p.width, (p.fy * ray.y + p.cy * ray.z) / p.height,
+                          ray.z),
+                0.0F, light};
+    }
+    void add(const Quad& quad, const glm::dvec3& normal, double albedo, bool lit, SeenSurfaces& seen) const {
+        for (const std::size_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
+            seen.triangles.push_back(surface(quad[corner], normal, albedo, lit));
+        }
+    }
+
+private:
+    glm::dmat4 clip_from_table_;
+    const ProjectorSettings& projector_;
+    RigidTransform projector_from_table_;
+    double exposure_;
+};
+
+void add_table(const Viewer& viewer, const glm::dvec2& half, SeenSurfaces& seen) {
+    const glm::dvec2 cell = 2.0 * half / static_cast<double>(table_cells);
+    for (int k = 0; k < table_cells * table_cells; ++k) {
+        const glm::dvec2 low = cell * glm::dvec2(k % table_cells, k / table_cells) - half;
+        viewer.add({glm::dvec3(low, 0.0), glm::dvec3(low.x + cell.x, low.y, 0.0), glm::dvec3(low + cell, 0.0),
+                    glm::dvec3(low.x, low.y + cell.y, 0.0)},
+                   up, table_albedo, true, seen);
+    }
+}
+
+/// Where the prop keeps the projector's light from the table: each face's shadow.
+void add_shadow(const Viewer& viewer, const Quad& face, const glm::dvec3& lens, const glm::dvec2& half,
+                SeenSurfaces& seen) {
+    Quad shadow{};
+    for (std::size_t k = 0; k < face.size(); ++k) {
+        const glm::dvec3 ray = face[k] - lens;
+        if (ray.z >= 0.0) {
+            return; // higher than the lens
+        }
+        const glm::dvec2 meets(lens - ray * (lens.z / ray.z));
+        shadow[k] = glm::dvec3(glm::clamp(meets, -half, half), 0.0);
+    }
+    viewer.add(shadow, up, table_albedo, false, seen);
+}
+
+} // namespace
+
+VisitorHalf::VisitorHalf(const Settings& settings)
+    : projector_(settings.projector),
+      half_table_m_(0.5 * settings.table.width_m, 0.5 * settings.table.depth_m),
+      prop_(make_prop(settings.prop)),
+      exposure_(exposure_of(prop_, settings.projector.table_from_projector.translation)) {}
+
+VisitorCamera VisitorHalf::camera(const glm::dvec3& eye_m, PixelSize half) const {
+    return visitor_camera(prop_, {}, eye_m, half.width, half.height);
+}
+
+void VisitorHalf::see(const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
+                      SeenSurfaces& seen) const {
+    const Viewer viewer(camera(eye_m, half), projector_, exposure_);
+    const RigidTransform table_from_prop{prop.rotation, prop.position_m};
+    const RigidTransform prop_from_table = table_from_prop.inverse();
+    const glm::dvec3& lens = projector_.table_from_projector.translation;
+    std::vector<Quad> faces;
+    for (const PropFace& face : prop_.faces) {
+        Quad& quad = faces.emplace_back();
+        for (std::size_t k = 0; k < quad.size(); ++k) {
+            quad[k] = table_from_prop.point(face.corners[k]);
+        }
+    }
+    add_table(viewer, half_table_m_, seen);
+    for (const Quad& face : faces) {
+        add_shadow(viewer, face, lens, half_table_m_, seen);
+    }
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+        const Plane& plane = prop_.faces[k].plane;
+        if (plane.distance(prop_from_table.point(eye_m)) <= 0.0) {
+            continue;
+        }
+        viewer.add(faces[k], table_from_prop.direction(plane.normal), prop_albedo,
+                   plane.distance(prop_from_table.point(lens)) > 0.0, seen);
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            seen.lines.push_back(viewer.line(faces[k][corner], outline_light));
+            seen.lines.push_back(viewer.line(faces[k][(corner + 1) % 4], outline_light));
+        }
+    }
+}
+
+std::optional<glm::dvec2> VisitorHalf::on_table(const glm::dvec2& pixel, const glm::dvec3& eye_m,
+                                                PixelSize half) const {
+    const VisitorCamera seen_by = camera(eye_m, half);
+    const glm::dvec3 ray = seen_by.table_from_camera.direction(seen_by.pinhole.ray(pixel));
+    return ray.z < 0.0 ? std::optional(glm::dvec2(eye_m - ray * (eye_m.z / ray.z))) : std::nullopt;
+}
+
+} // namespace frustumscreen

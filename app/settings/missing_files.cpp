@@ -1,0 +1,34 @@
+#include "app/settings/missing_files.h"
+
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace frustumscreen {
+
+std::vector<std::string> missing_files(const Settings& settings) {
+    std::vector<std::string> lines;
+    const auto look = [&](const std::string& key, const std::filesystem::path& file,
+                          std::string_view remedy) {
+        std::error_code failed;
+        if (std::filesystem::is_directory(file, failed)) {
+            lines.push_back(fmt::format("{}: {}: this is a folder; name a file in it", key,
+                                        printable(file.string(), 4096)));
+        } else if (!std::filesystem::exists(file, failed)) {
+            lines.push_back(fmt::format("{}: {}: there is no such file; {}", key,
+                                        printable(file.string(), 4096), remedy));
+        }
+    };
+    for (const std::filesystem::path& pack : settings.exhibit.packs) {
+        look(settings.exhibit.packs_key, pack, "make it with frustumscreen-bake, or take it off the list");
+    }
+    if (settings.tracker.kind == TrackerKind::Replay) {
+        look(settings.tracker.poses_key, settings.tracker.poses,
+             "make it with frustumscreen record, or choose another tracker.kind");
+    }
+    return lines;
+}
+
+} // namespace frustumscreen

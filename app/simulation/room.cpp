@@ -1,0 +1,44 @@
+#include "app/simulation/room.h"
+
+#include "app/simulation/room_light.h"
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double table_height_m = 0.76;
+constexpr double top_thickness_m = 0.03;
+constexpr double leg_m = 0.05;
+constexpr double room_m = 6.0;
+constexpr double wall_m = 1.7; ///< behind the table's centre
+constexpr double ceiling_m = 2.0;
+constexpr double floor_albedo = 0.30;
+constexpr double wall_albedo = 0.60;
+constexpr double case_albedo = 0.75;
+const glm::dvec3 case_half_m(0.17, 0.13, 0.055);
+constexpr double pole_half_m = 0.015;
+
+} // namespace
+
+std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m) {
+    const glm::dvec2 half = table_size_m / 2.0;
+    const glm::dvec3 case_middle = lens_m + glm::dvec3(0.0, 0.0, case_half_m.z);
+    const glm::dvec3 pole_half(pole_half_m, pole_half_m, 0.0);
+    std::vector<Block> blocks{
+        {{-room_m, -room_m, -table_height_m - 0.1}, {room_m, room_m, -table_height_m}, floor_albedo},
+        {{-room_m, wall_m, -table_height_m}, {room_m, wall_m + 0.1, room_m}, wall_albedo},
+        {glm::dvec3(-half, -top_thickness_m), glm::dvec3(half, -1e-6), table_albedo},
+        {case_middle - case_half_m, case_middle + case_half_m, case_albedo},
+        {case_middle - pole_half, glm::dvec3(glm::dvec2(lens_m), lens_m.z + ceiling_m) + pole_half,
+         case_albedo}};
+    for (const glm::dvec2 side :
+         {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
+        const glm::dvec2 outer = side * half;
+        const glm::dvec2 inner = side * (half - leg_m);
+        blocks.push_back({glm::dvec3(glm::min(outer, inner), -table_height_m),
+                          glm::dvec3(glm::max(outer, inner), -top_thickness_m), table_albedo});
+    }
+    return blocks;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,16 @@
+/// A table in its room, for a picture that shows what an exhibit is: table, legs, floor, wall, and the projector above.
+///
+/// Frames   table T, metres.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/simulation/visitor_view.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+/// `lens_m`: the projector hangs there.
+[[nodiscard]] std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m);
+
+} // namespace frustumscreen

@@ -1,0 +1,45 @@
+/// The light in the visitor's room: what the projector sends, and a faint light of the room's own.
+///
+/// A surface sends back its share (albedo) of the projector's light, which falls as cos / d^2, and of the room's. The
+/// exposure is fixed by the set-up, as an eye adapts that stays in the room: white on the middle of an upright side face,
+/// the prop at the table's centre, counts as 1. Before a dark room's table (dark grey) the artifact is then as bright as
+/// it looks to a visitor.
+///
+/// Frames   table T, metres. Light is linear.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+inline constexpr double prop_albedo = 0.85;
+inline constexpr double table_albedo = 0.40;
+inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a surface that faces it
+
+/// cos / d^2 of the projector's light at a place; 0 if it comes from behind.
+[[nodiscard]] inline double received_from(const glm::dvec3& lens_m, const glm::dvec3& point_m,
+                                          const glm::dvec3& normal) {
+    const glm::dvec3 to_light = lens_m - point_m;
+    const double distance = glm::length(to_light);
+    return std::max(0.0, glm::dot(normal, to_light) / (distance * distance * distance));
+}
+
+/// What the projector's light is multiplied with.
+[[nodiscard]] inline double exposure_of(const PropShape& prop, const glm::dvec3& lens_m) {
+    const PropFace& side = prop.faces.front();
+    const glm::dvec3 middle = (side.corners[0] + side.corners[1] + side.corners[2] + side.corners[3]) / 4.0;
+    const double light = received_from(lens_m, middle, side.plane.normal);
+    return 1.0 / (light > 0.0 ? light : received_from(lens_m, glm::dvec3(0.0), glm::dvec3(0, 0, 1)));
+}
+
+[[nodiscard]] inline double room_light_on(const glm::dvec3& normal) {
+    const glm::dvec3 from = glm::normalize(glm::dvec3(-0.35, -0.45, 0.82));
+    return brightest_room_light * (0.35 + 0.65 * std::max(0.0, glm::dot(normal, from)));
+}
+
+} // namespace frustumscreen

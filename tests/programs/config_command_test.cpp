@@ -1,0 +1,96 @@
+// `frustumscreen config` from outside: the page in words, the JSON, and what it says of missing files.
+
+#include "tests/programs/program_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+constexpr const char* lens = "[projector]\nwidth = 1280\nheight = 800\nthrow_ratio = 1.5\n";
+constexpr const char* steep_prop = "[prop]\nbase_m = 0.16\ntop_m = 0.09\nheight_m = 0.12\n";
+
+class ConfigCommand : public ProgramFolder {
+protected:
+    /// The page for settings of this text.
+    [[nodiscard]] std::string page(const std::string& settings) const {
+        EXPECT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
+        EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 0) << text("err.txt");
+        return text("out.txt");
+    }
+    void expect_words(const std::string& said, const std::vector<std::string>& words) const {
+        for (const std::string& each : words) {
+            EXPECT_NE(said.find(each), std::string::npos) << each << "\nis not in:\n" << said;
+        }
+    }
+};
+
+TEST_F(ConfigCommand, ExplainsAProjectorThatLooksStraightDown) {
+    // 1.2 m over 1920 pixels; the top is 0.12 m nearer. A side's centre is 0.0625 m off the axis and 0.06 m high, its
+    // normal is (0.96, 0.28): it gets h / d^3 with h = 1.14 * 0.28 - 0.0625 * 0.96.
+    const double side = (1.14 * 0.28 - 0.0625 * 0.96) / std::pow(std::hypot(0.0625, 1.14), 3);
+    const double top = 1.0 / (1.08 * 1.08);
+    expect_words(
+        page(std::string(lens) + "position_m = [0, 0, 1.2]\n" + steep_prop),
+        {"1.200 m above the table", "0.0 degrees away from straight down", "1280 x 800 pixels at 60 Hz",
+         "top left corner is at x -0.400, y 0.250 m", "bottom right corner is at x 0.400, y -0.250 m",
+         "covers 100 % of the table of 0.8 x 0.5 m", "One projector pixel is 0.625 mm on the table",
+         "letters are 16 pixels high", "+Z: one pixel is 0.563 mm; the light is 1.00 of",
+         fmt::format("+X, -X, +Y, -Y: one pixel is 0.594 x 2.61 mm; the light is {:.2f} of", side / top),
+         fmt::format("Faces are lit 1 : {:.2f}.", side / top), "evenly lit within x -0.",
+         "1.08 to 1.20 m in front of the lens", "1 mm that the tracker is wrong: 1.8 pixels",
+         "moves 5.1 mm meanwhile"});
+    EXPECT_EQ(text("err.txt"), "");
+}
+
+TEST_F(ConfigCommand, ExplainsAProjectorThatLooksFromTheFarSide) {
+    // On the axis, hypot(0.9, 1) m away, tilted by atan(0.9): a pixel is that / 1920 across, and longer along the table.
+    const double across_mm = 1e3 * std::hypot(0.9, 1.0) / 1920.0;
+    expect_words(page(std::string(lens) + "position_m = [0, 0.9, 1]\naim_m = [0, 0, 0]\n" + steep_prop),
+                 {fmt::format("looks {:.1f} degrees away", 180.0 / M_PI * std::atan(0.9)),
+                  fmt::format("One projector pixel is {:.3g} x {:.3g} mm on the table", across_mm,
+                              across_mm * std::hypot(0.9, 1.0)),
+                  "-Y: no light.", "Nowhere for eyes all around: hang the projector higher"});
+}
+
+TEST_F(ConfigCommand, ExplainsACubeInTheHand) {
+    const std::string said =
+        page(std::string(lens) + "position_m = [0, 0, 1.2]\n[prop]\nkind = \"cube\"\nbase_m = 0.1\n");
+    // Turned in any way, its corners reach 0.0866 m from its middle, which is so high: the picture of 0.4 x 0.25 m to
+    // each side on the table is smaller there by 0.0866 / 1.2, and the ball takes more away.
+    expect_words(said, {"+X, -X, +Y, -Y, -Z: no light.", "At every turn while its middle is within x -0.2"});
+    EXPECT_EQ(said.find("evenly"), std::string::npos);
+}
+
+TEST_F(ConfigCommand, SaysWhichFilesAreMissingAndPrintsTheSettings) {
+    ASSERT_TRUE(
+        write_file(folder / "kiosk.toml",
+                   as_bytes("[tracker]\nkind = \"replay\"\nposes = \"visit.csv\"\n[exhibit]\npacks = [\n"
+                            "\"cat.fspack\", \"kiosk.toml\"]\n")));
+    ASSERT_EQ(run("frustumscreen config --config kiosk.toml --json"), 0);
+    EXPECT_EQ(text("err.txt"),
+              "frustumscreen: kiosk.toml:5: exhibit.packs: cat.fspack: there is no such file; make it with "
+              "frustumscreen-bake, or take it off the list\n"
+              "frustumscreen: kiosk.toml:3: tracker.poses: visit.csv: there is no such file; make it with "
+              "frustumscreen "
+              "record, or choose another tracker.kind\n");
+    EXPECT_EQ(nlohmann::json::parse(text("out.txt"), nullptr, false).at("exhibit").at("packs").size(), 2U);
+}
+
+TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
+    ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[projector]\ncx = -1280\n")));
+    EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 1);
+    expect_words(text("err.txt"),
+                 {"frustumscreen: kiosk.toml: projector.position_m throws its picture beside the table"});
+    EXPECT_EQ(text("out.txt"), "");
+    for (const char* options :
+         {"", "--explain", "--config kiosk.toml --explain --json", "--describe --explain"}) {
+        EXPECT_EQ(run(fmt::format("frustumscreen config {}", options)), 2) << options;
+    }
+    EXPECT_EQ(run("frustumscreen config --describe"), 0);
+}
+
+} // namespace
+} // namespace frustumscreen
