@@ -249,6 +249,28 @@ SurfaceHit SourceScene::nearest(const glm::vec3& point, float reach) const {
     return state.best;
 }
 
+SurfaceHit SourceScene::facing(const glm::vec3& point, const glm::vec3& normal, float reach) const {
+    const glm::vec3 origin = point + normal * reach;
+    SurfaceHit best;
+    float best_distance = reach;
+    float near = 0.0F;
+    for (int k = 0; k < 12; ++k) {
+        const SurfaceHit hit = trace(origin, -normal, near, 2.0F * reach);
+        if (!hit.hit) {
+            break;
+        }
+        const float distance = std::abs(hit.distance - reach);
+        // Sides count too: a triangle seen from behind is a candidate only if nothing faces this way.
+        const float penalty = glm::dot(hit.normal, normal) > 0.0F ? 0.0F : 0.25F * reach;
+        if (distance + penalty < best_distance) {
+            best_distance = distance + penalty;
+            best = hit;
+        }
+        near = hit.distance + 1e-6F + hit.distance * 1e-6F;
+    }
+    return best.hit ? best : nearest(point, 8.0F * reach);
+}
+
 glm::vec4 SourceScene::colour(std::uint32_t triangle, float u, float v) const {
     const SourceMesh& source = *embree_->mesh;
     const SourceMaterial& material = source.materials[source.triangle_materials[triangle]];

@@ -41,6 +41,9 @@ public:
                                 float far) const;
     /// Nearest surface point within `reach`.
     [[nodiscard]] SurfaceHit nearest(const glm::vec3& point, float reach) const;
+    /// The hit nearest along the normal, up to `reach` to either side, that faces the same way; else the nearest
+    /// point of all.
+    [[nodiscard]] SurfaceHit facing(const glm::vec3& point, const glm::vec3& normal, float reach) const;
 
     /// Base colour at a hit, linear light; alpha in w.
     [[nodiscard]] glm::vec4 colour(std::uint32_t triangle, float u, float v) const;
