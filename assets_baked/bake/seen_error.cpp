@@ -110,7 +110,7 @@ SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::d
     const TriangleMesh surface = surface_of(level, box_size);
     const SourceMesh level_mesh = cut_out(as_source(surface), level, texture);
     const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
-    const SourceScene level_scene(level_mesh, level_points);
+    const SourceScene level_scene(level_mesh, level_points, Sides::Front);
     const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
     const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
     SeenError sum;
