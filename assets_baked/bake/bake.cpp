@@ -182,7 +182,7 @@ private:
         if (!options_.unlit) {
             if (light_.texels.empty()) {
                 light_mesh_ = mesh;
-                light_ = bake_light(mesh, texels, source_);
+                light_ = bake_light(mesh, texels, source_, reach);
                 multiply(colour, light_);
             } else {
                 multiply(colour, transfer_light(mesh, texels, light_mesh_, light_, reach));
@@ -214,22 +214,6 @@ double mm_per_box(const Pack& pack, const BakedProp& prop) {
     return place(pack, prop.shape).metres_per_box * 1e3;
 }
 
-/// Judges the level as a visitor sees it on the usual prop.
-bool good_enough(const PackLevel& level, const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
-    // The worst of fifty poses in two set-ups shows up to three times as much of each.
-    constexpr double good_mean_mm = 0.09;
-    constexpr double good_outline_shift_mm = 0.04;
-    constexpr double good_silhouette_share = 0.012; // a thin object is all outline
-    constexpr double good_worst_mm = 1.0; // two pixels of a projector of 1280 x 800: no part is lost
-    const SeenError error =
-        seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source(), prop.zone);
-    const double scale = mm_per_box(pack, prop);
-    return static_cast<double>(level.error.max_box) * scale <= good_worst_mm &&
-           error.mean_box * scale <= good_mean_mm &&
-           error.outline_shift_box * scale <= good_outline_shift_mm &&
-           error.silhouette_share <= good_silhouette_share;
-}
-
 /// The first level that is good enough, from the finest one of at most `free_triangles` on. The last level is
 /// for close views: it is drawn with more samples.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
@@ -238,7 +222,12 @@ std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const Baked
     while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
         ++level;
     }
-    while (level + 1 < pack.levels.size() && !good_enough(pack.levels[level], pack, bakery, prop)) {
+    const auto good = [&](const PackLevel& one) {
+        const SeenError seen =
+            seen_error(one, pack.textures[one.texture], pack.box_size, bakery.source(), prop.zone);
+        return good_enough(one.error, seen, mm_per_box(pack, prop));
+    };
+    while (level + 1 < pack.levels.size() && !good(pack.levels[level])) {
         ++level;
     }
     return level;

@@ -61,6 +61,8 @@ struct SeenError {
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source, const ViewingZone& zone);
+/// Whether a visitor would take the level for the source, and no part of it is lost.
+[[nodiscard]] bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box);
 
 /// Samples a pixel (2, 4 or 8) for pictures of the source at the resolution of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies

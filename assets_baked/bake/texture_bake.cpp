@@ -296,7 +296,8 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
     return coverage;
 }
 
-ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source) {
+ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
+                      float reach_box) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
     constexpr int rays = 96;
@@ -305,7 +306,11 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
     Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
         if (x % stride == 0 && y % stride == 0) {
-            light.at(x, y) = glm::vec3(light_at(source, surface_at(mesh, texel), directions));
+            SurfacePoint at = surface_at(mesh, texel);
+            const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
+            at.position =
+                hit.hit ? hit.point : at.position; // a coarse surface below it would be in its shadow
+            light.at(x, y) = glm::vec3(light_at(source, at, directions));
             known.at(x, y) = 1;
         }
     });

@@ -127,6 +127,14 @@ TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
     }
 }
 
+TEST(ThinParts, ALevelWhoseWorstPlaceIsOffByMoreThanAMillimetreIsNotGoodEnough) {
+    const double mm_per_box = 100.0;
+    const SeenError seen{1e-5, 1e-5, 1e-4};
+    EXPECT_TRUE(good_enough({1e-5F, 1e-4F, 0.0099F, 0.0F}, seen, mm_per_box));
+    EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0101F, 0.0F}, seen, mm_per_box));
+    EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0F, 0.0F}, {1e-3, 1e-5, 1e-4}, mm_per_box));
+}
+
 TEST(ThinParts, TheSimplifierKeepsEveryCornerWithinItsTolerances) {
     const SourceMesh mesh = body_with_blades(blade_end);
     const TriangleMesh whole = weld(mesh, mesh.positions);
