@@ -1,4 +1,4 @@
-/// Pictures in memory, and PNG in and out.
+/// Pictures in memory, and PNG and lossless WebP in and out.
 ///
 /// Shape    row-major, row 0 at the top.
 /// Colour   8-bit sRGB at the edges; `linear_from_srgb` and back for light.
@@ -57,6 +57,12 @@ using ImageFloat = Image<glm::vec3>;
 /// Lossless; RGB if every alpha is 255.
 [[nodiscard]] Bytes encode_png(const Image8& image);
 [[nodiscard]] Bytes encode_png(const Image16& image);
+/// Lossless; empty if WebP cannot hold it (nothing, or more than 16383 texels a side).
+[[nodiscard]] Bytes encode_webp(const Image8& image);
+/// Errors: not a lossless still picture, damaged, larger than `limit_texels`.
+[[nodiscard]] Result<Image8> decode_webp8(std::span<const std::byte> bytes,
+                                          std::int64_t limit_texels = 1 << 28);
+[[nodiscard]] bool begins_as_webp(std::span<const std::byte> bytes);
 /// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
 [[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
 

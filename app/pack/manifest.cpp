@@ -32,7 +32,7 @@ void read_format(Refusal& refusal, const nlohmann::json& document) {
                                    version, pack_format_version));
     }
     if (!refusal.message && version == 0) {
-        fields.refuse("version", fmt::format("is 0; allowed is {}", pack_format_version));
+        fields.refuse("version", fmt::format("is 0; allowed are 1 to {}", pack_format_version));
     }
 }
 

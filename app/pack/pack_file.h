@@ -16,7 +16,8 @@
 
 namespace frustumscreen {
 
-inline constexpr int pack_format_version = 1;
+/// What is written. Packs of all earlier versions are read.
+inline constexpr int pack_format_version = 2;
 
 /// A pack in which everything that was read was checked; only `verify_pack` makes one. Levels and textures
 /// that were not chosen are empty but keep their places, so that indices are those of the file.

@@ -54,7 +54,9 @@ Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack)
         if (!bytes) {
             return tl::unexpected(bytes.error());
         }
-        Result<Image8> texture = decode_png8(*bytes, std::min(most_texels, left));
+        const std::int64_t most = std::min(most_texels, left);
+        Result<Image8> texture =
+            begins_as_webp(*bytes) ? decode_webp8(*bytes, most) : decode_png8(*bytes, most);
         if (!texture) {
             return at(name, texture.error());
         }

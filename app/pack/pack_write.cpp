@@ -28,10 +28,14 @@ Result<void> check(const Pack& pack) {
         .and_then([&] { return check_levels(pack); });
 }
 
+/// As PNG or WebP, whichever is smaller.
 void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
     for (std::size_t k = 0; k < pack.textures.size(); ++k) {
-        manifest.textures.push_back(fmt::format("textures/{}.png", k));
-        parts.push_back({manifest.textures.back(), encode_png(pack.textures[k]), Packing::Stored});
+        Bytes png = encode_png(pack.textures[k]);
+        Bytes webp = encode_webp(pack.textures[k]);
+        const bool is_webp = !webp.empty() && webp.size() < png.size();
+        manifest.textures.push_back(fmt::format("textures/{}.{}", k, is_webp ? "webp" : "png"));
+        parts.push_back({manifest.textures.back(), std::move(is_webp ? webp : png), Packing::Stored});
     }
 }
 

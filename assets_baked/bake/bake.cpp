@@ -4,6 +4,7 @@
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief.h"
+#include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/texture_bake.h"
 #include "assets_baked/bake/triangle_mesh.h"
 #include "assets_baked/bake/visibility.h"
@@ -39,13 +40,20 @@ std::vector<ReliefDirection> directions_of(const PropShape& prop) {
     return directions;
 }
 
-/// A level with the picture that it wears.
-struct Candidate {
-    PackLevel level;
+/// Simplified triangles on their way to a level.
+struct Surface {
+    TriangleMesh mesh;
+    float tolerance_box = 0.0F;
+    LevelError error;
+};
+
+/// Levels that share a texture; `PackLevel::texture` is left at 0.
+struct TexturedLevels {
+    std::vector<PackLevel> levels;
     Image8 texture;
 };
 
-/// Everything that candidates are made from and measured against.
+/// Everything that levels are made from and measured against.
 class Bakery {
 public:
     Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
@@ -56,64 +64,94 @@ public:
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
 
-    std::vector<Candidate> mesh_levels() {
+    /// Fine to coarse.
+    std::vector<Surface> surfaces() {
         finest_ =
             welded_.triangle_count() > most_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
-        if (finest_.indices.empty()) {
-            finest_ = welded_; // everything is thinner than the tolerance: a rod, a thread
-        }
         options_.progress("what visitors can see", 0.02);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // nothing is seen from the zone: a sheet flat on the table
         }
         samples_ = sample_source(source_, visible_, 5.0F * finest_tolerance);
-        options_.progress("colours and light", 0.1);
-        std::vector<Candidate> candidates{candidate_of(visible_, finest_tolerance)};
+        std::vector<Surface> surfaces{measured(visible_, finest_tolerance)};
         const SourceMesh seen_mesh = as_source(visible_);
         const std::vector<glm::dvec3> seen_points(visible_.positions.begin(), visible_.positions.end());
         const SourceScene seen(seen_mesh, seen_points);
         std::size_t last = finest_.triangle_count();
         for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
             options_.progress("simplified levels",
-                              0.4 + 0.5 * static_cast<double>(k) / mesh_tolerances.size());
+                              0.1 + 0.4 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
-            if (fewer.indices.empty() || fewer.triangle_count() * 20 > last * 19) {
-                continue; // nothing is left, or not 5 % fewer than the last: not worth a level
+            if (fewer.triangle_count() * 20 > last * 19) {
+                continue; // not 5 % fewer than the last: not worth a level
             }
             last = fewer.triangle_count();
             const TriangleMesh sides = visible_sides_like(fewer, visible_, seen, mesh_tolerances[k]);
             if (!sides.indices.empty()) {
-                candidates.push_back(candidate_of(sides, mesh_tolerances[k]));
+                surfaces.push_back(measured(sides, mesh_tolerances[k]));
             }
         }
-        return candidates;
+        return surfaces;
     }
 
-    /// Relief levels share one atlas; `relief` receives it.
-    std::vector<Candidate> relief_levels(ReliefAtlas& atlas) {
-        options_.progress("layered relief", 0.9);
+    /// `surfaces` fine to coarse.
+    TexturedLevels mesh_levels(const std::vector<Surface>& surfaces) {
+        options_.progress("colours", 0.5);
+        SharedCharts charts(texel_box_, 4 * options_.size);
+        for (auto surface = surfaces.rbegin(); surface != surfaces.rend(); ++surface) {
+            const auto coarser = surface == surfaces.rbegin() ? surface : std::prev(surface);
+            charts.add(surface->mesh, reach_of(coarser->tolerance_box));
+        }
+        std::vector<ChartedMesh> charted = charts.lay_out();
+        std::reverse(charted.begin(), charted.end());
+        // A texel shows the finest surface that has it.
+        const ChartedMesh all = joined(charted);
+        const Image<AtlasTexel> texels = rasterise(all);
+        const float reach = reach_of(surfaces.front().tolerance_box);
+        TexturedLevels made{{},
+                            lit(all, texels, bake_colour(all, texels, source_, reach), reach,
+                                bake_coverage(all, texels, source_, reach))};
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            PackLevel level = make_level(charted[k], frame_.box_size, LevelTechnique::Mesh);
+            level.error = surfaces[k].error;
+            if (options_.unlit) {
+                level.error.colour_rmse = measure_colour(level, made.texture, frame_.box_size, samples_);
+            }
+            made.levels.push_back(std::move(level));
+        }
+        return made;
+    }
+
+    /// Relief takes long to make, and no level of it was ever better than a mesh that can be simplified.
+    [[nodiscard]] static bool may_need_relief(const std::vector<Surface>& surfaces) {
+        constexpr std::size_t many_triangles = 20'000;
+        const std::size_t most = surfaces.front().mesh.triangle_count();
+        return most > many_triangles && 2 * surfaces.back().mesh.triangle_count() > most;
+    }
+
+    /// `relief` receives the atlas that its levels share.
+    TexturedLevels relief_levels(ReliefAtlas& atlas) {
+        options_.progress("layered relief", 0.7);
         std::optional<BakedRelief> relief = bake_relief(source_, visible_, frame_.box_size,
                                                         directions_of(options_.prop.shape), options_.size);
-        std::vector<Candidate> candidates;
         if (!relief) {
-            return candidates;
+            return {};
         }
         const Image<AtlasTexel> texels = rasterise(relief->grid);
-        const Image8 texture = lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_);
+        TexturedLevels made{{}, lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_)};
         for (std::size_t k = 0; k < relief_tolerances.size(); ++k) {
-            options_.progress("relief levels",
-                              0.92 + 0.06 * static_cast<double>(k) / relief_tolerances.size());
+            options_.progress("relief levels", 0.8 + 0.18 * static_cast<double>(k) / relief_tolerances.size());
             const ChartedMesh fewer = simplify_grid(*relief, relief_tolerances[k]);
             if (fewer.indices.empty()) {
                 continue;
             }
             PackLevel level = make_level(fewer, frame_.box_size, LevelTechnique::Relief);
-            level.error = measure(level, texture, frame_.box_size, source_, samples_, options_.unlit);
-            candidates.push_back({std::move(level), texture});
+            level.error = measure(level, made.texture, frame_.box_size, source_, samples_, options_.unlit);
+            made.levels.push_back(std::move(level));
         }
         atlas = std::move(relief->atlas);
-        return candidates;
+        return made;
     }
 
 private:
@@ -130,24 +168,22 @@ private:
         return visible_sides(mesh, SourceScene(own, own_points), options_.prop.zone);
     }
 
-    Candidate candidate_of(const TriangleMesh& mesh, float tolerance) {
-        const ChartedMesh charted = chart(mesh, texel_box_);
-        const Image<AtlasTexel> texels = rasterise(charted);
-        const float reach = 4.0F * tolerance + 1e-3F;
-        Image8 texture = lit(charted, texels, bake_colour(charted, texels, source_, reach), reach,
-                             bake_coverage(charted, texels, source_, reach));
-        PackLevel level = make_level(charted, frame_.box_size, LevelTechnique::Mesh);
-        level.error = measure(level, texture, frame_.box_size, source_, samples_, options_.unlit);
-        return {std::move(level), std::move(texture)};
+    [[nodiscard]] Surface measured(const TriangleMesh& mesh, float tolerance_box) const {
+        Surface surface{on_codes(mesh, frame_.box_size), tolerance_box, {}};
+        surface.error = measure_shape(surface.mesh, source_, samples_);
+        return surface;
     }
 
-    /// The texture in the museum's light: baked on the finest level, looked up from there for the others.
+    /// How far a surface may lie from the source where its colours are looked up.
+    static float reach_of(float tolerance_box) { return 4.0F * tolerance_box + 1e-3F; }
+
+    /// The texture in the museum's light: baked on the meshes, looked up from there for the relief.
     Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
                const Image<float>& coverage = {}) {
         if (!options_.unlit) {
             if (light_.texels.empty()) {
                 light_mesh_ = mesh;
-                light_ = bake_light(mesh, texels, source_);
+                light_ = bake_light(mesh, texels, source_, reach);
                 multiply(colour, light_);
             } else {
                 multiply(colour, transfer_light(mesh, texels, light_mesh_, light_, reach));
@@ -179,20 +215,6 @@ double mm_per_box(const Pack& pack, const BakedProp& prop) {
     return place(pack, prop.shape).metres_per_box * 1e3;
 }
 
-/// Judges the level as a visitor sees it on the usual prop.
-bool good_enough(const PackLevel& level, const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
-    // The worst of fifty poses in two set-ups shows up to three times as much of each.
-    constexpr double good_mean_mm = 0.09;
-    constexpr double good_outline_shift_mm = 0.04;
-    constexpr double good_silhouette_share = 0.012; // a thin object is all outline
-    const SeenError error =
-        seen_error(level, pack.textures[level.texture], pack.box_size, bakery.source(), prop.zone);
-    const double scale = mm_per_box(pack, prop);
-    return error.mean_box * scale <= good_mean_mm &&
-           error.outline_shift_box * scale <= good_outline_shift_mm &&
-           error.silhouette_share <= good_silhouette_share;
-}
-
 /// The first level that is good enough, from the finest one of at most `free_triangles` on. The last level is
 /// for close views: it is drawn with more samples.
 std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
@@ -201,22 +223,32 @@ std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const Baked
     while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
         ++level;
     }
-    while (level + 1 < pack.levels.size() && !good_enough(pack.levels[level], pack, bakery, prop)) {
+    const auto good = [&](const PackLevel& one) {
+        const SeenError seen =
+            seen_error(one, pack.textures[one.texture], pack.box_size, bakery.source(), prop.zone);
+        return good_enough(one.error, seen, mm_per_box(pack, prop));
+    };
+    while (level + 1 < pack.levels.size() && !good(pack.levels[level])) {
         ++level;
     }
     return level;
 }
 
-/// Drops levels that stray further than a visitor would accept; the nearest one always stays.
-void drop_useless(std::vector<Candidate>& candidates) {
-    constexpr float worst_mean_box = 3e-3F; // 0.3 mm on an artifact of 0.1 m
-    float nearest = std::numeric_limits<float>::infinity();
-    for (const Candidate& candidate : candidates) {
-        nearest = std::min(nearest, candidate.level.error.mean_box);
+LevelOutline outline_of(const Surface& surface) {
+    return {LevelTechnique::Mesh, surface.error, surface.mesh.triangle_count(), 0, 0};
+}
+
+/// Leaves the surfaces that are worth a level, fine to coarse.
+void keep_front(std::vector<Surface>& surfaces) {
+    std::vector<LevelOutline> outlines;
+    for (const Surface& surface : surfaces) {
+        outlines.push_back(outline_of(surface));
     }
-    std::erase_if(candidates, [&](const Candidate& candidate) {
-        return candidate.level.error.mean_box > std::max(worst_mean_box, nearest);
-    });
+    std::vector<Surface> kept;
+    for (const std::size_t k : measured_front(outlines)) {
+        kept.insert(kept.begin(), std::move(surfaces[k]));
+    }
+    surfaces = std::move(kept);
 }
 
 /// True if the mean error is smaller and neither the 95th percentile nor the colour error is clearly larger.
@@ -227,45 +259,49 @@ bool betters(const LevelError& dearer, const LevelError& cheaper) {
            dearer.colour_rmse < scatter * cheaper.colour_rmse + least_rmse;
 }
 
-/// Moves the kept candidates into the pack; equal textures are stored once.
-void keep(Pack& pack, std::vector<Candidate>& candidates, ReliefAtlas& atlas) {
-    drop_useless(candidates);
-    std::vector<PackLevel> levels;
-    levels.reserve(candidates.size());
-    for (const Candidate& candidate : candidates) {
-        levels.push_back(candidate.level);
+/// Moves the levels on the front into the pack, and the textures and the relief that these need.
+void keep(Pack& pack, TexturedLevels meshes, TexturedLevels reliefs, ReliefAtlas atlas) {
+    std::vector<PackLevel> levels = std::move(meshes.levels);
+    levels.insert(levels.end(), reliefs.levels.begin(), reliefs.levels.end());
+    std::vector<LevelOutline> outlines;
+    for (const PackLevel& level : levels) {
+        outlines.push_back(
+            {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), 0});
     }
-    std::optional<std::uint32_t> relief_texture;
-    for (const std::size_t k : measured_front(levels)) {
-        PackLevel& level = candidates[k].level;
-        const bool is_relief = level.technique == LevelTechnique::Relief;
-        if (is_relief && relief_texture) {
-            level.texture = *relief_texture;
-        } else {
-            level.texture = static_cast<std::uint32_t>(pack.textures.size());
-            pack.textures.push_back(std::move(candidates[k].texture));
-            if (is_relief) {
-                relief_texture = level.texture;
-            }
+    std::array<std::optional<std::uint32_t>, 2> textures;
+    for (const std::size_t k : measured_front(outlines)) {
+        const bool is_relief = levels[k].technique == LevelTechnique::Relief;
+        std::optional<std::uint32_t>& texture = textures[is_relief ? 1 : 0];
+        if (!texture) {
+            texture = static_cast<std::uint32_t>(pack.textures.size());
+            pack.textures.push_back(std::move(is_relief ? reliefs.texture : meshes.texture));
         }
-        pack.levels.push_back(std::move(level));
+        levels[k].texture = *texture;
+        pack.levels.push_back(std::move(levels[k]));
     }
-    if (relief_texture) {
+    if (textures[1]) {
         pack.relief = std::move(atlas);
     }
 }
 
 } // namespace
 
-std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels) {
-    constexpr std::size_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
+std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels) {
+    constexpr std::uint64_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
+    constexpr float worst_mean_box = 3e-3F;       // 0.3 mm on an artifact of 0.1 m; a visitor accepts no more
     std::vector<std::size_t> order(levels.size());
     std::iota(order.begin(), order.end(), 0);
     const auto rank = [&](std::size_t k) {
-        const std::size_t triangles = levels[k].indices.size() / 3;
-        return std::tuple(std::max(triangles, few_triangles), levels[k].error.mean_box, triangles);
+        const LevelOutline& level = levels[k];
+        return std::tuple(std::max(level.triangles, few_triangles), level.error.mean_box, level.triangles);
     };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const LevelOutline& level : levels) {
+        nearest = std::min(nearest, level.error.mean_box);
+    }
+    std::erase_if(
+        order, [&](std::size_t k) { return levels[k].error.mean_box > std::max(worst_mean_box, nearest); });
     std::vector<std::size_t> front;
     for (const std::size_t k : order) {
         if (front.empty() || betters(levels[k].error, levels[front.back()].error)) {
@@ -302,11 +338,12 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     if (!bakery.has_surface()) {
         return bad_input("every triangle is degenerate; there is no surface to show");
     }
-    std::vector<Candidate> candidates = bakery.mesh_levels();
+    std::vector<Surface> surfaces = bakery.surfaces();
+    const bool may_need_relief = Bakery::may_need_relief(surfaces);
+    keep_front(surfaces);
+    TexturedLevels meshes = bakery.mesh_levels(surfaces);
     ReliefAtlas atlas;
-    for (Candidate& candidate : bakery.relief_levels(atlas)) {
-        candidates.push_back(std::move(candidate));
-    }
+    TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
     Pack pack;
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
@@ -325,7 +362,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         used.emplace_back(0.0); // the box's bottom, above which the artifact stands
     }
     pack.extremes = profile_extremes(used);
-    keep(pack, candidates, atlas);
+    keep(pack, std::move(meshes), std::move(reliefs), std::move(atlas));
     options.progress("choice of the level", 0.98);
     pack.samples =
         samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);

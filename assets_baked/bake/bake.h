@@ -9,6 +9,7 @@
 
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
+#include "app/pack/pack_outline.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "assets_baked/bake/visibility.h"
 #include "firmware_host/base/result.h"
@@ -52,7 +53,8 @@ struct BakeOptions {
 
 /// Indices of the levels on the Pareto front of error against cost (triangles; below some 1500 all cost a
 /// frame the same), cheapest first: each has a smaller mean error than the one before, and no clearly larger
-/// 95th percentile or colour error.
-[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<PackLevel>& levels);
+/// 95th percentile or colour error. Those that stray further than a visitor would accept are left out, but for the
+/// nearest one.
+[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels);
 
 } // namespace frustumscreen

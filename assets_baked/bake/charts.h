@@ -1,16 +1,18 @@
-/// Cuts a surface into charts that each have one orthographic projection without overlap, and lays them out
-/// in an atlas. A chart's map is linear in position, so moving a vertex along its surface never distorts the
-/// colour.
+/// Cuts surfaces into charts that each have one orthographic projection without overlap, and lays them out in one
+/// atlas. A chart's map is linear in position, so moving a vertex along its surface never distorts the colour: the
+/// levels of an artifact take the same charts wherever their triangles fit in, and one texture serves them all.
 ///
 /// Frames   positions in the box frame; uv in texels of the atlas (texel centres at .5).
-/// Threads  pure; any.
+/// Threads  one caller; `add` uses all cores. Deterministic.
 #pragma once
 
+#include "assets_baked/bake/chart.h"
 #include "assets_baked/bake/triangle_mesh.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace frustumscreen {
@@ -22,14 +24,42 @@ struct ChartedMesh {
     std::vector<glm::vec3> normals;   ///< unit, smooth across chart borders, one each position
     std::vector<glm::vec2> uv_texels;
     std::vector<std::uint32_t> indices;
-    std::size_t chart_count = 0;
+    std::size_t chart_count = 0; ///< of the whole atlas
 };
 
 /// Texels of padding on every side of a chart.
 inline constexpr int chart_gutter_texels = 3;
 
-/// `texel_box` is the edge of a texel in box units; it grows if the atlas would exceed `largest_atlas` texels
-/// a side.
+class SharedCharts {
+public:
+    /// `texel_box` is the edge of a texel in box units; it grows while the atlas would exceed `largest_atlas` texels a
+    /// side, unless the gutters alone do.
+    SharedCharts(float texel_box, int largest_atlas) : texel_box_(texel_box), largest_atlas_(largest_atlas) {}
+
+    /// Gives each triangle of `mesh` a chart: one that shows the same surface already, else a new one. Coarse meshes
+    /// come first, because large triangles make large charts, into which small ones fit. `stray_box`: how far the
+    /// mesh may lie from the one before. A triangle without area that has no neighbour is left out.
+    void add(const TriangleMesh& mesh, float stray_box);
+
+    /// The meshes in the order in which they were added, on one atlas.
+    [[nodiscard]] std::vector<ChartedMesh> lay_out() const;
+
+private:
+    struct Added {
+        TriangleMesh mesh;
+        std::vector<std::uint32_t> chart_of; ///< each triangle
+    };
+
+    float texel_box_;
+    int largest_atlas_;
+    std::vector<Chart> charts_;
+    std::vector<Added> added_;
+};
+
+/// The charts of a single mesh.
 [[nodiscard]] ChartedMesh chart(const TriangleMesh& mesh, float texel_box, int largest_atlas = 4096);
+
+/// The triangles of all meshes, which share an atlas, in their order.
+[[nodiscard]] ChartedMesh joined(std::span<const ChartedMesh> meshes);
 
 } // namespace frustumscreen

@@ -23,6 +23,11 @@ glm::vec3 box_low(const glm::dvec3& box_size) {
     return {-box_size.x / 2.0, -box_size.y / 2.0, 0.0};
 }
 
+std::array<std::uint16_t, 3> codes_of(const glm::vec3& p, const glm::dvec3& box_size) {
+    const glm::dvec3 unit = (glm::dvec3(p) - glm::dvec3(box_low(box_size))) / box_size;
+    return {quantised(unit.x), quantised(unit.y), quantised(unit.z)};
+}
+
 glm::vec3 position_of(const PackVertex& vertex, const glm::dvec3& box_size) {
     const glm::vec3 unit(vertex.position[0], vertex.position[1], vertex.position[2]);
     return box_low(box_size) + unit / code_max * glm::vec3(box_size);
@@ -83,6 +88,23 @@ glm::vec3 texture_at(const Image8& texture, glm::vec2 uv) {
                     glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
 }
 
+/// At most some 200,000 of the positions that triangles use, spread over all.
+std::vector<glm::vec3> used_positions(const TriangleMesh& mesh) {
+    constexpr std::size_t most = 200'000;
+    std::vector<bool> used(mesh.positions.size());
+    for (const std::uint32_t index : mesh.indices) {
+        used[index] = true;
+    }
+    std::vector<glm::vec3> positions;
+    const std::size_t stride = 1 + mesh.positions.size() / most;
+    for (std::size_t k = 0; k < used.size(); k += stride) {
+        if (used[k]) {
+            positions.push_back(mesh.positions[k]);
+        }
+    }
+    return positions;
+}
+
 float squared_codes(const glm::vec3& a, const glm::vec3& b) {
     float sum = 0.0F;
     for (int k = 0; k < 3; ++k) {
@@ -102,11 +124,9 @@ PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size, LevelT
     PackLevel level;
     level.technique = technique;
     level.vertices.reserve(mesh.positions.size());
-    const glm::dvec3 low(box_low(box_size));
     for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
-        const glm::dvec3 unit = (glm::dvec3(mesh.positions[k]) - low) / box_size;
         PackVertex vertex;
-        vertex.position = {quantised(unit.x), quantised(unit.y), quantised(unit.z)};
+        vertex.position = codes_of(mesh.positions[k], box_size);
         vertex.uv = {quantised(mesh.uv_texels[k].x / static_cast<float>(mesh.atlas_width)),
                      quantised(mesh.uv_texels[k].y / static_cast<float>(mesh.atlas_height))};
         level.vertices.push_back(vertex);
@@ -115,6 +135,13 @@ PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size, LevelT
     level.clusters = cut_into_clusters(level.indices, positions_of(level, box_size));
     order_vertices(level);
     return level;
+}
+
+TriangleMesh on_codes(TriangleMesh mesh, const glm::dvec3& box_size) {
+    for (glm::vec3& p : mesh.positions) {
+        p = position_of({codes_of(p, box_size), 0, {}}, box_size);
+    }
+    return mesh;
 }
 
 TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size) {
@@ -158,60 +185,86 @@ SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visib
             samples.points.push_back(points[k]);
         }
     }
+    samples.corners = used_positions(visible);
     return samples;
 }
 
-LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                   const SourceScene& source, const SourceSamples& samples, bool compare_colour) {
-    const TriangleMesh surface = surface_of(level, box_size);
-    const SourceMesh level_mesh = as_source(surface);
-    const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
-    const SourceScene level_scene(level_mesh, level_points);
-
-    std::vector<float> distances(sample_count + samples.points.size(), 0.0F);
-    std::vector<float> colour_errors(samples.points.size(), 0.0F);
+LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
+                         const SourceSamples& samples) {
+    const SourceMesh surface_mesh = as_source(surface);
+    const std::vector<glm::dvec3> surface_points(surface.positions.begin(), surface.positions.end());
+    const SourceScene surface_scene(surface_mesh, surface_points);
+    const auto distance_to = [](const SourceScene& scene, const glm::vec3& point) {
+        const SurfaceHit hit = scene.nearest(point, search_reach);
+        return hit.hit ? hit.distance : search_reach;
+    };
     std::vector<double> areas(surface.triangle_count());
     for (std::size_t t = 0; t < areas.size(); ++t) {
         areas[t] = glm::length(surface.area_normal(t));
     }
     const AreaSampler sampler(std::move(areas));
-    parallel_for(sample_count, 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> distances(sample_count + samples.points.size());
+    parallel_for(distances.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
+            if (k >= sample_count) {
+                distances[k] = distance_to(surface_scene, samples.points[k - sample_count].position);
+                continue;
+            }
             const std::size_t t = sampler.triangle(k, sample_count);
             const glm::vec2 w = AreaSampler::weights(k);
             const glm::vec3 a = surface.corner(t, 0);
-            const glm::vec3 p = a + (surface.corner(t, 1) - a) * w.x + (surface.corner(t, 2) - a) * w.y;
-            const SurfaceHit hit = source.nearest(p, search_reach);
-            distances[k] = hit.hit ? hit.distance : search_reach;
+            distances[k] =
+                distance_to(source, a + (surface.corner(t, 1) - a) * w.x + (surface.corner(t, 2) - a) * w.y);
         }
     });
+    std::vector<float> corners(samples.corners.size());
+    parallel_for(corners.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            corners[k] = distance_to(surface_scene, samples.corners[k]);
+        }
+    });
+    LevelError error;
+    error.mean_box = static_cast<float>(std::accumulate(distances.begin(), distances.end(), 0.0) /
+                                        static_cast<double>(distances.size()));
+    std::sort(distances.begin(), distances.end());
+    error.p95_box = distances[distances.size() * 95 / 100];
+    error.max_box = std::accumulate(corners.begin(), corners.end(), distances.back(),
+                                    [](float a, float b) { return std::max(a, b); });
+    return error;
+}
+
+float measure_colour(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                     const SourceSamples& samples) {
+    const TriangleMesh surface = surface_of(level, box_size);
+    const SourceMesh surface_mesh = as_source(surface);
+    const std::vector<glm::dvec3> surface_points(surface.positions.begin(), surface.positions.end());
+    const SourceScene surface_scene(surface_mesh, surface_points);
+    std::vector<float> squares(samples.points.size(), 0.0F);
     parallel_for(samples.points.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const SourceSamples::Point& point = samples.points[k];
-            const SurfaceHit hit = level_scene.nearest(point.position, search_reach);
-            distances[sample_count + k] = hit.hit ? hit.distance : search_reach;
-            if (hit.hit && compare_colour) {
+            const SurfaceHit hit = surface_scene.nearest(point.position, search_reach);
+            if (hit.hit) {
                 const auto uv = [&](int corner) {
                     const PackVertex& v = level.vertices[level.indices[3 * std::size_t{hit.triangle} +
                                                                        static_cast<std::size_t>(corner)]];
                     return glm::vec2(v.uv[0], v.uv[1]) / code_max;
                 };
                 const glm::vec2 at = uv(0) * (1.0F - hit.u - hit.v) + uv(1) * hit.u + uv(2) * hit.v;
-                colour_errors[k] = squared_codes(texture_at(texture, at), point.colour);
+                squares[k] = squared_codes(texture_at(texture, at), point.colour);
             }
         }
     });
-    LevelError error;
-    error.mean_box = static_cast<float>(std::accumulate(distances.begin(), distances.end(), 0.0) /
-                                        static_cast<double>(distances.size()));
-    if (!colour_errors.empty()) {
-        error.colour_rmse =
-            static_cast<float>(std::sqrt(std::accumulate(colour_errors.begin(), colour_errors.end(), 0.0) /
-                                         static_cast<double>(colour_errors.size())));
-    }
-    std::sort(distances.begin(), distances.end());
-    error.p95_box = distances[distances.size() * 95 / 100];
-    error.max_box = distances.back();
+    return squares.empty()
+               ? 0.0F
+               : static_cast<float>(std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) /
+                                              static_cast<double>(squares.size())));
+}
+
+LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                   const SourceScene& source, const SourceSamples& samples, bool compare_colour) {
+    LevelError error = measure_shape(surface_of(level, box_size), source, samples);
+    error.colour_rmse = compare_colour ? measure_colour(level, texture, box_size, samples) : 0.0F;
     return error;
 }
 

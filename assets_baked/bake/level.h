@@ -17,6 +17,9 @@ namespace frustumscreen {
 [[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size,
                                    LevelTechnique technique);
 
+/// The mesh as a level would hold it: with its positions rounded to the pack's codes.
+[[nodiscard]] TriangleMesh on_codes(TriangleMesh mesh, const glm::dvec3& box_size);
+
 /// Rebuilds a level's surface from its quantised vertices.
 [[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
 
@@ -28,13 +31,22 @@ struct SourceSamples {
         glm::vec3 colour{0.0F}; ///< linear
     };
     std::vector<Point> points;
+    /// Corners of the seen surface. Thin parts have hardly any area, and so few points, but they have corners.
+    std::vector<glm::vec3> corners;
 };
 /// `visible` is the kept surface of the finest level: only source points near it are chosen.
 [[nodiscard]] SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible,
                                           float tolerance_box);
 
-/// Measures both ways: the level's points against the source, the source's seen points against the level.
-/// Colour is compared only where `compare_colour` (unlit): baked light is not an error.
+/// Measures both ways: the surface's points against the source, the source's seen points against the surface. The
+/// greatest distance also counts the source's corners. Colour is left at 0.
+[[nodiscard]] LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
+                                       const SourceSamples& samples);
+/// RMSE over the source's seen points, in 8-bit codes. It says something of unlit textures alone: baked light is not
+/// an error.
+[[nodiscard]] float measure_colour(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+                                   const SourceSamples& samples);
+/// Both.
 [[nodiscard]] LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
@@ -49,6 +61,8 @@ struct SeenError {
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source, const ViewingZone& zone);
+/// Whether a visitor would take the level for the source, and no part of it is lost.
+[[nodiscard]] bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box);
 
 /// Samples a pixel (2, 4 or 8) for pictures of the source at the resolution of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies

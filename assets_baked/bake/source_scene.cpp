@@ -13,6 +13,7 @@ struct SourceScene::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     bool varying_colour = false;
+    bool front_only = false;
 };
 
 namespace {
@@ -102,10 +103,24 @@ glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
     return glm::mix(top, bottom, fy);
 }
 
-/// Lets a ray pass where alpha MASK is cut.
-void cut_masked(const RTCFilterFunctionNArguments* arguments) {
+/// Lets a ray pass a face that looks away from it.
+void cut_back_faces(const RTCFilterFunctionNArguments* arguments) {
+    const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, 1, 0), RTCHitN_Ng_y(arguments->hit, 1, 0),
+                           RTCHitN_Ng_z(arguments->hit, 1, 0));
+    const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, 1, 0), RTCRayN_dir_y(arguments->ray, 1, 0),
+                              RTCRayN_dir_z(arguments->ray, 1, 0));
+    if (glm::dot(normal, direction) > 0.0F) {
+        arguments->valid[0] = 0;
+    }
+}
+
+/// Lets a ray pass where alpha MASK is cut, and faces that are not drawn.
+void cut(const RTCFilterFunctionNArguments* arguments) {
     assert(arguments->N == 1);
     const auto* scene = static_cast<const SourceScene*>(arguments->geometryUserPtr);
+    if (scene->has_front_only()) {
+        cut_back_faces(arguments);
+    }
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, 1, 0);
     const SourceMesh& mesh = scene->mesh();
     const SourceMaterial& material = mesh.materials[mesh.triangle_materials[triangle]];
@@ -146,7 +161,7 @@ bool keep_nearest(RTCPointQueryFunctionArguments* arguments) {
 
 } // namespace
 
-SourceScene::SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> points)
+SourceScene::SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> points, Sides sides)
     : embree_(std::make_unique<Embree>()) {
     embree_->mesh = &mesh;
     embree_->positions.reserve(points.size() + 1);
@@ -169,10 +184,11 @@ SourceScene::SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> poi
                                embree_->positions.data(), 0, sizeof(glm::vec3), points.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(mesh.triangles[0]), mesh.triangles.size());
-    if (masked) {
+    embree_->front_only = sides == Sides::Front;
+    if (masked || embree_->front_only) {
         rtcSetGeometryUserData(geometry, this);
-        rtcSetGeometryIntersectFilterFunction(geometry, cut_masked);
-        rtcSetGeometryOccludedFilterFunction(geometry, cut_masked);
+        rtcSetGeometryIntersectFilterFunction(geometry, cut);
+        rtcSetGeometryOccludedFilterFunction(geometry, cut);
     }
     rtcSetGeometryPointQueryFunction(geometry, keep_nearest);
     rtcCommitGeometry(geometry);
@@ -249,6 +265,28 @@ SurfaceHit SourceScene::nearest(const glm::vec3& point, float reach) const {
     return state.best;
 }
 
+SurfaceHit SourceScene::facing(const glm::vec3& point, const glm::vec3& normal, float reach) const {
+    const glm::vec3 origin = point + normal * reach;
+    SurfaceHit best;
+    float best_distance = reach;
+    float near = 0.0F;
+    for (int k = 0; k < 12; ++k) {
+        const SurfaceHit hit = trace(origin, -normal, near, 2.0F * reach);
+        if (!hit.hit) {
+            break;
+        }
+        const float distance = std::abs(hit.distance - reach);
+        // Sides count too: a triangle seen from behind is a candidate only if nothing faces this way.
+        const float penalty = glm::dot(hit.normal, normal) > 0.0F ? 0.0F : 0.25F * reach;
+        if (distance + penalty < best_distance) {
+            best_distance = distance + penalty;
+            best = hit;
+        }
+        near = hit.distance + 1e-6F + hit.distance * 1e-6F;
+    }
+    return best.hit ? best : nearest(point, 8.0F * reach);
+}
+
 glm::vec4 SourceScene::colour(std::uint32_t triangle, float u, float v) const {
     const SourceMesh& source = *embree_->mesh;
     const SourceMaterial& material = source.materials[source.triangle_materials[triangle]];
@@ -273,6 +311,10 @@ const SourceMesh& SourceScene::mesh() const {
 
 const glm::vec3& SourceScene::corner(std::uint32_t triangle, int k) const {
     return embree_->positions[embree_->mesh->triangles[triangle][static_cast<std::size_t>(k)]];
+}
+
+bool SourceScene::has_front_only() const {
+    return embree_->front_only;
 }
 
 bool SourceScene::has_varying_colour() const {

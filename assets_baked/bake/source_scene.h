@@ -1,6 +1,6 @@
 /// The source surface for rays and nearest-point queries, in the box frame.
 ///
-/// Frame    box. Two-sided; alpha MASK is cut at its cut-off, BLEND counts as opaque (docs/conventions.md:
+/// Frame    box. Two-sided unless asked for; alpha MASK is cut at its cut-off, BLEND counts as opaque (docs/conventions.md:
 ///          the picture).
 /// Threads  built on one, queried from any.
 /// Library  Embree 3; rays in 32-bit floats over a box of size 1.
@@ -26,10 +26,13 @@ struct SurfaceHit {
     glm::vec3 normal{0.0F}; ///< unit geometric normal, counter-clockwise side
 };
 
+/// What rays meet; the kiosk draws a level's front faces alone.
+enum class Sides { Both, Front };
+
 class SourceScene {
 public:
     /// `mesh` must outlive the scene. `points` are its positions in the box frame.
-    SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> points);
+    SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> points, Sides sides = Sides::Both);
     ~SourceScene();
     SourceScene(const SourceScene&) = delete;
     SourceScene& operator=(const SourceScene&) = delete;
@@ -41,6 +44,9 @@ public:
                                 float far) const;
     /// Nearest surface point within `reach`.
     [[nodiscard]] SurfaceHit nearest(const glm::vec3& point, float reach) const;
+    /// The hit nearest along the normal, up to `reach` to either side, that faces the same way; else the nearest
+    /// point of all.
+    [[nodiscard]] SurfaceHit facing(const glm::vec3& point, const glm::vec3& normal, float reach) const;
 
     /// Base colour at a hit, linear light; alpha in w.
     [[nodiscard]] glm::vec4 colour(std::uint32_t triangle, float u, float v) const;
@@ -50,6 +56,7 @@ public:
     [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, int k) const;
     /// True if any material has a texture or the mesh has vertex colours: colour varies over the surface.
     [[nodiscard]] bool has_varying_colour() const;
+    [[nodiscard]] bool has_front_only() const;
 
     struct Embree;
 

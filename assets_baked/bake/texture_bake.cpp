@@ -67,29 +67,6 @@ glm::vec3 nearest_in_plane(const glm::vec2& p, const glm::vec2& a, const glm::ve
     return best;
 }
 
-/// Finds the source's hit nearest along the normal that faces the same way; else the nearest point of all.
-SurfaceHit find_on_source(const SourceScene& source, const SurfacePoint& at, float reach) {
-    const glm::vec3 origin = at.position + at.normal * reach;
-    SurfaceHit best;
-    float best_distance = reach;
-    float near = 0.0F;
-    for (int k = 0; k < 12; ++k) {
-        const SurfaceHit hit = source.trace(origin, -at.normal, near, 2.0F * reach);
-        if (!hit.hit) {
-            break;
-        }
-        const float distance = std::abs(hit.distance - reach);
-        // Sides count too: a source triangle seen from behind is a candidate only if nothing faces this way.
-        const float penalty = glm::dot(hit.normal, at.normal) > 0.0F ? 0.0F : 0.25F * reach;
-        if (distance + penalty < best_distance) {
-            best_distance = distance + penalty;
-            best = hit;
-        }
-        near = hit.distance + 1e-6F + hit.distance * 1e-6F;
-    }
-    return best.hit ? best : source.nearest(at.position, 8.0F * reach);
-}
-
 /// Four points of the texel, half-way to its neighbours, where they lie on the same triangle.
 std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& texel) {
     const SurfacePoint centre = surface_at(mesh, texel);
@@ -286,7 +263,7 @@ ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
         glm::vec3 sum(0.0F);
         float count = 0.0F;
         for (const SurfacePoint& at : parts_of(mesh, texel)) {
-            const SurfaceHit hit = find_on_source(source, at, reach_box);
+            const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
             if (hit.hit) {
                 sum += clamped_rgb(source.colour(hit));
                 count += 1.0F;
@@ -319,7 +296,8 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
     return coverage;
 }
 
-ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source) {
+ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
+                      float reach_box) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
     constexpr int rays = 96;
@@ -328,7 +306,11 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
     Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
         if (x % stride == 0 && y % stride == 0) {
-            light.at(x, y) = glm::vec3(light_at(source, surface_at(mesh, texel), directions));
+            SurfacePoint at = surface_at(mesh, texel);
+            const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
+            at.position =
+                hit.hit ? hit.point : at.position; // a coarse surface below it would be in its shadow
+            light.at(x, y) = glm::vec3(light_at(source, at, directions));
             known.at(x, y) = 1;
         }
     });
@@ -352,14 +334,15 @@ ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_tex
     const SourceScene from_scene(from_source, points);
     ImageFloat light(to_texels.width, to_texels.height, glm::vec3(1.0F));
     for_each_texel(to_texels, [&](int x, int y, const AtlasTexel& texel) {
-        const SurfaceHit hit = find_on_source(from_scene, surface_at(to, texel), reach_box);
+        const SurfacePoint at = surface_at(to, texel);
+        const SurfaceHit hit = from_scene.facing(at.position, at.normal, reach_box);
         if (!hit.hit) {
             return;
         }
         const glm::vec2 uv = blend(from.uv_texels, from, AtlasTexel{hit.triangle, hit.u, hit.v});
-        const glm::ivec2 at = glm::clamp(glm::ivec2(uv), glm::ivec2(0),
-                                         glm::ivec2(from_light.width - 1, from_light.height - 1));
-        light.at(x, y) = from_light.at(at.x, at.y);
+        const glm::ivec2 texel_there = glm::clamp(glm::ivec2(uv), glm::ivec2(0),
+                                                  glm::ivec2(from_light.width - 1, from_light.height - 1));
+        light.at(x, y) = from_light.at(texel_there.x, texel_there.y);
     });
     return light;
 }

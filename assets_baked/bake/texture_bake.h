@@ -36,7 +36,7 @@ struct AtlasTexel {
 /// Light that falls on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by
 /// the artifact itself and by the table it stands on (ambient occlusion).
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                                    const SourceScene& source);
+                                    const SourceScene& source, float reach_box);
 
 /// The light of one baked level, looked up from another.
 [[nodiscard]] ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels,

@@ -1,8 +1,8 @@
-/// Plain triangles in the box frame, and their simplification.
+/// Plain triangles in the box frame.
 ///
 /// Frame    box (longest edge 1); counter-clockwise seen from outside.
 /// Threads  pure; any.
-/// Library  meshoptimizer (Garland & Heckbert 1997 quadrics).
+/// Library  meshoptimizer.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"
@@ -34,12 +34,10 @@ struct TriangleMesh {
 /// orientation: triangles are two-sided) are dropped.
 [[nodiscard]] TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points);
 
-/// The fewest triangles that meshoptimizer reaches within `tolerance_box`, cell by cell, run until nothing
-/// changes. Its errors are 32-bit and see nothing below about 3e-4 of the mesh's extent: in cells of 0.15 box
-/// the surface strays 20 to 40 % less at the same number of triangles, where a mesh is dense enough. A single
-/// run stops early on dense meshes (a source of 4M triangles kept 2.3 times as many as one of 100k). Several
-/// runs add up to a little more than the tolerance; every level is measured afterwards.
-[[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
+/// Drops triangles whose corners repeat, and all but the first of those with the same three corners.
+void drop_repetitions(std::vector<std::uint32_t>& indices);
+/// Drops vertices that no triangle uses.
+void compact(TriangleMesh& mesh);
 
 /// The same triangles as a SourceMesh without materials, for ray casts.
 [[nodiscard]] SourceMesh as_source(const TriangleMesh& mesh);

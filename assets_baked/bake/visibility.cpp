@@ -60,22 +60,25 @@ glm::vec3 sample_weights(std::uint32_t triangle, int k) {
 std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
                         const std::vector<glm::vec3>& eyes) {
     constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees
-    constexpr int eyes_per_sample = 160;
+    constexpr std::uint32_t eyes_per_sample = 160;
+    constexpr std::uint32_t eyes_for_other_side = 40; // where both are seen, many eyes see either
     const glm::vec3 area_normal = mesh.area_normal(triangle);
     const float twice_area = glm::length(area_normal);
     if (!(twice_area > 0.0F)) {
         return none;
     }
     const glm::vec3 normal = area_normal / twice_area;
-    // One more sample for each 1e-4 of the box's square: a large triangle may be visible through a small gap.
-    const int samples = 4 + std::min(28, static_cast<int>(twice_area * 5e3F));
+    // More samples for a large triangle, which may be visible through a small gap; a small one has neighbours.
+    const int samples = std::min(4, 1 + static_cast<int>(twice_area * 2e4F)) +
+                        std::min(28, static_cast<int>(twice_area * 5e3F));
     std::uint8_t seen = none;
     for (int k = 0; k < samples && seen != both; ++k) {
         const glm::vec3 w = sample_weights(triangle, k);
         const glm::vec3 p =
             mesh.corner(triangle, 0) * w.x + mesh.corner(triangle, 1) * w.y + mesh.corner(triangle, 2) * w.z;
         const std::uint32_t start = hashed(triangle * 37U + static_cast<std::uint32_t>(k));
-        for (std::uint32_t j = 0; j < eyes_per_sample && seen != both; ++j) {
+        for (std::uint32_t j = 0; j < (seen == none ? eyes_per_sample : eyes_for_other_side) && seen != both;
+             ++j) {
             const glm::vec3& eye = eyes[(start + j * 331U) % eyes.size()];
             const glm::vec3 towards = eye - p;
             const float facing = glm::dot(towards, normal);
@@ -178,7 +181,7 @@ TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& fi
                 continue;
             }
             const glm::vec3 normal = area_normal / twice_area;
-            const int samples = 7 + std::min(57, static_cast<int>(twice_area * 5e4F));
+            const int samples = 4 + std::min(60, static_cast<int>(twice_area * 5e4F));
             for (int k = 0; k < samples && sides[t] != both; ++k) {
                 const glm::vec3 w = sample_weights(static_cast<std::uint32_t>(t), k);
                 const glm::vec3 p =

@@ -1,4 +1,4 @@
-// Pictures in packs and models: refused in one line, or as large as they say, and as PNG they stay the same.
+// Pictures in packs and models: refused in one line, or as large as they say, and as PNG and WebP they stay the same.
 #include "assets_baked/bake/loaders/decode_image.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -28,6 +28,12 @@ template <typename Texel> void check(const Result<Image<Texel>>& image) {
     fuzz::require(again && again->width == image->width && again->height == image->height &&
                       again->texels == image->texels,
                   "a picture written again is the same", again ? std::string() : again.error().message);
+    if constexpr (std::is_same_v<Texel, glm::u8vec4>) {
+        const Bytes webp = encode_webp(*image);
+        const Result<Image8> same = decode_webp8(webp);
+        fuzz::require(webp.empty() || (same && same->width == image->width && same->texels == image->texels),
+                      "a picture written as WebP is the same");
+    }
 }
 
 } // namespace
@@ -36,6 +42,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::byte> bytes = fuzz::bytes_of(data, size);
     check(decode_png8(bytes, most_texels));
     check(decode_png16(bytes, most_texels));
+    check(decode_webp8(bytes, most_texels));
     check(decode_image(bytes, most_texels));
     return 0;
 }

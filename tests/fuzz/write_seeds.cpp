@@ -107,6 +107,8 @@ void packs(const Seeds& seeds) {
     mesh_only.relief = {};
     mesh_only.default_level = 0;
     seeds.add("pack", "mesh", as_text(samples::bytes_of(mesh_only)));
+    mesh_only.textures[0] = Image8(40, 30, {10, 20, 30, 255}); // as WebP
+    seeds.add("pack", "webp", as_text(samples::bytes_of(mesh_only)));
     seeds.add("manifest", "everything", samples::take_apart(pack).manifest.dump());
 }
 
@@ -121,6 +123,7 @@ void pictures(const Seeds& seeds) {
     seeds.add("picture", "smooth.tiff", frustumscreen::testing::tiff_of(smooth));
     seeds.add("picture", "alpha.tiff",
               frustumscreen::testing::tiff_of(smooth, frustumscreen::testing::TiffAlpha::Apart, true));
+    seeds.add("picture", "lossless.webp", as_text(encode_webp(smooth)));
     seeds.add("picture", "cut.png", frustumscreen::testing::png_of(samples::texture(5, 3, 1, false)));
     seeds.add("picture", "relief.png", as_text(encode_png(samples::relief_atlas().relief)));
     for (const int depth : {1, 2, 4, 8, 16}) {

@@ -32,7 +32,7 @@ std::string refusal_of_text(const std::string& manifest) {
 } // namespace
 
 TEST(HostileManifest, a_later_version_asks_for_a_newer_program) {
-    expect_refused({{"needs a newer FrustumScreen", [](Json& m) { m["version"] = 2; }},
+    expect_refused({{"needs a newer FrustumScreen", [](Json& m) { m["version"] = 3; }},
                     {"needs a newer FrustumScreen", [](Json& m) {
                          m = {{"format", "FrustumScreen pack"}, {"version", 7}, {"all", "other"}};
                      }}});

@@ -137,16 +137,23 @@ TEST(HostilePart, charts_are_disjoint_and_inside_the_atlas) {
     EXPECT_NE(samples::refusal_of(samples::put_together(entries)).find("charts"), std::string::npos);
 }
 
-TEST(HostilePart, a_picture_is_a_png_of_allowed_size) {
-    expect_refused({{"textures/0.png", "PNG", [](Bytes& b) { b.assign(100, std::byte{7}); }},
-                    {"textures/0.png", "PNG", [](Bytes& b) { b.resize(b.size() / 2); }},
-                    {"relief/atlas.png", "relief/atlas.png",
-                     [](Bytes& b) { b = encode_png(samples::texture(13, 7, 1, true)); }},
-                    {"relief/atlas.png", "its texture is", [](Bytes& b) { b = encode_png(Image16(12, 7)); }},
-                    // 30000 x 2 texels: few enough, but wider than drivers take.
-                    {"textures/0.png", "30000 x 2", [](Bytes& b) { b = encode_png(Image8(30000, 2)); }},
-                    {"textures/0.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }},
-                    {"relief/atlas.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }}});
+TEST(HostilePart, a_picture_is_a_png_or_webp_of_allowed_size) {
+    expect_refused(
+        {{"textures/0.png", "PNG", [](Bytes& b) { b.assign(100, std::byte{7}); }},
+         {"textures/0.png", "PNG", [](Bytes& b) { b.resize(b.size() / 2); }},
+         {"textures/0.png", "WebP", // in a half
+          [](Bytes& b) {
+              b = encode_webp(samples::texture(13, 7, 1, true));
+              b.resize(b.size() / 2);
+          }},
+         {"textures/0.png", "16000 x 4500", [](Bytes& b) { b = encode_webp(Image8(16000, 4500)); }},
+         {"relief/atlas.png", "relief/atlas.png",
+          [](Bytes& b) { b = encode_png(samples::texture(13, 7, 1, true)); }},
+         {"relief/atlas.png", "its texture is", [](Bytes& b) { b = encode_png(Image16(12, 7)); }},
+         // 30000 x 2 texels: few enough, but wider than drivers take.
+         {"textures/0.png", "30000 x 2", [](Bytes& b) { b = encode_png(Image8(30000, 2)); }},
+         {"textures/0.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }},
+         {"relief/atlas.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }}});
 }
 
 TEST(HostilePart, the_writer_refuses_what_the_reader_would) {

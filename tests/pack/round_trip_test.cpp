@@ -110,6 +110,26 @@ TEST(RoundTrip, a_pack_of_meshes_needs_no_relief) {
     expect_same(pack, **back);
 }
 
+TEST(RoundTrip, a_texture_is_stored_as_webp_where_that_is_smaller) {
+    Pack pack = samples::pack();
+    pack.textures[0] = Image8(300, 200, {10, 20, 30, 255});
+    pack.textures[0].at(7, 9) = {1, 2, 3, 0};
+    const Bytes bytes = samples::bytes_of(pack);
+    EXPECT_EQ(samples::take_apart(bytes).manifest["textures"][0], "textures/0.webp");
+    const Result<VerifiedPack> back = verify_pack(bytes);
+    ASSERT_TRUE(back) << back.error().message;
+    expect_same(pack, **back);
+}
+
+TEST(RoundTrip, a_pack_of_version_1_is_read) {
+    samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    EXPECT_EQ(entries.manifest["version"], 2);
+    entries.manifest["version"] = 1; // its textures are PNG
+    const Result<VerifiedPack> back = verify_pack(samples::put_together(entries));
+    ASSERT_TRUE(back) << back.error().message;
+    expect_same(samples::pack(), **back);
+}
+
 TEST(RoundTrip, errors_of_any_size_keep_all_their_bits) {
     std::mt19937 random(5);
     for (int k = 0; k < 50; ++k) {
