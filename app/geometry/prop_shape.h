@@ -42,6 +42,8 @@ struct FrustumSize {
     double height_m = 0.12;
 };
 
+/// The one of the shipped set-up (config/kiosk.toml).
+inline constexpr FrustumSize shipped_frustum{0.30, 0.08, 0.155};
 /// Five faces; the bottom stands on the table and is never lit.
 [[nodiscard]] PropShape make_frustum(FrustumSize size);
 /// Six faces: it is held in the hand and turned in any way.

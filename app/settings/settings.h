@@ -50,9 +50,9 @@ enum class PropKind { Frustum, Cube };
 enum class PropZone { Table, Hand };
 struct PropSettings {
     PropKind kind = PropKind::Frustum;
-    double base_m = 0.30; ///< side of the bottom square
-    double top_m = 0.08;  ///< side of the top square
-    double height_m = 0.155;
+    double base_m = shipped_frustum.base_m; ///< side of the bottom square
+    double top_m = shipped_frustum.top_m;   ///< side of the top square
+    double height_m = shipped_frustum.height_m;
     PropZone zone = PropZone::Table; ///< where it moves
 };
 /// A cube of the usual size, in the hand.

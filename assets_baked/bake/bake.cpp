@@ -312,7 +312,7 @@ std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels)
 }
 
 BakedProp baked_frustum() {
-    return {"frustum", make_frustum({}), {}};
+    return {"frustum", make_frustum(shipped_frustum), {}};
 }
 
 BakedProp baked_cube() {
