@@ -241,6 +241,7 @@ LevelOutline outline_of(const Surface& surface) {
 /// Leaves the surfaces that are worth a level, fine to coarse.
 void keep_front(std::vector<Surface>& surfaces) {
     std::vector<LevelOutline> outlines;
+    outlines.reserve(surfaces.size());
     for (const Surface& surface : surfaces) {
         outlines.push_back(outline_of(surface));
     }
@@ -264,6 +265,7 @@ void keep(Pack& pack, TexturedLevels meshes, TexturedLevels reliefs, ReliefAtlas
     std::vector<PackLevel> levels = std::move(meshes.levels);
     levels.insert(levels.end(), reliefs.levels.begin(), reliefs.levels.end());
     std::vector<LevelOutline> outlines;
+    outlines.reserve(levels.size());
     for (const PackLevel& level : levels) {
         outlines.push_back(
             {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), 0});
