@@ -143,9 +143,10 @@ struct Settings {
     ExhibitSettings exhibit;
 };
 
-/// A prop in the hand has no zone on the table.
+/// A prop in the hand has no zone on the table, and one that is not tracked never leaves it.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {
-    return settings.exhibit.zone_frame && settings.prop.zone == PropZone::Table;
+    return settings.exhibit.zone_frame && settings.prop.zone == PropZone::Table &&
+           settings.tracker.kind != TrackerKind::None;
 }
 
 class CheckedSettings {

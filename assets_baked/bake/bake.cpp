@@ -141,7 +141,8 @@ public:
         const Image<AtlasTexel> texels = rasterise(relief->grid);
         TexturedLevels made{{}, lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_)};
         for (std::size_t k = 0; k < relief_tolerances.size(); ++k) {
-            options_.progress("relief levels", 0.8 + 0.18 * static_cast<double>(k) / relief_tolerances.size());
+            options_.progress("relief levels",
+                              0.8 + 0.18 * static_cast<double>(k) / relief_tolerances.size());
             const ChartedMesh fewer = simplify_grid(*relief, relief_tolerances[k]);
             if (fewer.indices.empty()) {
                 continue;

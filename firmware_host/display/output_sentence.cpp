@@ -55,11 +55,12 @@ Sentence why_dark(const CardSeen& card, const OutputRequest& request) {
         }
         return format_sentence("the graphics card has no connector {}; it has {}", request.connector, names);
     }
-    return format_sentence("no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
-                           request.connector.empty() ? "" : " to ", request.connector,
-                           request.force ? "; name display.connector to light one that cannot say that it is "
-                                           "there"
-                                         : "");
+    return format_sentence(
+        "no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
+        request.connector.empty() ? "" : " to ", request.connector,
+        request.force ? "; name display.connector to light one that cannot say that it is "
+                        "there"
+                      : "");
 }
 
 Sentence why_refused(const ConnectorSeen& connector, const OutputRequest& request, std::string_view reason) {

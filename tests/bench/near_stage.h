@@ -10,6 +10,7 @@ inline Settings near_settings() {
     Settings settings;
     settings.projector.pinhole = {640, 400, 1400.0, 1400.0, 320.0, 200.0};
     settings.projector.table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.9}};
+    settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
     return settings;
 }
 

@@ -1,4 +1,5 @@
 #include "app/bench/truth/poses.h"
+#include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 /// A projector 0.95 m above the table, looking straight down; its picture's top is away from the visitor.
 Settings overhead() {
-    Settings settings;
+    Settings settings = steep_table();
     settings.projector.table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.95}};
     return settings;
 }

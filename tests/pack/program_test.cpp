@@ -83,7 +83,7 @@ TEST_F(Program, list_gives_errors_in_millimetres_on_the_default_prop) {
     EXPECT_EQ(json["languages"], nlohmann::json({"en", "pt-BR"}));
     EXPECT_EQ(json["levels"][0]["triangles"], 3);
     EXPECT_EQ(json["parts"].size(), 7U);
-    const double mm_per_box = place(samples::pack(), make_frustum({})).metres_per_box * 1000.0;
+    const double mm_per_box = place(samples::pack(), make_frustum(shipped_frustum)).metres_per_box * 1000.0;
     EXPECT_NEAR(json["levels"][1]["error"]["p95_mm"].get<double>(), 0.002 * mm_per_box, 1e-6);
 }
 
@@ -100,7 +100,7 @@ TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
             EXPECT_EQ(matrix[static_cast<std::size_t>(k)], expected[k / 4][k % 4]) << k;
         }
     };
-    expect_matrix("", make_frustum({}));
+    expect_matrix("", make_frustum(shipped_frustum));
     ASSERT_TRUE(write_file("cube.toml", as_bytes("[prop]\nkind = \"cube\"\nbase_m = 0.1\nheight_m = 0.1\n")));
     expect_matrix("--config cube.toml", make_cube(0.1));
 }

@@ -88,14 +88,15 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     const double longest = std::max(wide, 1.25);
     EXPECT_NEAR((*pack)->box_size.x, wide / longest, 1e-6);
     EXPECT_NEAR((*pack)->box_size.z, 1.25 / longest, 1e-6);
-    const Placement placement = place(**pack, make_frustum({}));
+    const Placement placement = place(**pack, make_frustum(shipped_frustum));
     const glm::dvec3 foot(placement.prop_from_artifact * glm::dvec4(0, 0, 0, 1));
     const glm::dvec3 tip(placement.prop_from_artifact * glm::dvec4(0, 0, 1, 1));
     EXPECT_NEAR(foot.z, 0.25 * (tip.z - foot.z), 1e-9);
     EXPECT_NEAR(report["size_m"][2], tip.z - foot.z, 1e-4); // 16-bit places
     ASSERT_EQ(bake_to("whole.fspack", "--up z --turn 30 --lift 0.25"), 0) << text("err.txt");
     const Result<VerifiedPack> whole = load_pack(folder / "whole.fspack");
-    EXPECT_NEAR(place(**whole, make_frustum({})).metres_per_box, 2.0 * placement.metres_per_box, 1e-12);
+    EXPECT_NEAR(place(**whole, make_frustum(shipped_frustum)).metres_per_box, 2.0 * placement.metres_per_box,
+                1e-12);
 }
 
 TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {

@@ -39,10 +39,17 @@ TEST_F(ConfigCommand, ExplainsAProjectorThatLooksStraightDown) {
          "covers 100 % of the table of 0.8 x 0.5 m", "One projector pixel is 0.625 mm on the table",
          "letters are 16 pixels high", "+Z: one pixel is 0.563 mm; the light is 1.00 of",
          fmt::format("+X, -X, +Y, -Y: one pixel is 0.594 x 2.61 mm; the light is {:.2f} of", side / top),
-         fmt::format("Faces are lit 1 : {:.2f}.", side / top), "evenly lit within x -0.",
+         fmt::format("Faces are lit 1 : {:.2f}.", side / top), "evenly lit nowhere: its sides are too steep",
          "1.08 to 1.20 m in front of the lens", "1 mm that the tracker is wrong: 1.8 pixels",
          "moves 5.1 mm meanwhile"});
     EXPECT_EQ(text("err.txt"), "");
+}
+
+TEST_F(ConfigCommand, SaysHowEvenlyTheShippedTableIsLit) {
+    // At every yaw half a bottom's diagonal stays on the table, 0.25 - 0.15 sqrt(2) m, and nearly 0.4 - 0.15 sqrt(2).
+    expect_words(page(""),
+                 {"1920 x 1200 pixels", "evenly lit within x -0.186 to 0.186 m, y -0.038 to 0.038 m",
+                  "Faces are lit 1 : 0.36 at the worst turn"});
 }
 
 TEST_F(ConfigCommand, ExplainsAProjectorThatLooksFromTheFarSide) {

@@ -106,14 +106,14 @@ TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
 
 TEST(Settings, FocalLengthsAndLensShiftAreTakenAsTheyStand) {
     const Settings settings =
-        parsed("[projector]\nwidth = 1000\nheight = 500\nfx = 1500\nfy = 1400\ncx = 480.5\ncy = 600\n");
+        parsed("[projector]\nwidth = 1000\nheight = 500\nfx = 1500\nfy = 1400\ncx = 480.5\ncy = 300\n");
     const Pinhole& p = settings.projector.pinhole;
     EXPECT_EQ(p.width, 1000);
     EXPECT_EQ(p.height, 500);
     EXPECT_EQ(p.fx, 1500.0);
     EXPECT_EQ(p.fy, 1400.0);
     EXPECT_EQ(p.cx, 480.5);
-    EXPECT_EQ(p.cy, 600.0);
+    EXPECT_EQ(p.cy, 300.0);
 }
 
 TEST(Settings, TheAimLandsInThePrincipalPointAndThePictureStandsUpright) {

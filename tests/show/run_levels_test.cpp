@@ -5,6 +5,7 @@
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/synthetic_pack.h"
+#include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ struct Show {
     int frame = 0;
 
     [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) {
-        Settings settings;
+        Settings settings = steep_table();
         const double pixel_m = pixel_on_prop_m(stage.prop, settings.projector.pinhole,
                                                settings.projector.table_from_projector.inverse());
         settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;

@@ -131,7 +131,7 @@ StabilityResult walks_in(const std::string& name, const Settings& settings, doub
 
 /// The shipped table: the light is the same everywhere, up to the gains' 32 bits.
 StabilityResult shipped(const StabilityOptions&) {
-    constexpr double rounding = 1e-5;
+    constexpr double rounding = 5e-6;
     return walks_in("shipped", Settings{}, 1e-3 / step_m * rounding, rounding);
 }
 
