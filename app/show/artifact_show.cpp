@@ -253,8 +253,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
 
 /// Measures at the middle of the table, seen by the default eye.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
-    PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1), light_};
+    PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
     for (Artifact& artifact : artifacts_) {
+        view.light = artifact.plan.light;
         view.brightness = artifact.exposure;
         artifact.levels.measure(prop_, view, renderer_, target);
         warm_up(artifact, view, target);
@@ -281,9 +282,9 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
 ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
                            std::vector<Artifact> artifacts)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
-      prop_(make_prop(settings.prop)), light_(light_compensation(settings)),
-      caption_brightness_(settings.exhibit.caption_brightness), needs_(needs), renderer_(std::move(renderer)),
-      artifacts_(std::move(artifacts)), catalogue_(catalogue_of(artifacts_)), attract_place_m_(0.0) {
+      prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
+      needs_(needs), renderer_(std::move(renderer)), artifacts_(std::move(artifacts)),
+      catalogue_(catalogue_of(artifacts_)), attract_place_m_(0.0) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -315,8 +316,8 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
-    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1),
-                  light_};
+    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
+    view.light = artifacts_[presentation.artifact].plan.light;
     view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
     view.caption = place_caption(presentation);
     view.lines = place_zone(presentation);

@@ -99,7 +99,6 @@ private:
     Pinhole projector_;
     RigidTransform table_from_projector_;
     PropShape prop_;
-    LightCompensation light_;
     double caption_brightness_; ///< share of the projector's light
     RenderNeeds needs_;
     Renderer renderer_;
