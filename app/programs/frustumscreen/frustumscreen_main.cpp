@@ -1,6 +1,7 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/config_command.h"
+#include "app/programs/frustumscreen/guide_command.h"
 #include "app/programs/frustumscreen/plan_command.h"
 #include "app/programs/frustumscreen/record_command.h"
 #include "app/programs/frustumscreen/render_command.h"
@@ -18,10 +19,11 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen run|record|render|plan|config [--help] ...\n"
+    fmt::print(to, "usage: frustumscreen run|record|render|guide|plan|config [--help] ...\n"
                    "  run     the exhibit\n"
                    "  record  what the tracker sends, into a file\n"
                    "  render  a pose file into pictures, without devices\n"
+                   "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
                    "  plan    what a scene needs, what it leaves out, and what that saves\n"
                    "  config  the resolved, checked settings; what they mean on the table\n"
                    "  --version\n");
@@ -31,9 +33,10 @@ struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 5> commands{{{"run", run_command},
+constexpr std::array<Command, 6> commands{{{"run", run_command},
                                            {"record", record_command},
                                            {"render", render_command},
+                                           {"guide", guide_command},
                                            {"plan", plan_command},
                                            {"config", config_command}}};
 

@@ -3,13 +3,12 @@
 #include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 #include "app/simulation/visitor_view.h"
-#include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
-#include "firmware_host/tracker/pose_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -71,18 +70,6 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         request.options.height = request.height;
     }
     return 0;
-}
-
-Result<std::vector<Situation>> frames_of(const Request& request, const Settings& settings) {
-    const Result<Bytes> bytes = read_file(request.poses);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), request.poses.string());
-    if (!samples) {
-        return tl::unexpected<Error>(samples.error());
-    }
-    return pose_frames(*samples, settings.eye.default_m);
 }
 
 /// Poses in millimetres, or in a tracker's frame, give dark pictures.
@@ -150,7 +137,7 @@ Result<void> render(const Request& request) {
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
-    const Result<std::vector<Situation>> frames = frames_of(request, **settings);
+    const Result<std::vector<Situation>> frames = load_pose_frames(request.poses, (*settings)->eye.default_m);
     if (!frames) {
         return tl::unexpected<Error>(frames.error());
     }

@@ -1,0 +1,13 @@
+/// What guidance needs of the settings.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/guidance/face_reader.h"
+#include "app/settings/settings.h"
+
+namespace frustumscreen {
+
+[[nodiscard]] GuidanceSetup guidance_setup(const Settings& settings);
+
+} // namespace frustumscreen

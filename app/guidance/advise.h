@@ -1,0 +1,62 @@
+/// The one move that lets a visitor see the whole artifact, and how many moves it is the first of.
+///
+/// A single move is advised only if it helps however people carry it out: with its direction up to 20 degrees off, its
+/// amount up to 40 per cent off, each execution leads to a valid situation or to a smaller unlit area; done well, it
+/// leads to a valid one. Among those it is the one with the least effort. So it opens every face that is seen and not
+/// lit, and keeps those that are; the paper asks for the largest one at a time. Where no single move does, it is the
+/// first of the shortest sequence found.
+///
+/// Stable   what is advised already is kept as long as it helps and nothing else is clearly easier; until the visitor
+///          begins to follow it, even where something else has become a little shorter.
+/// Cost     a single move about 0.3 ms, a sequence some milliseconds: not for every frame.
+/// Threads  pure; any. Allocates nothing.
+/// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
+#pragma once
+
+#include "app/guidance/move.h"
+
+#include <optional>
+#include <utility>
+
+namespace frustumscreen {
+
+inline constexpr double sloppy_direction_deg = 20.0;
+inline constexpr double sloppy_amount = 0.4;
+
+struct Advice {
+    Move move;
+    int steps = 1; ///< moves until every seen face is lit, this one included
+};
+
+/// The advice that a visitor has, and the situation that it was given in.
+struct Standing {
+    Move move;
+    GuidedSituation given;
+    /// Whether the visitor has hardly begun to follow it.
+    [[nodiscard]] bool holds(const GuidedSituation& situation) const;
+};
+
+/// Nothing if the situation is valid. Wait: no sequence of up to four moves was found.
+[[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
+                                           const std::optional<Standing>& standing = std::nullopt);
+
+enum class Help { No, Better, Valid };
+/// Whether every way in which people carry the move out leads to a valid situation or to a smaller unlit area.
+/// `margin`: a factor on how sloppy they are.
+[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move,
+                           double margin = 1.0);
+
+/// Advises one visitor from situation to situation.
+class Advisor {
+public:
+    explicit Advisor(GuidanceSetup setup) : reader_(std::move(setup)) {}
+
+    [[nodiscard]] std::optional<Advice> advise(const GuidedSituation& situation);
+    [[nodiscard]] const FaceReader& reader() const { return reader_; }
+
+private:
+    FaceReader reader_;
+    std::optional<Standing> standing_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,153 @@
+#include "app/guidance/candidates.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+/// A prop on the table that hovers less than this stands well enough.
+constexpr double down_within_m = 0.004;
+
+constexpr std::array<double, 4> coarse_ways_m{0.05, 0.12, 0.25, 0.50};
+constexpr std::array<double, 10> fine_turns_deg{8, 12, 17, 23, 30, 38, 48, 60, 75, 90};
+constexpr std::array<double, 3> coarse_turns_deg{20, 45, 90};
+constexpr std::array<double, 5> fine_heights_m{0.03, 0.06, 0.12, 0.20, 0.30};
+constexpr std::array<double, 2> coarse_heights_m{0.08, 0.25};
+
+/// From 2 to 70 cm, each 14 per cent more.
+constexpr std::array<double, 28> fine_ways_m = [] {
+    std::array<double, 28> ways{};
+    double way_m = 0.02;
+    for (double& each : ways) {
+        each = way_m;
+        way_m *= 1.14;
+    }
+    return ways;
+}();
+
+/// Where the visitor looks from, along the table.
+double azimuth_of_view(const GuidedSituation& situation) {
+    const glm::dvec3 way = situation.table_from_prop.translation - situation.eye_m;
+    return std::hypot(way.x, way.y) > 1e-6 ? std::atan2(way.y, way.x) : 0.5 * std::numbers::pi;
+}
+
+void add_slides(std::span<const double> ways_m, int directions, const GuidanceSetup& setup,
+                const GuidedSituation& situation, Candidates& candidates) {
+    const double view = azimuth_of_view(situation);
+    const bool was_over = over_table(setup, situation.table_from_prop);
+    for (int k = 0; k < directions; ++k) {
+        const double angle = view + 2.0 * std::numbers::pi * k / directions;
+        // Words name left, right, nearer and farther; the arrow names all others.
+        const double oblique = k % (directions / 4) == 0 ? 0.0 : 0.15;
+        for (const double way_m : ways_m) {
+            Move move{Action::Slide};
+            move.by_m = {way_m * std::cos(angle), way_m * std::sin(angle), 0.0};
+            if (was_over && !over_table(setup, after(move, setup, situation).table_from_prop)) {
+                break; // and farther is farther off
+            }
+            candidates.add(move, 0.6 + oblique + way_m / 0.15);
+        }
+    }
+}
+
+/// Slides to places all over the table: a zone that is a narrow strip lies between directions and ways.
+void add_places(const GuidanceSetup& setup, const GuidedSituation& situation, Candidates& candidates) {
+    constexpr int columns = 16;
+    constexpr int rows = 12;
+    constexpr double nearest_place_m = 0.02;
+    const glm::dvec2 here(situation.table_from_prop.translation);
+    for (int row = 0; row <= rows; ++row) {
+        for (int column = 0; column <= columns; ++column) {
+            const glm::dvec2 share(2.0 * column / columns - 1.0, 2.0 * row / rows - 1.0);
+            const glm::dvec2 way = share * setup.half_table_m - here;
+            if (glm::length(way) < nearest_place_m) {
+                continue;
+            }
+            Move move{Action::Slide};
+            move.by_m = {way, 0.0};
+            candidates.add(move, 0.8 + glm::length(way) / 0.15);
+        }
+    }
+}
+
+void add_turns(std::span<const double> turns_deg, Candidates& candidates) {
+    for (const double turn_deg : turns_deg) {
+        for (const double sign : {1.0, -1.0}) {
+            Move move{Action::Turn};
+            move.turn_rad = sign * turn_deg * degree;
+            candidates.add(move, 0.7 + turn_deg / 45.0);
+        }
+    }
+}
+
+void add_heights(std::span<const double> heights_m, const GuidanceSetup& setup,
+                 const GuidedSituation& situation, Candidates& candidates) {
+    const double room_below_m = lowest_m(setup.prop, situation.table_from_prop);
+    if (room_below_m > heights_m.front()) {
+        Move move{Action::Lower};
+        move.by_m.z = -room_below_m;
+        candidates.add(move, 0.9 + room_below_m / 0.15);
+    }
+    for (const double height_m : heights_m) {
+        Move move{Action::Raise};
+        move.by_m.z = height_m;
+        candidates.add(move, 1.0 + height_m / 0.15);
+        if (height_m <= room_below_m) {
+            move = {Action::Lower};
+            move.by_m.z = -height_m;
+            candidates.add(move, 0.9 + height_m / 0.15);
+        }
+    }
+}
+
+void add_standing(const GuidanceSetup& setup, const GuidedSituation& situation, Candidates& candidates) {
+    const bool leans = tilt_rad(situation.table_from_prop) > upright_within_rad;
+    if (leans) {
+        candidates.add({Action::Upright}, setup.in_hand ? 1.0 : 0.2);
+    } else if (!setup.in_hand && std::abs(situation.table_from_prop.translation.z) > down_within_m) {
+        candidates.add({Action::SetDown}, 0.2);
+    }
+}
+
+void add_walks(const GuidanceSetup& setup, Candidates& candidates) {
+    if (!setup.head_tracked) {
+        return;
+    }
+    for (const Side side : {Side::Front, Side::Right, Side::Back, Side::Left}) {
+        Move move{Action::ComeRound};
+        move.side = side;
+        candidates.add(move, 6.0);
+    }
+}
+
+} // namespace
+
+Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation, Part part) {
+    Candidates candidates;
+    add_standing(setup, situation, candidates);
+    // A visitor is asked for nothing else while a prop that belongs on the table is off it.
+    if (!setup.in_hand && !candidates.all().empty()) {
+        return candidates;
+    }
+    const bool fine = part != Part::Inner;
+    if (part == Part::Only) {
+        add_slides(fine_ways_m, 24, setup, situation, candidates);
+    } else if (part == Part::Inner) {
+        add_slides(coarse_ways_m, 8, setup, situation, candidates);
+    }
+    if (fine) {
+        add_places(setup, situation, candidates);
+    }
+    add_turns(fine ? std::span<const double>(fine_turns_deg) : coarse_turns_deg, candidates);
+    if (setup.in_hand) {
+        add_heights(fine ? std::span<const double>(fine_heights_m) : coarse_heights_m, setup, situation,
+                    candidates);
+    }
+    add_walks(setup, candidates);
+    return candidates;
+}
+
+} // namespace frustumscreen

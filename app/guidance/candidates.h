@@ -1,0 +1,41 @@
+/// The moves that guidance chooses from, in the visitor's own directions, each with the effort that it asks for.
+///
+/// Effort   about 1 for what is done with one calm movement of the hand.
+/// Threads  pure; any. Allocates nothing: the lists are of a fixed size.
+#pragma once
+
+#include "app/guidance/move.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace frustumscreen {
+
+struct Candidate {
+    Move move;
+    double effort = 0.0;
+};
+
+class Candidates {
+public:
+    static constexpr std::size_t most = 1000;
+
+    void add(const Move& move, double effort) {
+        if (count_ < most) {
+            list_[count_++] = {move, effort};
+        }
+    }
+    [[nodiscard]] std::span<const Candidate> all() const { return std::span(list_).first(count_); }
+
+private:
+    std::array<Candidate, most> list_{};
+    std::size_t count_ = 0;
+};
+
+/// Only: directions and amounts are fine. Last of a sequence: places all over the table. Inner: coarse, enough to find
+/// which moves follow one another.
+enum class Part { Only, Last, Inner };
+[[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation, Part part);
+
+} // namespace frustumscreen

@@ -1,0 +1,128 @@
+#include "app/guidance/face_reader.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// A point this near to the eye or behind it is taken as this near, in shares of the distance to the prop's middle.
+constexpr double nearest_share = 0.01;
+
+/// The sine at a corner is the height over the plane divided by the corner's distance.
+bool sees(const glm::dvec3& point, const PropFace& face, double least_sine) {
+    const double height = face.plane.distance(point);
+    if (!(height > 0.0)) {
+        return false;
+    }
+    double farthest = 0.0;
+    for (const glm::dvec3& corner : face.corners) {
+        const glm::dvec3 way = corner - point;
+        farthest = std::fmax(farthest, glm::dot(way, way));
+    }
+    return height * height >= least_sine * least_sine * farthest;
+}
+
+/// Where the eye and the projector are, seen from the prop.
+struct Views {
+    glm::dvec3 eye;
+    glm::dvec3 lens;
+    RigidTransform projector_from_prop;
+
+    Views(const GuidanceSetup& setup, const RigidTransform& projector_from_table,
+          const GuidedSituation& situation)
+        : projector_from_prop(projector_from_table * situation.table_from_prop) {
+        const RigidTransform prop_from_table = situation.table_from_prop.inverse();
+        eye = prop_from_table.point(situation.eye_m);
+        lens = prop_from_table.point(setup.table_from_projector.translation);
+    }
+    [[nodiscard]] bool seen(const PropFace& face) const {
+        return sees(eye, face, FaceReader::least_sine_of_sight);
+    }
+    [[nodiscard]] bool lit(const PropFace& face, const GuidanceSetup& setup) const {
+        const Pinhole& pinhole = setup.projector;
+        return sees(lens, face, setup.least_sine_of_light) &&
+               std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
+                   const auto pixel = pinhole.pixel(projector_from_prop.point(corner));
+                   return pixel && pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x <= pinhole.width &&
+                          pixel->y <= pinhole.height;
+               });
+    }
+};
+
+} // namespace
+
+FaceReader::FaceReader(GuidanceSetup setup)
+    : setup_(std::move(setup)), projector_from_table_(setup_.table_from_projector.inverse()) {
+    assert(setup_.prop.faces.size() <= 32);
+}
+
+FaceSets FaceReader::read(const GuidedSituation& situation) const {
+    const Views views(setup_, projector_from_table_, situation);
+    FaceSets sets;
+    for (std::size_t k = 0; k < setup_.prop.faces.size(); ++k) {
+        const PropFace& face = setup_.prop.faces[k];
+        sets.seen |= views.seen(face) ? std::uint32_t{1} << k : 0U;
+        sets.lit |= views.lit(face, setup_) ? std::uint32_t{1} << k : 0U;
+    }
+    return sets;
+}
+
+bool FaceReader::valid(const GuidedSituation& situation) const {
+    const Views views(setup_, projector_from_table_, situation);
+    return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(),
+                       [&](const PropFace& face) { return !views.seen(face) || views.lit(face, setup_); });
+}
+
+double FaceReader::area_px(const GuidedSituation& situation, std::uint32_t faces) const {
+    if (faces == 0) {
+        return 0.0;
+    }
+    const PropShape& prop = setup_.prop;
+    const glm::dvec3 eye = situation.table_from_prop.inverse().point(situation.eye_m);
+    const glm::dvec3 way = prop.middle - eye;
+    const double distance = std::fmax(glm::length(way), 1e-9);
+    const glm::dvec3 forward = way / distance;
+    const glm::dvec3 helper = std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, helper));
+    const glm::dvec3 up = glm::cross(right, forward);
+    double area = 0.0;
+    for (std::size_t k = 0; k < prop.faces.size(); ++k) {
+        if ((faces >> k & 1U) == 0) {
+            continue;
+        }
+        std::array<glm::dvec2, 4> seen{};
+        for (std::size_t c = 0; c < seen.size(); ++c) {
+            const glm::dvec3 to = prop.faces[k].corners[c] - eye;
+            const double depth = std::fmax(glm::dot(to, forward), nearest_share * distance);
+            seen[c] = glm::dvec2(glm::dot(to, right), glm::dot(to, up)) / depth;
+        }
+        double twice = 0.0;
+        for (std::size_t c = 0; c < seen.size(); ++c) {
+            const glm::dvec2& a = seen[c];
+            const glm::dvec2& b = seen[(c + 1) % seen.size()];
+            twice += a.x * b.y - b.x * a.y;
+        }
+        area += 0.5 * std::abs(twice);
+    }
+    return area * pixels_per_radian * pixels_per_radian;
+}
+
+std::uint32_t FaceReader::largest_of(const GuidedSituation& situation, std::uint32_t faces) const {
+    std::uint32_t largest = 0;
+    double most = 0.0;
+    for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
+        const std::uint32_t face = rest & (~rest + 1);
+        const double area = area_px(situation, face);
+        if (area > most) {
+            most = area;
+            largest = face;
+        }
+    }
+    return largest;
+}
+
+} // namespace frustumscreen

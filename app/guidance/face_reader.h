@@ -1,0 +1,73 @@
+/// Which of the prop's faces a visitor sees, and which of them the projector lights.
+///
+/// Seen     the eye is in front of the face's plane by a sine of at least `least_sine_of_sight` at every corner.
+/// Lit      so is the projector by `least_sine_of_light`, and all corners lie in its picture.
+/// Valid    every seen face is lit. The prop is convex, so no face hides or shades another.
+///
+/// Frames   table T, metres.
+/// Threads  pure; any. Allocates nothing.
+/// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// What a visitor can be guided in: the prop, its light and its room.
+struct GuidanceSetup {
+    PropShape prop;
+    Pinhole projector;
+    RigidTransform table_from_projector;
+    double least_sine_of_light = 0.035;
+    bool in_hand = false; ///< else it stands on the table, and the table's edge ends its way
+    glm::dvec2 half_table_m{0.4, 0.25};
+    bool head_tracked = true; ///< else nobody is asked to walk
+};
+
+struct GuidedSituation {
+    RigidTransform table_from_prop;
+    glm::dvec3 eye_m{0.0};
+};
+
+/// Sets of faces: bit k is face k of the prop.
+struct FaceSets {
+    std::uint32_t seen = 0;
+    std::uint32_t lit = 0;
+
+    [[nodiscard]] std::uint32_t unlit() const { return seen & ~lit; }
+    [[nodiscard]] bool valid() const { return unlit() == 0; }
+};
+
+class FaceReader {
+public:
+    static constexpr double least_sine_of_sight = 1e-3;
+    static constexpr double pixels_per_radian = 1000.0;
+
+    /// The prop has at most 32 faces.
+    explicit FaceReader(GuidanceSetup setup);
+
+    [[nodiscard]] const GuidanceSetup& setup() const { return setup_; }
+    [[nodiscard]] FaceSets read(const GuidedSituation& situation) const;
+    /// The same as `read(situation).valid()`, in a part of the time.
+    [[nodiscard]] bool valid(const GuidedSituation& situation) const;
+    /// Area of these faces in the picture of a pinhole at the eye that looks at the prop's middle, square pixels.
+    [[nodiscard]] double area_px(const GuidedSituation& situation, std::uint32_t faces) const;
+    /// Area of the seen and unlit faces.
+    [[nodiscard]] double unlit_px(const GuidedSituation& situation) const {
+        return area_px(situation, read(situation).unlit());
+    }
+    /// The face with the largest area of these, as a set; 0 of none.
+    [[nodiscard]] std::uint32_t largest_of(const GuidedSituation& situation, std::uint32_t faces) const;
+
+private:
+    GuidanceSetup setup_;
+    RigidTransform projector_from_table_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// The frames of a pose file that a person names on a command line.
+///
+/// Errors   the file is missing or is no pose file.
+/// Threads  any.
+#pragma once
+
+#include "app/tracking/pose_frames.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace frustumscreen {
+
+[[nodiscard]] Result<std::vector<Situation>> load_pose_frames(const std::filesystem::path& file,
+                                                              const glm::dvec3& default_eye_m);
+
+} // namespace frustumscreen
