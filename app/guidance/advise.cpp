@@ -20,9 +20,9 @@ constexpr double better_share = 0.97;
 constexpr double not_surely_valid = 1.0;
 constexpr double as_advised_already = -1.0;
 /// What replaces an advice that stands must help people who are even sloppier, or the two would take turns.
-constexpr double newcomers_margin = 1.2;
+constexpr double newcomers_margin = 1.25;
 /// People are looked at on a grid; a little more than its corners holds between them too.
-constexpr double usual_margin = 1.05;
+constexpr double usual_margin = 1.12;
 
 struct Found {
     Move move;
@@ -35,48 +35,49 @@ double stays(const std::optional<Standing>& standing, const Move& move) {
     return standing && alike(standing->move, move) ? as_advised_already : 0.0;
 }
 
-/// Calls `visit` with the ways in which people stand the prop up: only its yaw is theirs. It returns false to end.
-template <typename Visit> void for_each_standing(double off_rad, Visit visit) {
-    constexpr int to_each_side = 100; // what is unlit between two yaws can be a fifth of a degree wide
+/// Calls `visit` with what people do who turn the prop or stand it up: the angle is theirs, and whether they turn it about
+/// its middle. What is unlit between two angles can be a fifth of a degree wide. `visit` returns false to end.
+template <typename Visit> void for_each_angle(const Move& move, double margin, Visit visit) {
+    constexpr int to_each_side = 100;
+    const bool turns = move.action == Action::Turn;
     for (int k = -to_each_side; k <= to_each_side; ++k) {
+        const double share = margin * k / to_each_side;
         for (const bool about_origin : {false, true}) {
-            if (!visit(Execution{1.0, off_rad * k / to_each_side, 0.0, about_origin})) {
+            if (!visit(Execution{turns ? 1.0 + sloppy_amount * share : 1.0,
+                                 turns ? 0.0 : sloppy_direction_deg * degree * share, 0.0, about_origin})) {
                 return;
             }
         }
     }
 }
 
-/// The same for a turn, a way or a walk: the edges of what people do, and between.
+/// The same for a way or a walk: the edges of what people do, and between.
 template <typename Visit>
-void for_each_execution(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
+void for_each_way(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
     constexpr std::array<double, 7> amounts{0.0, -1.0, 1.0, -0.67, 0.67, -0.33, 0.33};
     constexpr std::array<double, 9> sides{0.0, -1.0, 1.0, -0.5, 0.5, -0.25, 0.25, -0.75, 0.75};
-    const double off_rad = margin * sloppy_direction_deg * degree;
-    if (move.action == Action::SetDown || move.action == Action::Upright) {
-        for_each_standing(off_rad, visit);
-        return;
-    }
-    const bool turns = move.action == Action::Turn;
     const bool vertical = move.action == Action::Raise || move.action == Action::Lower;
     const bool raised = setup.in_hand && (move.action == Action::Slide || vertical);
+    const double off_rad = margin * sloppy_direction_deg * degree;
     // A vertical way may lean to any side.
     const double aside_rad = vertical ? std::numbers::pi : off_rad;
     for (const double amount : amounts) {
         for (const double aside : sides) {
             for (const double rise : {0.0, -1.0, 1.0, -0.5, 0.5}) {
-                // A turn has no direction, but it may be about the prop's middle or about its bottom's.
-                const bool about_origin = turns && aside < 0.0;
-                if ((rise != 0.0 && !raised) || (turns && std::abs(aside) > 0.25)) {
-                    continue;
-                }
-                if (!visit(Execution{1.0 + margin * sloppy_amount * amount, turns ? 0.0 : aside_rad * aside,
-                                     off_rad * rise, about_origin})) {
+                if ((rise == 0.0 || raised) && !visit(Execution{1.0 + margin * sloppy_amount * amount,
+                                                                aside_rad * aside, off_rad * rise})) {
                     return;
                 }
             }
         }
     }
+}
+
+template <typename Visit>
+void for_each_execution(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
+    const bool by_angle =
+        move.action == Action::Turn || move.action == Action::SetDown || move.action == Action::Upright;
+    by_angle ? for_each_angle(move, margin, visit) : for_each_way(move, setup, margin, visit);
 }
 
 /// The best single move: valid if it is done well, and helpful however it is done.

@@ -1,5 +1,5 @@
 // Advice, followed as people follow it.
-#include "seeded_situations.h"
+#include "guided_props.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,7 @@ namespace frustumscreen {
 namespace {
 
 class AdviceOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {};
-INSTANTIATE_TEST_SUITE_P(EveryProp, AdviceOf,
-                         ::testing::Values(&frustum_on_table, &cube_in_hand, &wedge_on_table));
+INSTANTIATE_TEST_SUITE_P(EveryProp, AdviceOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
 
 TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
     const FaceReader reader(GetParam()());
@@ -16,7 +15,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
     int single = 0;
     int several = 0;
     for (int k = 0; k < 400; ++k) {
-        const GuidedSituation situation = situation_of(reader.setup(), seeded);
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = advise(reader, situation);
         EXPECT_EQ(advice.has_value(), !reader.read(situation).valid());
         if (!advice) {
@@ -28,7 +27,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
             continue;
         }
         for (int person_k = 0; person_k < 20; ++person_k) {
-            const Execution execution = person(advice->move, reader.setup(), seeded);
+            const Execution execution = seeded_person(advice->move, reader.setup(), seeded);
             const GuidedSituation next = after(advice->move, reader.setup(), situation, execution);
             EXPECT_TRUE(reader.valid(next) || reader.unlit_px(next) < reader.unlit_px(situation))
                 << "situation " << k << ": " << name_of(advice->move.action);
@@ -45,15 +44,15 @@ TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
     constexpr int situations = 200;
     constexpr int most_moves = 12; // of sloppy people; done well it takes up to four
     for (int k = 0; k < situations; ++k) {
-        GuidedSituation situation = situation_of(reader.setup(), seeded);
+        GuidedSituation situation = seeded_situation(reader.setup(), seeded);
         Advisor advisor(reader.setup());
         for (int moves = 0; moves < most_moves; ++moves) {
             const std::optional<Advice> advice = advisor.advise(situation);
             if (!advice) {
                 break;
             }
-            situation =
-                after(advice->move, reader.setup(), situation, person(advice->move, reader.setup(), seeded));
+            situation = after(advice->move, reader.setup(), situation,
+                              seeded_person(advice->move, reader.setup(), seeded));
         }
         left += reader.valid(situation) ? 0 : 1;
     }
@@ -67,7 +66,7 @@ TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
     Seeded seeded(13);
     int changes = 0;
     for (int walk = 0; walk < 12; ++walk) {
-        GuidedSituation situation = situation_of(reader.setup(), seeded);
+        GuidedSituation situation = seeded_situation(reader.setup(), seeded);
         const glm::dquat turn = glm::angleAxis(0.1 * std::numbers::pi / 180.0, glm::dvec3(0, 0, 1));
         const double azimuth = seeded.between(-3.0, 3.0);
         const glm::dvec3 step = 0.3e-3 * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -103,7 +102,7 @@ TEST_P(AdviceOf, IsRarelyLongerThanADenseSearchFinds) {
     int missed = 0;
     const int situations = setup.in_hand ? 100 : 1000; // few need several where it stands upright
     for (int k = 0; k < situations; ++k) {
-        const GuidedSituation situation = situation_of(setup, seeded);
+        const GuidedSituation situation = seeded_situation(setup, seeded);
         const std::optional<Advice> advice = advise(reader, situation);
         const bool stands = setup.in_hand || (tilt_rad(situation.table_from_prop) < upright_within_rad &&
                                               situation.table_from_prop.translation.z < 0.004);
@@ -128,7 +127,7 @@ TEST_P(AdviceOf, IsRarelyLongerThanADenseSearchFinds) {
 }
 
 TEST(Advice, NamesTheObviousMove) {
-    const FaceReader reader(frustum_on_table());
+    const FaceReader reader(frustum_setup());
     GuidedSituation situation;
     situation.eye_m = {0.0, -0.55, 0.5};
     EXPECT_FALSE(advise(reader, situation)); // the table's middle is lit

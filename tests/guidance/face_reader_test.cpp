@@ -1,5 +1,5 @@
 // Faces seen and lit: against the definition, corner by corner in table coordinates, and against a ray cast.
-#include "seeded_situations.h"
+#include "guided_props.h"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,7 @@ bool in_picture(const GuidanceSetup& setup, const GuidedSituation& situation, co
 }
 
 class FacesOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {};
-INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf,
-                         ::testing::Values(&frustum_on_table, &cube_in_hand, &wedge_on_table));
+INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
 
 TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
     const FaceReader reader(GetParam()());
@@ -44,7 +43,7 @@ TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
     int lit = 0;
     int dark = 0;
     for (int k = 0; k < 5000; ++k) {
-        const GuidedSituation situation = situation_of(setup, seeded);
+        const GuidedSituation situation = seeded_situation(setup, seeded);
         const FaceSets sets = reader.read(situation);
         EXPECT_EQ(sets.valid(), reader.valid(situation));
         for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
@@ -102,7 +101,7 @@ TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
     const FaceReader reader(setup);
     Seeded seeded(5);
     for (int k = 0; k < 12; ++k) {
-        const GuidedSituation situation = situation_of(setup, seeded);
+        const GuidedSituation situation = seeded_situation(setup, seeded);
         const std::uint32_t seen = reader.read(situation).seen;
         const double traced = traced_px(setup, situation, seen);
         const double area = reader.area_px(situation, seen);

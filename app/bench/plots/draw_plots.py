@@ -235,6 +235,21 @@ def draw_step_error(path):
     save_column(path.with_suffix(".svg"), [smoothers, program])
 
 
+def draw_guidance(path):
+    rows = read_table(path)
+    panels = []
+    for prop in different(row["prop"] for row in rows):
+        panel = Panel(f"{prop}: until the picture is whole again", "seconds", "share of the losses mended, %",
+                      log=False, limits=[])
+        for k, adviser in enumerate(different(row["adviser"] for row in rows)):
+            own = [row for row in rows if row["prop"] == prop and row["adviser"] == adviser]
+            whole = 100.0 * float(own[0]["whole_share"])
+            points = [(float(row["mended_s"]), 100.0 * float(row["quantile"])) for row in own]
+            panel.series.append(Series(f"{adviser}: whole for {whole:.0f} % of the time", points, k, ""))
+        panels.append(panel)
+    save_column(path.with_suffix(".svg"), panels)
+
+
 def draw_setup(path):
     rows = read_table(path)
     now, choices = rows[0], rows[1:]
@@ -257,7 +272,8 @@ def draw_setup(path):
 
 
 TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_": draw_scaling,
-          "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup}
+          "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup,
+          "guidance": draw_guidance}
 
 
 @contextmanager

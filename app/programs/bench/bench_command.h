@@ -130,5 +130,7 @@ template <typename Measure, typename Table, typename Csv>
 [[nodiscard]] BenchCommand latency_command(CLI::App& app);
 /// Which prop and projector suit a table.
 [[nodiscard]] BenchCommand setup_command(CLI::App& app);
+/// Whether advice helps visitors.
+[[nodiscard]] BenchCommand guidance_command(CLI::App& app);
 
 } // namespace frustumscreen

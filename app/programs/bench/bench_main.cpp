@@ -21,7 +21,8 @@ int run(int argc, char** argv) {
     });
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
-                                 counts_command(app),     latency_command(app),   setup_command(app)};
+                                 counts_command(app),     latency_command(app),   setup_command(app),
+                                 guidance_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,175 @@
+#include "app/bench/guidance/guidance_report.h"
+
+#include "app/bench/guidance/seeded_situations.h"
+#include "firmware_host/base/time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t most_moves = 12;
+constexpr double most_p95_s = 6.0;
+constexpr double least_whole = 0.95;
+
+double quantile(const std::vector<double>& ascending, double share) {
+    if (ascending.empty()) {
+        return 0.0;
+    }
+    const double place = share * static_cast<double>(ascending.size() - 1);
+    return ascending[static_cast<std::size_t>(std::lround(place))];
+}
+
+AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
+                  const std::function<void(double)>& progress) {
+    AdviceProof proof;
+    proof.situations = options.situations;
+    proof.mended_after.assign(most_moves, 0);
+    Seeded seeded(options.seed);
+    std::vector<double> times_ms;
+    for (int k = 0; k < options.situations; ++k) {
+        if (k % 256 == 0) {
+            progress(static_cast<double>(k) / options.situations);
+        }
+        GuidedSituation situation = seeded_situation(setup, seeded);
+        Advisor advisor(setup);
+        const FaceReader& reader = advisor.reader();
+        std::size_t moves = 0;
+        for (; !reader.valid(situation) && moves < most_moves; ++moves) {
+            const MonotonicTime begun = monotonic_now();
+            const Advice advice = advisor.advise(situation).value_or(Advice{});
+            times_ms.push_back(1e3 * to_seconds(monotonic_now() - begun));
+            if (advice.move.action == Action::Wait) {
+                proof.without_advice += moves == 0 ? 1 : 0;
+                moves = most_moves;
+                break;
+            }
+            const GuidedSituation next =
+                after(advice.move, setup, situation, seeded_person(advice.move, setup, seeded));
+            if (advice.steps == 1) {
+                ++proof.single;
+                const bool helped = reader.valid(next) || reader.unlit_px(next) < reader.unlit_px(situation);
+                proof.failed += helped ? 0 : 1;
+            }
+            situation = next;
+        }
+        if (!reader.valid(situation)) {
+            ++proof.never;
+        } else if (moves == 0) {
+            ++proof.valid;
+        } else {
+            ++proof.mended_after[moves - 1];
+        }
+    }
+    std::sort(times_ms.begin(), times_ms.end());
+    proof.median_ms = quantile(times_ms, 0.5);
+    proof.p99_ms = quantile(times_ms, 0.99);
+    return proof;
+}
+
+VisitsOf visits(const GuidanceSetup& setup, Adviser adviser, const GuidanceOptions& options,
+                const std::function<void(double)>& progress) {
+    VisitsOf all{adviser, {}, 0.0, 0.0};
+    for (int k = 0; k < options.visitors; ++k) {
+        progress(static_cast<double>(k) / options.visitors);
+        const VisitResult one =
+            simulate_visit(setup, adviser, options.seed + static_cast<std::uint64_t>(k), options.seconds);
+        all.mended_s.insert(all.mended_s.end(), one.mended_s.begin(), one.mended_s.end());
+        all.whole_share += one.whole_share / options.visitors;
+        all.advices_a_minute += 60.0 * one.advices / one.seconds / options.visitors;
+    }
+    std::sort(all.mended_s.begin(), all.mended_s.end());
+    return all;
+}
+
+double percent(double part, double whole) {
+    return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
+} // namespace
+
+double VisitsOf::quantile_s(double share) const {
+    return quantile(mended_s, share);
+}
+
+GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
+                            const GuidanceOptions& options, const std::function<void(double)>& progress) {
+    constexpr double proof_share = 0.5;
+    GuidedProp prop{name, prove(setup, options, [&](double done) { progress(proof_share * done); }), {}};
+    constexpr std::array advisers{Adviser::Exhibit, Adviser::Paper, Adviser::None};
+    for (std::size_t k = 0; k < advisers.size(); ++k) {
+        prop.visits.push_back(visits(setup, advisers.at(k), options, [&](double done) {
+            progress(proof_share + (1.0 - proof_share) * (static_cast<double>(k) + done) / advisers.size());
+        }));
+    }
+    return prop;
+}
+
+std::string guidance_table(const GuidedProp& prop) {
+    const AdviceProof& proof = prop.proof;
+    const auto share = [&](int count) { return percent(count, proof.situations); };
+    int later = 0;
+    for (std::size_t k = 3; k < proof.mended_after.size(); ++k) {
+        later += proof.mended_after[k];
+    }
+    std::string text = fmt::format(
+        "{}: {} situations, followed by people whose direction is up to 20 degrees and amount up to 40 % "
+        "off\n"
+        "  whole already {:.2f} %, after one move {:.2f} %, two {:.2f} %, three {:.2f} %, more {:.2f} %, "
+        "never {:.3f} %"
+        " ({} without any advice)\n"
+        "  advices of a single move: {}, of which {} made nothing better; found in {:.2f} ms, 99th "
+        "percentile {:.2f} ms\n",
+        prop.name, proof.situations, share(proof.valid), share(proof.mended_after[0]),
+        share(proof.mended_after[1]), share(proof.mended_after[2]), share(later), share(proof.never),
+        proof.without_advice, proof.single, proof.failed, proof.median_ms, proof.p99_ms);
+    text += fmt::format("  {:<22} {:>16} {:>16} {:>12} {:>18}\n", "simulated visitors", "mended, median",
+                        "95th percentile", "whole", "advices a minute");
+    for (const VisitsOf& visits : prop.visits) {
+        text += fmt::format("  {:<22} {:>14.1f} s {:>14.1f} s {:>10.1f} % {:>18.1f}\n",
+                            name_of(visits.adviser), visits.quantile_s(0.5), visits.quantile_s(0.95),
+                            100.0 * visits.whole_share, visits.advices_a_minute);
+    }
+    return text;
+}
+
+std::string guidance_csv(const std::vector<GuidedProp>& props) {
+    std::string csv = "prop,adviser,quantile,mended_s,whole_share,advices_a_minute\n";
+    for (const GuidedProp& prop : props) {
+        for (const VisitsOf& visits : prop.visits) {
+            for (int k = 1; k < 100; ++k) {
+                csv += fmt::format("{},{},{:.2f},{:.3f},{:.4f},{:.2f}\n", prop.name, name_of(visits.adviser),
+                                   0.01 * k, visits.quantile_s(0.01 * k), visits.whole_share,
+                                   visits.advices_a_minute);
+            }
+        }
+    }
+    return csv;
+}
+
+std::vector<Verdict> judge(const GuidedProp& prop) {
+    const VisitsOf& ours = prop.visits[0];
+    const VisitsOf& paper = prop.visits[1];
+    const double p95_s = ours.quantile_s(0.95);
+    return {
+        {prop.name + ": every advice of a single move helps, however it is carried out",
+         fmt::format("{} of {} do not", prop.proof.failed, prop.proof.single), prop.proof.failed == 0},
+        {prop.name + ": every situation is mended",
+         fmt::format("{} of {} are not within {} moves", prop.proof.never, prop.proof.situations, most_moves),
+         prop.proof.never == 0},
+        {fmt::format("{}: 95 % of the losses mended within {:g} s", prop.name, most_p95_s),
+         fmt::format("{:.1f} s", p95_s), p95_s <= most_p95_s},
+        {fmt::format("{}: whole for {:g} % of the time", prop.name, 100.0 * least_whole),
+         fmt::format("{:.1f} %", 100.0 * ours.whole_share), ours.whole_share >= least_whole},
+        {prop.name + ": better than the paper's rule",
+         fmt::format("95th percentile {:.1f} s against {:.1f} s, whole {:.1f} % against {:.1f} %", p95_s,
+                     paper.quantile_s(0.95), 100.0 * ours.whole_share, 100.0 * paper.whole_share),
+         p95_s < paper.quantile_s(0.95) && ours.whole_share > paper.whole_share}};
+}
+
+} // namespace frustumscreen

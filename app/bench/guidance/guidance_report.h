@@ -1,0 +1,61 @@
+/// frustumscreen-bench guidance: whether each advice helps, and whether advice helps people.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/bench/guidance/visitor.h"
+#include "app/bench/measures/verdicts.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct GuidanceOptions {
+    int situations = 100000; ///< for each prop
+    int visitors = 200;      ///< for each prop and adviser
+    double seconds = 60.0;   ///< of each visit
+    std::uint64_t seed = 1;
+};
+
+/// Advice for seeded situations, followed by people who are sloppy.
+struct AdviceProof {
+    int situations = 0;
+    int valid = 0;                 ///< already
+    std::vector<int> mended_after; ///< [k]: whole after k + 1 moves
+    int never = 0;                 ///< not within as many moves as `mended_after` has
+    int without_advice = 0;        ///< of the situations: no sequence was found
+    long single = 0;               ///< advices of one move that were carried out
+    long failed = 0;               ///< of these: neither whole nor a smaller unlit area
+    double median_ms = 0.0;        ///< to find an advice
+    double p99_ms = 0.0;
+};
+
+struct VisitsOf {
+    Adviser adviser = Adviser::None;
+    std::vector<double> mended_s; ///< ascending
+    double whole_share = 0.0;
+    double advices_a_minute = 0.0;
+    /// Seconds within which this share of the losses was mended.
+    [[nodiscard]] double quantile_s(double share) const;
+};
+
+struct GuidedProp {
+    std::string name;
+    AdviceProof proof;
+    std::vector<VisitsOf> visits;
+};
+
+/// `progress`: the share that is done.
+[[nodiscard]] GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
+                                          const GuidanceOptions& options,
+                                          const std::function<void(double)>& progress);
+
+[[nodiscard]] std::string guidance_table(const GuidedProp& prop);
+[[nodiscard]] std::string guidance_csv(const std::vector<GuidedProp>& props);
+/// The targets: no advice that fails, 95 % of the losses mended within 6 s, the picture whole for 95 % of the time.
+[[nodiscard]] std::vector<Verdict> judge(const GuidedProp& prop);
+
+} // namespace frustumscreen

@@ -1,0 +1,67 @@
+#include "app/bench/guidance/paper_rule.h"
+
+#include "app/guidance/candidates.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <limits>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double usual_way_m = 0.10;
+constexpr double usual_turn_rad = std::numbers::pi / 6.0;
+
+/// The same action with the amount that a person takes who was told none.
+Move without_amount(Move move) {
+    if (move.action == Action::Turn) {
+        move.turn_rad = move.turn_rad > 0.0 ? usual_turn_rad : -usual_turn_rad;
+    } else if (move.action == Action::Slide || move.action == Action::Raise || move.action == Action::Lower) {
+        move.by_m = glm::normalize(move.by_m) * usual_way_m;
+    }
+    return move;
+}
+
+/// Turns the face that cannot be opened by one action towards the projector.
+Move towards_light(const FaceReader& reader, const GuidedSituation& situation, std::uint32_t face) {
+    const GuidanceSetup& setup = reader.setup();
+    Move move{Action::Turn};
+    for (std::size_t k = 0; k < setup.prop.faces.size(); ++k) {
+        if ((face >> k & 1U) != 0) {
+            const glm::dvec3 normal = situation.table_from_prop.direction(setup.prop.faces[k].plane.normal);
+            const glm::dvec3 way =
+                setup.table_from_projector.translation - situation.table_from_prop.translation;
+            const bool left = normal.x * way.y - normal.y * way.x > 0.0;
+            move.turn_rad = left ? usual_turn_rad : -usual_turn_rad;
+        }
+    }
+    return move;
+}
+
+} // namespace
+
+std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation& situation) {
+    const FaceSets now = reader.read(situation);
+    if (now.valid()) {
+        return std::nullopt;
+    }
+    const std::uint32_t largest = reader.largest_of(situation, now.unlit());
+    const std::uint32_t valid = now.seen & now.lit;
+    std::optional<Move> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates(reader.setup(), situation, Part::Only).all()) {
+        if (candidate.move.action == Action::ComeRound || candidate.effort >= least) {
+            continue;
+        }
+        const FaceSets next = reader.read(after(candidate.move, reader.setup(), situation));
+        if ((next.unlit() & (largest | valid)) == 0) {
+            best = candidate.move;
+            least = candidate.effort;
+        }
+    }
+    return without_amount(best ? *best : towards_light(reader, situation, largest));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+/// Situations from a seed: a frustum on a table as visitors leave it, a cube in a hand; and people who follow advice as
+/// people do.
+///
+/// Frames   table T, metres, radians.
+/// Threads  values; any.
+#pragma once
+
+#include "app/guidance/advise.h"
+#include "app/settings/settings.h"
+
+#include <cstdint>
+#include <random>
+
+namespace frustumscreen {
+
+class Seeded {
+public:
+    explicit Seeded(std::uint64_t seed) : generator_(seed) {}
+    double between(double low, double high) { return low + (high - low) * share_(generator_); }
+    double normal() { return normal_(generator_); }
+    bool happens(double probability) { return share_(generator_) < probability; }
+
+private:
+    std::mt19937_64 generator_;
+    std::uniform_real_distribution<double> share_{0.0, 1.0};
+    std::normal_distribution<double> normal_;
+};
+
+/// A small cube under a projector that hangs low, as in config/cube.toml.
+[[nodiscard]] Settings cube_in_hand();
+
+/// As somebody left it: on the table, half of the time lifted, a quarter of it leaning or lying; in the hand turned in any way.
+[[nodiscard]] GuidedSituation seeded_situation(const GuidanceSetup& setup, Seeded& seeded);
+
+/// As a person may carry it out: direction within 20 degrees, amount within 40 per cent.
+[[nodiscard]] Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded);
+
+} // namespace frustumscreen

@@ -1,0 +1,176 @@
+#include "app/guidance/guide.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double metres_per_radian = 0.15; ///< a turn and a slide that take about as long
+
+/// What is left to do, in metres.
+double effort_left(const Move& move) {
+    switch (move.action) {
+    case Action::Slide:
+    case Action::Raise:
+    case Action::Lower:
+        return glm::length(move.by_m);
+    case Action::Turn:
+        return std::abs(move.turn_rad) * metres_per_radian;
+    default:
+        return 0.0;
+    }
+}
+
+} // namespace
+
+/// A prop of the table that lies so that the visitor sees none of its faces shows nothing, though nothing is unlit.
+bool Guide::needs_help(const GuidedSituation& situation, Sensing sensing) {
+    if (sensing != Sensing::Good) {
+        return true;
+    }
+    faces_ = advisor_.reader().read(situation);
+    return !faces_.valid() || (faces_.seen == 0 && !advisor_.reader().setup().in_hand);
+}
+
+void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
+    const Move before = guidance_.move;
+    const bool was_sensing = guidance_.sensing == sensing;
+    guidance_.sensing = sensing;
+    guidance_.situation = situation;
+    guidance_.move = {};
+    guidance_.steps = 0;
+    if (sensing == Sensing::Good) {
+        const std::optional<Advice> advice = advisor_.advise(situation);
+        guidance_.move = advice ? advice->move : Move{Action::Upright};
+        guidance_.steps = advice ? advice->steps : 1;
+    }
+    const double left = effort_left(guidance_.move);
+    if (guidance_.stage == Stage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
+        // Another advice begins as a picture, however far the one before had come.
+        guidance_.stage = Stage::Picture;
+        guidance_.since = now;
+        stage_since_ = now;
+        nearest_effort_ = left;
+        return;
+    }
+    constexpr double nearer_m = 0.01;
+    if (left < nearest_effort_ - nearer_m) {
+        nearest_effort_ = left;
+        stage_since_ = now; // it is being followed
+    }
+}
+
+void Guide::raise_stage(MonotonicTime now, bool may_speak) {
+    guidance_.speak = false;
+    if (guidance_.stage == Stage::Picture && now - stage_since_ >= until_text) {
+        guidance_.stage = Stage::Text;
+        stage_since_ = now;
+    }
+    if (!may_speak) {
+        return;
+    }
+    const bool first = guidance_.stage == Stage::Text && now - stage_since_ >= until_voice;
+    const bool again = guidance_.stage == Stage::Voice && now - stage_since_ >= pause_;
+    if ((first || again) && (!spoken_ || now - *spoken_ >= pause_)) {
+        pause_ = spoken_ ? std::min(2 * pause_, longest_pause) : pause_;
+        guidance_.stage = Stage::Voice;
+        guidance_.speak = true;
+        spoken_ = now;
+        stage_since_ = now;
+    }
+}
+
+const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
+                            bool may_speak) {
+    if (!needs_help(situation, sensing)) {
+        guidance_ = {};
+        needed_since_.reset();
+        next_look_.reset();
+        // Who managed for as long as a long pause is as new.
+        if (spoken_ && now - *spoken_ > longest_pause) {
+            spoken_.reset();
+            pause_ = first_pause;
+        }
+        return guidance_;
+    }
+    needed_since_ = needed_since_ ? needed_since_ : now;
+    if (now - *needed_since_ < patience) {
+        return guidance_;
+    }
+    if (!next_look_ || now >= *next_look_ || guidance_.sensing != sensing) {
+        look(now, situation, sensing);
+        next_look_ = now + looks_every;
+    }
+    raise_stage(now, may_speak);
+    return guidance_;
+}
+
+namespace {
+
+std::string_view slide_key(const Guidance& guidance) {
+    constexpr double a_little_m = 0.06;
+    const GuidedSituation& situation = guidance.situation;
+    const glm::dvec2 ahead(situation.table_from_prop.translation - situation.eye_m);
+    const glm::dvec2 way(guidance.move.by_m);
+    const double forward = glm::dot(way, ahead);
+    const double left = ahead.x * way.y - ahead.y * way.x;
+    const bool little = glm::length(way) < a_little_m;
+    if (std::abs(forward) >= std::abs(left)) {
+        return forward > 0.0 ? (little ? "slide_farther_a_little" : "slide_farther")
+                             : (little ? "slide_nearer_a_little" : "slide_nearer");
+    }
+    return left > 0.0 ? (little ? "slide_left_a_little" : "slide_left")
+                      : (little ? "slide_right_a_little" : "slide_right");
+}
+
+std::string_view turn_key(const Guidance& guidance) {
+    constexpr double a_little_rad = 20.0 * std::numbers::pi / 180.0;
+    const bool little = std::abs(guidance.move.turn_rad) < a_little_rad;
+    return guidance.move.turn_rad > 0.0
+               ? (little ? "turn_counter_clockwise_a_little" : "turn_counter_clockwise")
+               : (little ? "turn_clockwise_a_little" : "turn_clockwise");
+}
+
+/// The way round the table is the shorter one, seen from where the visitor stands.
+std::string_view walk_key(const Guidance& guidance) {
+    if (guidance.move.side == Side::Front) {
+        return "come_to_front";
+    }
+    const glm::dvec3& eye = guidance.situation.eye_m;
+    const double now = std::atan2(eye.y, eye.x);
+    const double there = 0.5 * std::numbers::pi * (static_cast<double>(guidance.move.side) - 1.0);
+    return std::sin(there - now) >= 0.0 ? "come_round_right" : "come_round_left";
+}
+
+} // namespace
+
+std::string_view words_key(const Guidance& guidance) {
+    if (guidance.sensing != Sensing::Good) {
+        return guidance.sensing == Sensing::PropLost ? "uncover" : "show_your_head";
+    }
+    switch (guidance.move.action) {
+    case Action::Slide:
+        return slide_key(guidance);
+    case Action::Turn:
+        return turn_key(guidance);
+    case Action::SetDown:
+        return "set_down";
+    case Action::Upright:
+        return "stand_upright";
+    case Action::ComeRound:
+        return walk_key(guidance);
+    case Action::Raise:
+        return "raise";
+    case Action::Lower:
+        return "lower";
+    case Action::Wait:
+        break;
+    }
+    return "wait_tracker";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,74 @@
+/// Guides one visitor: when an advice is given, how it is given, and when it is quiet.
+///
+/// One advice at a time. First it is a picture on the table, then a text beside it, then it is spoken. It goes on
+/// to the next of these only while the visitor does not follow it, and what is spoken is said again after pauses that grow.
+/// It ends as soon as every seen face is lit. It does not begin for what lasts only a moment.
+///
+/// Frames   table T, metres.
+/// Time     `now` never goes back; the rhythm of the steps does not matter, but for how often the advice is looked for.
+/// Threads  values; one caller. Allocates nothing. A step that looks for advice takes some milliseconds, others
+///          microseconds.
+#pragma once
+
+#include "app/guidance/advise.h"
+#include "firmware_host/base/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// How well the tracker knows the prop and the visitor.
+enum class Sensing : std::uint8_t { Good, PropLost, HeadLost };
+
+enum class Stage : std::uint8_t { Quiet, Picture, Text, Voice };
+
+struct Guidance {
+    Stage stage = Stage::Quiet;
+    Move move; ///< of what is advised; Wait if only `sensing` says why
+    int steps = 0;
+    Sensing sensing = Sensing::Good;
+    bool speak = false;        ///< at this step the sentence begins to be spoken
+    MonotonicTime since;       ///< when the picture appeared
+    GuidedSituation situation; ///< that the advice was found for
+};
+
+class Guide {
+public:
+    static constexpr Nanoseconds patience = std::chrono::milliseconds(400);
+    static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);  ///< from the picture on
+    static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000); ///< from the text on
+    static constexpr Nanoseconds first_pause = std::chrono::seconds(8);
+    static constexpr Nanoseconds longest_pause = std::chrono::seconds(60);
+    static constexpr Nanoseconds looks_every = std::chrono::milliseconds(250);
+
+    explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
+
+    /// `may_speak`: false while something else is being said.
+    [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
+                                       bool may_speak);
+    /// The faces of the latest step.
+    [[nodiscard]] const FaceSets& faces() const { return faces_; }
+    [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
+
+private:
+    [[nodiscard]] bool needs_help(const GuidedSituation& situation, Sensing sensing);
+    void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
+    void raise_stage(MonotonicTime now, bool may_speak);
+
+    Advisor advisor_;
+    FaceSets faces_;
+    Guidance guidance_;
+    std::optional<MonotonicTime> needed_since_;
+    std::optional<MonotonicTime> next_look_;
+    MonotonicTime stage_since_;           ///< or since the visitor last came nearer
+    double nearest_effort_ = 0.0;         ///< what was left to do, at its least
+    std::optional<MonotonicTime> spoken_; ///< when it was last said
+    Nanoseconds pause_ = first_pause;
+};
+
+/// The sentence's key in the exhibit's own words (assets_baked/texts/words), in the visitor's own directions.
+[[nodiscard]] std::string_view words_key(const Guidance& guidance);
+
+} // namespace frustumscreen

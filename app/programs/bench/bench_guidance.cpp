@@ -1,0 +1,63 @@
+#include "app/bench/guidance/guidance_report.h"
+#include "app/bench/guidance/seeded_situations.h"
+#include "app/exhibit/guidance_setup.h"
+#include "app/programs/bench/bench_command.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    std::filesystem::path config;
+    GuidanceOptions options;
+};
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    std::vector<std::pair<std::string, Settings>> props{{"frustum on the table", Settings{}},
+                                                        {"cube in the hand", cube_in_hand()}};
+    if (!arguments.config.empty()) {
+        const Result<CheckedSettings> checked = load_settings(arguments.config);
+        if (!checked) {
+            return tl::unexpected<Error>(checked.error());
+        }
+        props = {{arguments.config.stem().string(), **checked}};
+    }
+    std::vector<GuidedProp> results;
+    for (const auto& [name, settings] : props) {
+        results.push_back(
+            measure_guidance(name, guidance_setup(settings), arguments.options,
+                             [&progress, &name = name](double done) { progress.show(name, done); }));
+        progress.clear();
+        fmt::print("{}{}\n", guidance_table(results.back()), lines_of(judge(results.back())));
+    }
+    Result<void> written = write_all(arguments.out, {{"guidance.csv", guidance_csv(results)}});
+    return written ? draw_all(arguments.out, {"guidance.csv"}) : written;
+}
+
+} // namespace
+
+BenchCommand guidance_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("guidance", "whether advice helps: seeded situations and simulated visitors");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("--out", arguments->out, "folder for the table and the plot")->required();
+    command->add_option("--config", arguments->config,
+                        "settings; without it the shipped set-up and a cube in the hand");
+    command->add_option("--situations", arguments->options.situations, "seeded situations of each prop")
+        ->check(CLI::Range(1, 10000000))
+        ->capture_default_str();
+    command->add_option("--visitors", arguments->options.visitors, "of each prop and kind of advice")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--seconds", arguments->options.seconds, "of each visit")
+        ->check(CLI::Range(5.0, 3600.0))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->options.seed, "of situations and visitors")
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,126 @@
+// When advice is given, and how: under a simulated clock.
+#include "app/guidance/guide.h"
+#include "guided_props.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+GuidedSituation standing_at(double x, double y, double yaw = 0.0) {
+    GuidedSituation situation;
+    situation.eye_m = {0.0, -0.55, 0.5};
+    situation.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x, y, 0.0}};
+    return situation;
+}
+const GuidedSituation good = standing_at(0.0, 0.0);
+const GuidedSituation right_of_the_beam = standing_at(0.3, 0.0);
+
+class GuideTest : public ::testing::Test {
+protected:
+    const Guidance& at(Nanoseconds time, const GuidedSituation& situation, Sensing sensing = Sensing::Good,
+                       bool may_speak = true) {
+        for (; time_ < time; time_ += milliseconds(20)) {
+            const Guidance& guidance = guide_.step(MonotonicTime(time_), situation, sensing, may_speak);
+            spoken_ += guidance.speak ? 1 : 0;
+            stages_.insert(guidance.stage);
+        }
+        return guide_.step(MonotonicTime(time), situation, sensing, may_speak);
+    }
+    Guide guide_{frustum_setup()};
+    Nanoseconds time_{0};
+    int spoken_ = 0;
+    std::set<Stage> stages_;
+};
+
+TEST_F(GuideTest, IsQuietWhileEverythingIsLit) {
+    EXPECT_EQ(at(seconds(30), good).stage, Stage::Quiet);
+    EXPECT_EQ(stages_, std::set<Stage>{Stage::Quiet});
+}
+
+TEST_F(GuideTest, GoesFromPictureToTextToVoice) {
+    at(seconds(1), good);
+    EXPECT_EQ(at(milliseconds(1380), right_of_the_beam).stage, Stage::Quiet);
+    EXPECT_EQ(at(milliseconds(1500), right_of_the_beam).stage, Stage::Picture);
+    EXPECT_EQ(at(milliseconds(2800), right_of_the_beam).stage, Stage::Picture);
+    EXPECT_EQ(at(milliseconds(3200), right_of_the_beam).stage, Stage::Text);
+    EXPECT_EQ(spoken_, 0);
+    EXPECT_EQ(at(milliseconds(6600), right_of_the_beam).stage, Stage::Voice);
+    EXPECT_EQ(spoken_, 1);
+    EXPECT_EQ(
+        words_key(guide_.step(MonotonicTime(milliseconds(6600)), right_of_the_beam, Sensing::Good, true)),
+        "slide_left");
+}
+
+TEST_F(GuideTest, ForgetsWhatLastsAMoment) {
+    at(seconds(1), good);
+    at(milliseconds(1300), right_of_the_beam);
+    at(seconds(5), good);
+    EXPECT_EQ(stages_, std::set<Stage>{Stage::Quiet});
+}
+
+TEST_F(GuideTest, IsQuietAtOnceWhenTheVisitorHasManaged) {
+    at(seconds(10), right_of_the_beam);
+    EXPECT_EQ(at(seconds(10), good).stage, Stage::Quiet);
+}
+
+TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
+    at(seconds(20), right_of_the_beam);
+    EXPECT_EQ(spoken_, 2); // at 4.9 s and 8 s later
+    at(seconds(120), right_of_the_beam);
+    EXPECT_GE(spoken_, 4);
+    EXPECT_LE(spoken_, 5); // 16, 32 and 60 s later
+}
+
+TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
+    at(seconds(60), right_of_the_beam, Sensing::Good, false);
+    EXPECT_EQ(spoken_, 0);
+    EXPECT_EQ(stages_.count(Stage::Text), 1U); // but it shows
+}
+
+TEST_F(GuideTest, WaitsWhileItIsFollowed) {
+    // 2 cm each second towards the beam: slow, but followed.
+    for (int k = 0; k < 8; ++k) {
+        at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
+    }
+    EXPECT_EQ(stages_.count(Stage::Voice), 0U);
+}
+
+TEST_F(GuideTest, SaysWhatIsMissing) {
+    EXPECT_EQ(words_key(at(seconds(3), good, Sensing::PropLost)), "uncover");
+    EXPECT_EQ(words_key(at(seconds(6), good, Sensing::HeadLost)), "show_your_head");
+    EXPECT_EQ(at(seconds(7), good).stage, Stage::Quiet);
+}
+
+TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {
+    GuidedSituation upside_down = good;
+    upside_down.table_from_prop = {glm::angleAxis(3.1, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.155}};
+    EXPECT_EQ(words_key(at(seconds(1), upside_down)), "stand_upright");
+}
+
+/// The visitor's own left and right, from every side of the table.
+TEST(AdviceWords, AreInTheVisitorsDirections) {
+    for (int side = 0; side < 4; ++side) {
+        const glm::dquat turn = glm::angleAxis(0.5 * std::numbers::pi * side, glm::dvec3(0, 0, 1));
+        Guidance guidance;
+        guidance.stage = Stage::Picture;
+        guidance.situation.eye_m = turn * glm::dvec3(0.0, -0.6, 0.5);
+        const auto key = [&](const glm::dvec3& way) {
+            guidance.move = {Action::Slide, turn * way};
+            return std::string(words_key(guidance));
+        };
+        EXPECT_EQ(key({-0.2, 0.01, 0.0}), "slide_left");
+        EXPECT_EQ(key({0.04, 0.01, 0.0}), "slide_right_a_little");
+        EXPECT_EQ(key({0.0, 0.3, 0.0}), "slide_farther");
+        EXPECT_EQ(key({0.01, -0.03, 0.0}), "slide_nearer_a_little");
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,41 @@
+/// The props that guidance is tested with: a frustum on a table, a cube in a hand, and any other convex prop.
+#pragma once
+
+#include "app/bench/guidance/seeded_situations.h"
+#include "app/exhibit/guidance_setup.h"
+
+#include <numbers>
+
+namespace frustumscreen {
+
+inline GuidanceSetup frustum_setup() {
+    return guidance_setup(Settings{});
+}
+
+inline GuidanceSetup cube_setup() {
+    return guidance_setup(cube_in_hand());
+}
+
+/// A wedge: no two of its sides are alike.
+inline GuidanceSetup wedge_setup() {
+    GuidanceSetup setup = frustum_setup();
+    PropShape& prop = setup.prop;
+    const glm::dmat4 shear(glm::dvec4(0.6, 0.0, 0.0, 0.0), glm::dvec4(0.1, 0.7, 0.0, 0.0),
+                           glm::dvec4(0.15, -0.1, 0.9, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    const auto moved = [&](const glm::dvec3& p) { return glm::dvec3(shear * glm::dvec4(p, 1.0)); };
+    for (glm::dvec3& corner : prop.corners) {
+        corner = moved(corner);
+    }
+    prop.middle = moved(prop.middle);
+    for (PropFace& face : prop.faces) {
+        for (glm::dvec3& corner : face.corners) {
+            corner = moved(corner);
+        }
+        const auto& c = face.corners;
+        const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+        face.plane = {normal, glm::dot(normal, c[0])};
+    }
+    return setup;
+}
+
+} // namespace frustumscreen
