@@ -114,6 +114,11 @@ std::array<glm::dvec2, 4> TableRectangle::corners() const {
             corner(-half.x, half.y)};
 }
 
+TablePolygon polygon_of(const TableRectangle& rectangle) {
+    const std::array<glm::dvec2, 4> corners = rectangle.corners();
+    return {{corners[0], corners[1], corners[2], corners[3]}, corners.size()};
+}
+
 std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop,
                                            const glm::dvec3& from_m) {
     std::array<glm::dvec2, 8> points{};

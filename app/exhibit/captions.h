@@ -44,6 +44,7 @@ struct TableRectangle {
     /// Counter-clockwise from the reader's bottom left.
     [[nodiscard]] std::array<glm::dvec2, 4> corners() const;
 };
+[[nodiscard]] TablePolygon polygon_of(const TableRectangle& rectangle);
 
 /// The part of the table that a convex prop hides from a point; for the lens this is the prop's shadow.
 /// Returns nothing if the point is not above the whole prop: then the prop may hide anything.

@@ -25,6 +25,9 @@ struct PropFace {
     std::string_view name; ///< a literal: the axis that it looks along most, "+X"
     Plane plane;           ///< outward
     std::array<glm::dvec3, 4> corners{};
+    [[nodiscard]] glm::dvec3 middle() const {
+        return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    }
 };
 
 struct PropShape {

@@ -15,12 +15,8 @@ namespace {
 /// Sine of the eye's elevation above a face at which the face counts in full.
 constexpr double full_sine_of_sight = 0.5;
 
-glm::dvec3 centre_of(const PropFace& face) {
-    return 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-}
-
 double sine_above(const PropFace& face, const glm::dvec3& from) {
-    return face.plane.distance(from) / glm::distance(from, centre_of(face));
+    return face.plane.distance(from) / glm::distance(from, face.middle());
 }
 
 /// h is the same all over a face and d is convex: the least light is at a corner.

@@ -13,16 +13,12 @@ namespace {
 constexpr double least_share_of_brightest = 0.25;
 constexpr int yaws = 30; ///< of a quarter turn, after which a square prop looks the same
 
-glm::dvec3 middle_of(const PropFace& face) {
-    return 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-}
-
 /// Adds the prop in one pose, given by where it sees the lens.
 void include(const PropShape& prop, const glm::dvec3& lens, LightRange& range) {
     double darkest = std::numeric_limits<double>::infinity();
     double brightest = 0.0;
     for (const PropFace& face : prop.faces) {
-        const double at_middle = received_light(face.plane, middle_of(face), lens);
+        const double at_middle = received_light(face.plane, face.middle(), lens);
         darkest = std::min(darkest, at_middle);
         brightest = std::max(brightest, at_middle);
         for (const glm::dvec3& corner : face.corners) {

@@ -11,7 +11,6 @@ namespace frustumscreen {
 
 namespace {
 
-using Polygon = std::vector<glm::dvec2>;
 constexpr double pi = std::numbers::pi;
 
 /// Azimuths within `half` of `middle`; half >= pi is the full circle.
@@ -26,12 +25,6 @@ struct Arc {
     [[nodiscard]] Arc turned(double by) const { return {middle + by, half}; }
 };
 constexpr Arc full_circle{};
-
-/// a.x >= offset.
-struct HalfPlane {
-    glm::dvec2 inward{0.0};
-    double offset = 0.0;
-};
 
 /// The plane through the lens and an edge of the picture, table frame.
 struct PictureEdge {
@@ -51,23 +44,6 @@ std::array<PictureEdge, 4> picture_edges(const ProjectorSettings& projector) {
         edges[k] = {inward, glm::length(glm::dvec2(inward)), std::atan2(inward.y, inward.x)};
     }
     return edges;
-}
-
-Polygon clipped(const Polygon& polygon, const HalfPlane& keep) {
-    Polygon result;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const glm::dvec2& a = polygon[k];
-        const glm::dvec2& b = polygon[(k + 1) % polygon.size()];
-        const double a_inside = glm::dot(keep.inward, a) - keep.offset;
-        const double b_inside = glm::dot(keep.inward, b) - keep.offset;
-        if (a_inside >= 0.0) {
-            result.push_back(a);
-        }
-        if ((a_inside > 0.0 && b_inside < 0.0) || (a_inside < 0.0 && b_inside > 0.0)) {
-            result.push_back(a + (b - a) * (a_inside / (a_inside - b_inside)));
-        }
-    }
-    return result;
 }
 
 /// The table top less a rim; empty if nothing is left.
@@ -255,43 +231,6 @@ Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
     return settings.prop.zone == PropZone::Hand ? hand_zone(settings, scene) : upright_zone(settings, scene);
 }
 
-glm::dvec2 centroid(const Polygon& polygon) {
-    glm::dvec2 sum(0.0);
-    double area = 0.0;
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-        const glm::dvec2 a = polygon[k] - polygon[0];
-        const glm::dvec2 b = polygon[k + 1] - polygon[0];
-        const double twice = a.x * b.y - a.y * b.x;
-        area += twice;
-        sum += twice * (polygon[0] + (a + b) / 3.0);
-    }
-    return sum / area;
-}
-
-/// The largest rectangle along the axes about the centroid of a convex polygon.
-Rectangle rectangle_inside(const Polygon& polygon) {
-    if (polygon.empty()) {
-        return {};
-    }
-    Rectangle best{centroid(polygon), glm::dvec2(0.0)};
-    constexpr int shapes = 360;
-    for (int shape = 1; shape < shapes; ++shape) {
-        const double angle = 0.5 * pi * shape / shapes;
-        const glm::dvec2 half(std::cos(angle), std::sin(angle));
-        double scale = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-            const glm::dvec2 along = polygon[(k + 1) % polygon.size()] - polygon[k];
-            const glm::dvec2 outward(along.y, -along.x);
-            const double room = glm::dot(outward, polygon[k] - best.centre_m);
-            const double reach = glm::dot(glm::abs(outward), half);
-            scale = reach > 0.0 ? std::fmin(scale, room / reach) : scale;
-        }
-        const glm::dvec2 scaled = half * scale;
-        best.half_m = scaled.x * scaled.y > best.half_m.x * best.half_m.y ? scaled : best.half_m;
-    }
-    return best;
-}
-
 /// Every degree, and the corners of the zone for any eye, which is a part of the zone that is searched for.
 std::vector<double> azimuths_from(const glm::dvec2& middle, const Polygon& any_eye) {
     std::vector<double> azimuths;
@@ -350,17 +289,7 @@ Polygon default_eye_zone(const Settings& settings, const Scene& scene, const Pol
 
 } // namespace
 
-double area_of(const std::vector<glm::dvec2>& polygon) {
-    double twice = 0.0;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const glm::dvec2& a = polygon[k];
-        const glm::dvec2& b = polygon[(k + 1) % polygon.size()];
-        twice += a.x * b.y - a.y * b.x;
-    }
-    return 0.5 * twice;
-}
-
-std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z, double circle_m) {
+Polygon picture_on_table(const Settings& settings, double z, double circle_m) {
     return clipped_to_picture(table_within(settings.table, 0.0), Scene(settings), z, circle_m);
 }
 

@@ -15,33 +15,27 @@
 #pragma once
 
 #include "app/geometry/transform.h"
+#include "app/settings/polygon.h"
 #include "app/settings/settings.h"
 
 #include <glm/glm.hpp>
-
-#include <vector>
 
 namespace frustumscreen {
 
 /// About 2 degrees: a face lit at less gets under a tenth of what the steep faces usually get.
 inline constexpr double least_sine_of_light = 0.035;
 
-struct Rectangle {
-    glm::dvec2 centre_m{0.0};
-    glm::dvec2 half_m{0.0}; ///< along X and Y; zero if there is none
-};
-
 struct LitZone {
     /// Places of the prop's axis at which every face is lit at every yaw, for eyes anywhere above the table;
     /// in the hand: places of the prop's middle, as high over the table as the prop reaches from there.
     /// Convex.
-    std::vector<glm::dvec2> any_eye;
+    Polygon any_eye;
     /// The largest rectangle along the axes in it about its centroid: where a simulated visitor may slide the
     /// prop.
     Rectangle any_eye_rectangle;
     /// Places at which every face that the default eye sees is lit at every yaw: the zone's outline has a
     /// point at every degree around its middle, at least. In the hand: the same as for any eye.
-    std::vector<glm::dvec2> default_eye;
+    Polygon default_eye;
 };
 
 [[nodiscard]] LitZone lit_zone(const Settings& settings);
@@ -57,9 +51,6 @@ struct LitZone {
 
 /// The part of the table, lifted to height `z`, that the picture covers, with `circle_m` around each of its points.
 /// Convex.
-[[nodiscard]] std::vector<glm::dvec2> picture_on_table(const Settings& settings, double z,
-                                                       double circle_m = 0.0);
-
-[[nodiscard]] double area_of(const std::vector<glm::dvec2>& polygon);
+[[nodiscard]] Polygon picture_on_table(const Settings& settings, double z, double circle_m = 0.0);
 
 } // namespace frustumscreen

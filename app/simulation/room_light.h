@@ -32,8 +32,7 @@ inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a 
 /// What the projector's light is multiplied with.
 [[nodiscard]] inline double exposure_of(const PropShape& prop, const glm::dvec3& lens_m) {
     const PropFace& side = prop.faces.front();
-    const glm::dvec3 middle = (side.corners[0] + side.corners[1] + side.corners[2] + side.corners[3]) / 4.0;
-    const double light = received_from(lens_m, middle, side.plane.normal);
+    const double light = received_from(lens_m, side.middle(), side.plane.normal);
     return 1.0 / (light > 0.0 ? light : received_from(lens_m, glm::dvec3(0.0), glm::dvec3(0, 0, 1)));
 }
 

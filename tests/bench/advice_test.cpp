@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <sstream>
 
 namespace frustumscreen {
 namespace {
@@ -110,6 +111,36 @@ TEST(Advice, WhatWorksKeepsItsPromises) {
     }
 }
 
+std::size_t fields_in(const std::string& line) {
+    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+}
+
+TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
+    SetUpChoice now = as_it_is(old_table());
+    std::vector<SetUpChoice> found(3, now);
+    found[0].works = false;
+    found[1].settings.prop.base_m = 0.15; // can be slid farther
+    found[1].figures = examine(found[1].settings);
+    const std::vector<SetUpChoice*> best = best_working(found, 5);
+    ASSERT_EQ(best.size(), 2U) << "one does not work";
+    EXPECT_EQ(best[0], &found[1]);
+    EXPECT_EQ(best_working(found, 1), std::vector<SetUpChoice*>{&found[1]});
+    EXPECT_EQ(setup_table(now, found, {}).find("frame"), std::string::npos);
+    now.cost = FrameCost{1.0, 1.0, 5e4};
+    found[1].cost = FrameCost{1.37, 1.21, 65'432.0};
+    EXPECT_NE(setup_table(now, found, {}).find("1.37 (1.21)"), std::string::npos);
+    std::istringstream csv(setup_csv(now, found));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(csv, line);) {
+        lines.push_back(line);
+        EXPECT_EQ(fields_in(line), fields_in(lines.front())) << line;
+    }
+    ASSERT_EQ(lines.size(), 5U);
+    EXPECT_NE(lines[0].find(",frame_times_now,frame_cpu_times_now,frame_samples"), std::string::npos);
+    EXPECT_NE(lines[3].find(",1.3700,1.2100,65432"), std::string::npos);
+    EXPECT_TRUE(lines[2].ends_with(",,,"));
+}
+
 TEST(Advice, SaysSoWhereNothingWorks) {
     AdviceOptions options;
     options.lowest_m = options.highest_m = 0.6;
@@ -118,7 +149,7 @@ TEST(Advice, SaysSoWhereNothingWorks) {
     const std::vector<SetUpChoice> found = choices(old_table(), options, [](double) {});
     ASSERT_EQ(found.size(), 1U);
     EXPECT_FALSE(found.front().works);
-    EXPECT_NE(setup_table(old_table(), found, options).find("no"), std::string::npos);
+    EXPECT_NE(setup_table(as_it_is(old_table()), found, options).find("no"), std::string::npos);
 }
 
 } // namespace

@@ -17,16 +17,6 @@ const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec
                       glm::dvec2(-0.4, 0.25)};
 const std::array sizes{glm::dvec2(0.16, 0.05)};
 
-TablePolygon square(const glm::dvec2& centre, double half) {
-    TablePolygon polygon;
-    polygon.count = 4;
-    polygon.points[0] = centre + glm::dvec2(-half, -half);
-    polygon.points[1] = centre + glm::dvec2(half, -half);
-    polygon.points[2] = centre + glm::dvec2(half, half);
-    polygon.points[3] = centre + glm::dvec2(-half, half);
-    return polygon;
-}
-
 struct Reader {
     CaptionPlacer placer{room};
     MonotonicTime now{};
@@ -34,7 +24,7 @@ struct Reader {
     Reader() { placer.set_shapes(sizes); }
     CaptionPlace step(int quarter_turns, milliseconds later = milliseconds(16)) {
         now += later;
-        placer.update(now, square({0.0, 0.0}, 0.08), std::nullopt, {0.0, 0.0}, quarter_turns);
+        placer.update(now, polygon_of({{0.0, 0.0}, {0.16, 0.16}}), std::nullopt, {0.0, 0.0}, quarter_turns);
         return placer.at(now);
     }
 };

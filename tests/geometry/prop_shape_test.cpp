@@ -194,5 +194,17 @@ TEST(PropShape, TheLargestScaleOfNothingOrOfOnePointOnTheBottomIsInfinite) {
     EXPECT_EQ(largest_scale_inside(prop, origin), std::numeric_limits<double>::infinity());
 }
 
+TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
+    const PropShape prop = make_frustum({0.16, 0.09, 0.12});
+    EXPECT_NEAR(glm::distance(prop.faces[4].middle(), glm::dvec3(0.0, 0.0, 0.12)), 0.0, 1e-15) << "the top's";
+    for (const PropFace& face : prop.faces) {
+        EXPECT_NEAR(face.plane.distance(face.middle()), 0.0, 1e-15) << face.name;
+        EXPECT_NEAR(glm::distance(face.middle(), face.corners[2]),
+                    glm::distance(face.middle(), face.corners[3]), 1e-15)
+            << face.name;
+    }
+    EXPECT_NEAR(prop.faces[0].middle().x, 0.25 * (0.16 + 0.09), 1e-15) << "between bottom and top";
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -78,9 +78,7 @@ TEST(Light, TheWholeArtifactDimsWithAFaceThatTheEyeSeesInFull) {
     const Lit lit;
     const PropFace& front = lit.prop.faces[3];
     const double reached = dimmest_corner(front, lit.projector());
-    const glm::dvec3 square_before(
-        0.25 * (front.corners[0] + front.corners[1] + front.corners[2] + front.corners[3]) +
-        0.6 * front.plane.normal);
+    const glm::dvec3 square_before = front.middle() + 0.6 * front.plane.normal;
     const auto reference = [&](double aim, double least_share) {
         return reference_light(all_faces(lit.prop, square_before), lit.projector(), {aim, least_share});
     };
@@ -107,8 +105,7 @@ TEST(Light, AFaceThatTheEyeDoesNotSeeCountsForNothing) {
 TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
     const Lit lit;
     const PropFace& front = lit.prop.faces[3];
-    const glm::dvec3 middle =
-        0.25 * (front.corners[0] + front.corners[1] + front.corners[2] + front.corners[3]);
+    const glm::dvec3 middle = front.middle();
     const glm::dvec3 along = glm::normalize(front.corners[3] - front.corners[0]);
     double before = -1.0;
     for (int k = 0; k <= 300; ++k) {

@@ -66,33 +66,37 @@ std::string cell(double now, double reference, bool compared) {
 
 } // namespace
 
-Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses, std::uint64_t seed) {
-    const PropShape prop = make_prop(set_up.settings.prop);
-    const Result<std::vector<BenchPose>> drawn = draw_poses(set_up.settings, prop, poses, seed);
-    if (!drawn) {
-        return at(set_up.name, drawn.error());
-    }
+FrameCounts count_frames(const Settings& settings, const Pack& pack, std::span<const BenchPose> poses) {
+    const PropShape prop = make_prop(settings.prop);
     const PlacedLevel level = placed(pack, pack.default_level, place(pack, prop).metres_per_box);
-    const ProjectorSettings& projector = set_up.settings.projector;
     FramePlan plan = make_plan(prop, level);
     std::vector<bool> seen(pack.levels[pack.default_level].vertices.size());
     FrameCounts sum;
-    for (const BenchPose& pose : *drawn) {
+    for (const BenchPose& pose : poses) {
         plan_frame(prop, level,
-                   {projector.pinhole,
-                    projector.table_from_projector,
+                   {settings.projector.pinhole,
+                    settings.projector.table_from_projector,
                     pose.table_from_prop,
                     {&pose.eye_m, 1},
                     std::nullopt},
                    plan);
         const FrameCounts one = counts_of(plan, seen);
         for (const Quantity& quantity : quantities) {
-            sum.*quantity.of += one.*quantity.of / poses;
+            sum.*quantity.of += one.*quantity.of / static_cast<double>(poses.size());
         }
+    }
+    return sum;
+}
+
+Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses, std::uint64_t seed) {
+    const Result<std::vector<BenchPose>> drawn =
+        draw_poses(set_up.settings, make_prop(set_up.settings.prop), poses, seed);
+    if (!drawn) {
+        return at(set_up.name, drawn.error());
     }
     return CountedPack{
         fmt::format("{}, {} triangles", pack.provenance.source_name, pack.provenance.source_triangles),
-        set_up.name, sum};
+        set_up.name, count_frames(set_up.settings, pack, *drawn)};
 }
 
 std::string counts_json(std::span<const CountedPack> counted) {

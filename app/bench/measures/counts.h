@@ -32,7 +32,10 @@ struct CountedPack {
     FrameCounts counts;
 };
 
-/// The pack's default level over `poses` poses of `seed`.
+/// The pack's default level: a mean over poses.
+[[nodiscard]] FrameCounts count_frames(const Settings& settings, const Pack& pack,
+                                       std::span<const BenchPose> poses);
+/// The same over `poses` poses of `seed`.
 [[nodiscard]] Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses,
                                                std::uint64_t seed);
 

@@ -39,7 +39,7 @@ Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }
-    ShimmerResult result{set_up.name, std::move(opened->poses), {}, {}};
+    ShimmerResult result{set_up.name, std::move(opened->poses), {}, {}, {}};
     measure(
         *opened->set, opened->truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); },
         result);
@@ -52,7 +52,17 @@ Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
                               const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
                               const StepProgress& progress) {
     Result<ShimmerResult> result = compare(set_up, pack, mesh, options, progress);
-    return result ? std::move(result) : at(set_up.name, result.error());
+    if (!result) {
+        return at(set_up.name, result.error());
+    }
+    Result<std::vector<SparkleRow>> edges =
+        edge_sparkle(set_up, pack, result->poses, options.steps, options.picture,
+                     [&](double done) { progress(set_up.name + ": edges", done); });
+    if (!edges) {
+        return at(set_up.name, edges.error());
+    }
+    result->edges = std::move(*edges);
+    return result;
 }
 
 } // namespace frustumscreen

@@ -1,11 +1,13 @@
-/// The default and finest level of a pack while the prop is moved by 0.1 pixel steps, against the ray cast;
-/// shimmer_sequence.h has the measure.
+/// The default and finest level of a pack while the prop is moved by 0.1 pixel steps, against the ray cast
+/// (shimmer_sequence.h has the measure); and the edges between the prop's faces (edge_sparkle.h).
 ///
-/// Limits   both ratios to one ray's <= 1 and the excess <= 0.1 % of the judged pixels, in every sequence.
+/// Limits   both ratios to one ray's <= 1 and the excess <= 0.1 % of the judged pixels, in every sequence. Over all
+///          sequences feathered edges change no more than sharp ones.
 /// Threads  the one whose context is current; rays are cast on every core.
 /// Errors   whatever the parts report, with the set-up's name in front.
 #pragma once
 
+#include "app/bench/measures/edge_sparkle.h"
 #include "app/bench/measures/error_time.h"
 #include "app/bench/measures/shimmer_sequence.h"
 #include "app/bench/measures/verdicts.h"
@@ -38,6 +40,7 @@ struct ShimmerResult {
     std::vector<ShimmerRow> rows;
     /// `side_by_side` of the sequence with the most excess.
     Image8 worst;
+    std::vector<SparkleRow> edges; ///< as many steps in each, of 0.1 mm
 };
 
 [[nodiscard]] Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
@@ -49,6 +52,7 @@ inline constexpr double most_excess_percent = 0.1;
 
 [[nodiscard]] std::vector<Verdict> judge(const ShimmerResult& result);
 [[nodiscard]] std::string shimmer_csv(std::span<const ShimmerResult> results);
+[[nodiscard]] std::string edge_sparkle_csv(std::span<const ShimmerResult> results);
 [[nodiscard]] std::string shimmer_table(const ShimmerResult& result);
 
 } // namespace frustumscreen

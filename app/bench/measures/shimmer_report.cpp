@@ -48,7 +48,59 @@ std::vector<std::pair<std::string, std::vector<const ShimmerRow*>>> by_level(con
     return levels;
 }
 
+EdgeSparkle all_edges(const ShimmerResult& result) {
+    EdgeSparkle all;
+    for (const SparkleRow& row : result.edges) {
+        all.add(row.sparkle);
+    }
+    return all;
+}
+
+constexpr int jump_codes = 25; ///< a change that catches the eye
+
+std::string edge_lines(const EdgeSparkle& edges) {
+    std::string lines = fmt::format(
+        "default level in even light: changes of pixels from one step of 0.1 mm to the next, codes\n"
+        "{:<34}{:<14}{:<8}{:<8}{:<10}over {}, %\n",
+        "", "changes", "RMS", "99.9 %", "largest", jump_codes);
+    const auto line = [&lines](const char* name, const ChangeHistogram& changes) {
+        lines +=
+            fmt::format("{:<34}{:<14}{:<8.2f}{:<8}{:<10}{:.3f}\n", name, changes.changes(), changes.rms(),
+                        changes.q999(), changes.largest(), changes.percent_over(jump_codes));
+    };
+    line("shared by two faces, sharp", edges.sharp);
+    line("shared by two faces, feathered", edges.feathered);
+    line("beside these, sharp", edges.beside_sharp);
+    line("beside these, feathered", edges.beside_feathered);
+    return lines;
+}
+
+std::string change_fields(const ChangeHistogram& changes) {
+    return fmt::format("{},{:.4f},{},{},{:.4f}", changes.changes(), changes.rms(), changes.q999(),
+                       changes.largest(), changes.percent_over(jump_codes));
+}
+
 } // namespace
+
+std::string edge_sparkle_csv(std::span<const ShimmerResult> results) {
+    std::string csv =
+        fmt::format("set_up,pose,{},direction,pixels,edges,changes,rms,q999,largest,percent_over_{}\n",
+                    pose_columns, jump_codes);
+    for (const ShimmerResult& result : results) {
+        for (const SparkleRow& row : result.edges) {
+            const auto add = [&](const char* pixels, const char* edges, const ChangeHistogram& changes) {
+                csv += fmt::format("{},{},{},{},{},{},{}\n", result.name, row.pose,
+                                   pose_fields(result.poses[static_cast<std::size_t>(row.pose)]),
+                                   row.along_x ? "x" : "y", pixels, edges, change_fields(changes));
+            };
+            add("shared", "sharp", row.sparkle.sharp);
+            add("shared", "feathered", row.sparkle.feathered);
+            add("beside", "sharp", row.sparkle.beside_sharp);
+            add("beside", "feathered", row.sparkle.beside_feathered);
+        }
+    }
+    return csv;
+}
 
 std::vector<Verdict> judge(const ShimmerResult& result) {
     std::vector<Verdict> verdicts;
@@ -62,6 +114,14 @@ std::vector<Verdict> judge(const ShimmerResult& result) {
         add(name + ": shimmer / one ray's, 99.9 % of the pixels", spans(rows, of_q999), most_ratio, "");
         add(name + ": pixels that shimmer where the ray cast does not", spans(rows, of_excess),
             most_excess_percent, " %");
+    }
+    const EdgeSparkle edges = all_edges(result);
+    if (edges.sharp.changes() > 0) {
+        const double ratio = edges.feathered.rms() / edges.sharp.rms();
+        verdicts.push_back({"edges between faces: changes, feathered / sharp, RMS <= 1",
+                            fmt::format("{:.3f}; beside them {:.3f}", ratio,
+                                        edges.beside_feathered.rms() / edges.sharp.rms()),
+                            ratio <= 1.0});
     }
     return verdicts;
 }
@@ -110,7 +170,7 @@ std::string shimmer_table(const ShimmerResult& result) {
                                 : std::string("-"),
                         spans(rows, of_excess).worst);
     }
-    return table + lines_of(judge(result));
+    return table + edge_lines(all_edges(result)) + lines_of(judge(result));
 }
 
 } // namespace frustumscreen

@@ -256,17 +256,21 @@ def draw_setup(path):
     looks = (("evenness", "Evenness", "darkest face / brightest, the worst pose"),
              ("pixels", "Projector pixels on the artifact", "pixels"),
              ("reach_y_m", "How far the prop can be pulled", "from the table's middle, m"),
-             ("reference_light", "Light that the artifact sends back", "of a white surface 1 m below the lens"))
+             ("reference_light", "Light that the artifact sends back", "of a white surface 1 m below the lens"),
+             ("frame_times_now", "What a frame costs", "frame time / that of the set-up as it is"))
     panels = []
+    kinds = different((row["choice"], row["lens_side_m"]) for row in choices)
     for column, title, label in looks:
+        if not now[column]:
+            continue  # nobody asked for it
         panel = Panel(f"{title}: the best prop for each place of the lens", "lens over the table, m", label, log=False,
                       limits=[(float(now[column]), "as it is")])
-        kinds = different((row["choice"], row["lens_side_m"]) for row in choices)
         for k, (mount, side) in enumerate(kinds):
             points = [(float(row["lens_height_m"]), float(row[column])) for row in choices
-                      if (row["choice"], row["lens_side_m"]) == (mount, side)]
+                      if row[column] and (row["choice"], row["lens_side_m"]) == (mount, side)]
             name = "above the middle" if float(side) == 0.0 else f"{abs(float(side)):g} m {'behind' if float(side) > 0.0 else 'before'} it, {mount}"
-            panel.series.append(Series(name, points, k))
+            if points:
+                panel.series.append(Series(name, points, k))
         panels.append(panel)
     save_column(path.with_suffix(".svg"), panels)
 

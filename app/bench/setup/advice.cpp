@@ -178,7 +178,7 @@ std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount,
         if (best && best->works && prop.base_m > best->settings.prop.base_m) {
             break;
         }
-        SetUpChoice choice{projector, mount, {}, false};
+        SetUpChoice choice{projector, mount, {}, false, std::nullopt};
         choice.settings.prop = prop;
         const glm::dvec3 lens = projector.projector.table_from_projector.translation;
         choice.figures.light = light_range(make_prop(prop), lens, reach_on_table(prop, projector.table));
@@ -219,6 +219,11 @@ SetUpFigures examine(const Settings& settings) {
     return figures;
 }
 
+SetUpChoice as_it_is(const Settings& settings) {
+    const SetUpFigures figures = examine(settings);
+    return {settings, Mount::Tilted, figures, figures.covered, std::nullopt};
+}
+
 std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,
                                  const std::function<void(double)>& progress) {
     const SetUpFigures now = examine(settings);
@@ -252,6 +257,19 @@ std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& 
 const SetUpChoice* best_of(const std::vector<SetUpChoice>& choices) {
     const auto best = std::min_element(choices.begin(), choices.end(), is_better);
     return best != choices.end() ? &*best : nullptr;
+}
+
+std::vector<SetUpChoice*> best_working(std::vector<SetUpChoice>& choices, std::size_t most) {
+    std::vector<SetUpChoice*> working;
+    for (SetUpChoice& choice : choices) {
+        if (choice.works) {
+            working.push_back(&choice);
+        }
+    }
+    std::stable_sort(working.begin(), working.end(),
+                     [](const SetUpChoice* a, const SetUpChoice* b) { return is_better(*a, *b); });
+    working.resize(std::min(working.size(), most));
+    return working;
 }
 
 } // namespace frustumscreen

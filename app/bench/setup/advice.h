@@ -5,10 +5,13 @@
 /// Errors   none: a choice that cannot work says so in its figures.
 #pragma once
 
+#include "app/bench/setup/frame_cost.h"
 #include "app/settings/light_range.h"
 #include "app/settings/settings.h"
 
 #include <functional>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -36,9 +39,12 @@ struct SetUpChoice {
     Settings settings;
     Mount mount = Mount::Tilted;
     SetUpFigures figures;
-    bool works =
-        false; ///< even enough, covered, with pixels enough; its artifacts are no smaller than they are now
+    /// Even enough, covered, with pixels enough; its artifacts are no smaller than they are now.
+    bool works = false;
+    std::optional<FrameCost> cost; ///< if it was measured
 };
+/// The settings as they are, to compare with.
+[[nodiscard]] SetUpChoice as_it_is(const Settings& settings);
 
 struct AdviceOptions {
     double lowest_m = 1.0; ///< of the lens above the table
@@ -55,5 +61,8 @@ struct AdviceOptions {
                                                const std::function<void(double)>& progress);
 /// Of those that work the one with the most room to slide, times brightness; else the most even. Null if there is none.
 [[nodiscard]] const SetUpChoice* best_of(const std::vector<SetUpChoice>& choices);
+
+/// The best `most` of those that work, the best first.
+[[nodiscard]] std::vector<SetUpChoice*> best_working(std::vector<SetUpChoice>& choices, std::size_t most);
 
 } // namespace frustumscreen

@@ -12,49 +12,66 @@ double throw_ratio(const Pinhole& pinhole) {
     return pinhole.fx / pinhole.width;
 }
 
-std::string line_of(std::string_view name, const Settings& settings, const SetUpFigures& figures) {
+std::string cost_words(const std::optional<FrameCost>& cost) {
+    return cost ? fmt::format("{:.2f} ({:.2f}) {:7.0f}", cost->times_first, cost->cpu_times_first,
+                              1e-3 * cost->samples)
+                : std::string();
+}
+
+std::string line_of(std::string_view name, const SetUpChoice& choice) {
+    const Settings& settings = choice.settings;
+    const SetUpFigures& figures = choice.figures;
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     return fmt::format(
         "{:12} {:5.2f} {:+5.2f} {:5.2f}  {:4.0f} {:4.0f} {:4.0f}  {:6.2f} {:6.3f}  {:4.0f} {:4.0f}  {:6.0f}  "
-        "{:4.0f} x {:<4.0f} {}\n",
+        "{:4.0f} x {:<4.0f} {}{}\n",
         name, lens.z, lens.y, throw_ratio(settings.projector.pinhole), 1e3 * settings.prop.base_m,
         1e3 * settings.prop.top_m, 1e3 * settings.prop.height_m, figures.light.evenness, figures.reference,
         1e3 * figures.wide_height_m, 1e3 * figures.slim_height_m, figures.pixels, 1e3 * figures.reach_m.x,
-        1e3 * figures.reach_m.y, figures.covered ? "" : "the picture misses a part of the table");
+        1e3 * figures.reach_m.y, cost_words(choice.cost),
+        figures.covered ? "" : " the picture misses a part of the table");
 }
 
-std::string row_of(std::string_view name, const Settings& settings, const SetUpFigures& figures, bool works) {
+std::string row_of(std::string_view name, const SetUpChoice& choice) {
+    const Settings& settings = choice.settings;
+    const SetUpFigures& figures = choice.figures;
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     const Pinhole& pinhole = settings.projector.pinhole;
+    const std::string cost = choice.cost ? fmt::format("{:.4f},{:.4f},{:.0f}", choice.cost->times_first,
+                                                       choice.cost->cpu_times_first, choice.cost->samples)
+                                         : std::string(",,");
     return fmt::format(
         "{},{:.3f},{:.3f},{:.4f},{:.1f},{:.1f},{:.3f},{:.3f},{:.3f},{:.4f},{:.5f},{:.5f},{:.5f},"
-        "{:.4f},{:.4f},{:.1f},{:.4f},{:.4f},{},{}\n",
+        "{:.4f},{:.4f},{:.1f},{:.4f},{:.4f},{},{},{}\n",
         name, lens.z, lens.y, throw_ratio(pinhole), pinhole.cx, pinhole.cy, settings.prop.base_m,
         settings.prop.top_m, settings.prop.height_m, figures.light.evenness, figures.light.least,
         figures.light.most, figures.reference, figures.wide_height_m, figures.slim_height_m, figures.pixels,
-        figures.reach_m.x, figures.reach_m.y, figures.covered ? 1 : 0, works ? 1 : 0);
+        figures.reach_m.x, figures.reach_m.y, figures.covered ? 1 : 0, choice.works ? 1 : 0, cost);
 }
 
 } // namespace
 
-std::string setup_table(const Settings& settings, const std::vector<SetUpChoice>& choices,
+std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& choices,
                         const AdviceOptions& options) {
+    const Settings& settings = now.settings;
+    const bool timed = now.cost.has_value();
     std::string table = fmt::format(
         "A table of {:g} x {:g} m; the picture is {} x {} pixels as it is, {} x {} in the choices.\n\n"
-        "             lens  side  throw  prop, mm        darkest  light  artifact, mm  pixels  slides, mm\n"
-        "             m     m     ratio  base top high   /bright. sent   wide slim     on it   +-X  +-Y\n",
+        "             lens  side  throw  prop, mm        darkest  light  artifact, mm  pixels  slides, mm{}\n"
+        "             m     m     ratio  base top high   /bright. sent   wide slim     on it   +-X  +-Y{}\n",
         settings.table.width_m, settings.table.depth_m, settings.projector.pinhole.width,
         settings.projector.pinhole.height,
         options.width > 0 ? options.width : settings.projector.pinhole.width,
-        options.width > 0 ? options.height : settings.projector.pinhole.height);
-    table += line_of("as it is", settings, examine(settings));
+        options.width > 0 ? options.height : settings.projector.pinhole.height,
+        timed ? "  frame       samples" : "", timed ? "  x (CPU)        1000" : "");
+    table += line_of("as it is", now);
     const SetUpChoice* const best = best_of(choices);
     for (const SetUpChoice& choice : choices) {
         const std::string name = fmt::format("{}{}", name_of(choice.mount),
                                              &choice == best ? " best"
                                              : choice.works  ? ""
                                                              : " no");
-        table += line_of(name, choice.settings, choice.figures);
+        table += line_of(name, choice);
     }
     table += fmt::format("\nlens, side: over the table, and behind its middle (before it: negative). "
                          "darkest/bright.: of the faces in one\n"
@@ -64,17 +81,24 @@ std::string setup_table(const Settings& settings, const std::vector<SetUpChoice>
                          "darkest/bright. with {:g} x the pixels\n"
                          "and artifacts as large as they are.\n",
                          options.evenness, options.pixels);
+    if (timed) {
+        table +=
+            "frame: the time of one, the processor's time in brackets, over those of the settings as they "
+            "are; "
+            "the prop at the\ntable's middle, turned in twelve steps; only for the best that work. samples: "
+            "drawn and averaged for a frame.\n";
+    }
     return table;
 }
 
-std::string setup_csv(const Settings& settings, const std::vector<SetUpChoice>& choices) {
+std::string setup_csv(const SetUpChoice& now, const std::vector<SetUpChoice>& choices) {
     std::string csv =
         "choice,lens_height_m,lens_side_m,throw_ratio,cx_px,cy_px,base_m,top_m,height_m,evenness,least_light,"
-        "most_light,reference_light,wide_height_m,slim_height_m,pixels,reach_x_m,reach_y_m,covered,works\n";
-    const SetUpFigures now = examine(settings);
-    csv += row_of("as it is", settings, now, now.covered);
+        "most_light,reference_light,wide_height_m,slim_height_m,pixels,reach_x_m,reach_y_m,covered,works,"
+        "frame_times_now,frame_cpu_times_now,frame_samples\n";
+    csv += row_of("as it is", now);
     for (const SetUpChoice& choice : choices) {
-        csv += row_of(name_of(choice.mount), choice.settings, choice.figures, choice.works);
+        csv += row_of(name_of(choice.mount), choice);
     }
     return csv;
 }

@@ -9,10 +9,11 @@
 
 namespace frustumscreen {
 
-/// One line for the settings as they are and one for each choice; the best is marked.
-[[nodiscard]] std::string setup_table(const Settings& settings, const std::vector<SetUpChoice>& choices,
+/// One line for the settings as they are (`as_it_is`) and one for each choice; the best is marked. What a frame costs
+/// stands there if it was measured.
+[[nodiscard]] std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& choices,
                                       const AdviceOptions& options);
-[[nodiscard]] std::string setup_csv(const Settings& settings, const std::vector<SetUpChoice>& choices);
+[[nodiscard]] std::string setup_csv(const SetUpChoice& now, const std::vector<SetUpChoice>& choices);
 /// [projector] and [prop] of a choice, in TOML.
 [[nodiscard]] std::string setup_toml(const SetUpChoice& choice);
 

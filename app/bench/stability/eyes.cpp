@@ -21,7 +21,7 @@ double radians(double degrees) {
 /// `degrees` above the plane of a face, at a distance from its middle, along the face's lower edge.
 glm::dvec3 eye_above(const exact::Stage& stage, std::size_t face, double degrees, double distance_m) {
     const PropFace& f = stage.prop.faces[face];
-    const glm::dvec3 middle = 0.25 * (f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
+    const glm::dvec3 middle = f.middle();
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     return stage.table_from_prop.point(middle + distance_m * (std::cos(radians(degrees)) * along +
                                                               std::sin(radians(degrees)) * f.plane.normal));

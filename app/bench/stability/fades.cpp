@@ -96,16 +96,6 @@ StabilityResult any_rhythm(const StabilityOptions&) {
     return {{{"brightness other at another rhythm of frames", 0.0, other}}};
 }
 
-TablePolygon square(const glm::dvec2& centre, double half) {
-    TablePolygon polygon;
-    polygon.count = 4;
-    polygon.points[0] = centre + glm::dvec2(-half, -half);
-    polygon.points[1] = centre + glm::dvec2(half, -half);
-    polygon.points[2] = centre + glm::dvec2(half, half);
-    polygon.points[3] = centre + glm::dvec2(-half, half);
-    return polygon;
-}
-
 struct CaptionJumps {
     double jump = 0.0;      ///< largest, over what time and movement allow
     double on_shadow = 0.0; ///< frames with a caption on the prop's shadow
@@ -127,7 +117,7 @@ CaptionJumps caption_jumps(double step_s) {
         const double t = k * step_s;
         const MonotonicTime now(Nanoseconds(std::llround(t * 1e9)) + std::chrono::seconds(1));
         const glm::dvec2 prop(0.28 * std::sin(0.7 * t), 0.14 * std::sin(1.1 * t + 0.4));
-        const TablePolygon shadow = square(prop, 0.09);
+        const TablePolygon shadow = polygon_of({prop, glm::dvec2(0.18)});
         placer.update(now, shadow, std::nullopt, prop);
         const CaptionPlace place = placer.at(now);
         const bool same = place.rectangle.centre_m == before.rectangle.centre_m &&

@@ -21,16 +21,12 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-glm::dvec3 middle_of(const PropFace& face) {
-    return 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-}
-
 /// A projector `degrees` above the plane of a face, along its lower edge, looking at its middle; the eye
 /// square before the face.
 exact::Stage grazing_stage(std::size_t face, double degrees) {
     exact::Stage stage = usual_stage();
     const PropFace& f = stage.prop.faces[face];
-    const glm::dvec3 middle = middle_of(f);
+    const glm::dvec3 middle = f.middle();
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     const glm::dvec3 n = f.plane.normal;
     const glm::dvec3 back = std::cos(radians(degrees)) * along + std::sin(radians(degrees)) * n;
@@ -76,7 +72,7 @@ exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const ex
     const exact::Vector lens = stage.lens_in_prop();
     const exact::Real d = exact::length(lens - point);
     const exact::Real height = stage.height(face, lens);
-    const exact::Real sine = height / exact::length(lens - exact::of(middle_of(face)));
+    const exact::Real sine = height / exact::length(lens - exact::of(face.middle()));
     const exact::Real lit =
         std::clamp((sine - exact::Real(least_sine_of_light)) /
                        (exact::Real(full_sine_of_light) - exact::Real(least_sine_of_light)),

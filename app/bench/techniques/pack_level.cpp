@@ -1,6 +1,7 @@
 #include "app/bench/techniques/pack_level.h"
 
 #include "app/render/hit_points.h"
+#include "app/scene/exposure.h"
 #include "app/scene/frame_plan.h"
 
 #include <algorithm>
@@ -14,11 +15,29 @@ struct Parts {
     HitPointRenderer hit_points;
 };
 
+/// What the exhibit does to the colours.
+struct Light {
+    std::optional<LightCompensation> compensation;
+    double exposure = 1.0;
+    bool feathered = true;
+};
+
+Light light_of(const Stage& stage, const Pack& pack, const SceneLevel& level, const PictureOptions& options) {
+    if (!options.lit) {
+        return {};
+    }
+    return {light_compensation(stage.settings),
+            exposure_of(level.mesh, pack.box_size, pack.textures[level.mesh.texture],
+                        stage.settings.render.highlight_code),
+            options.feathered};
+}
+
 class PackLevelTechnique final : public Technique {
 public:
-    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::string name, Parts parts)
-        : stage_(stage), placed_(placed_level), name_(std::move(name)), parts_(std::move(parts)),
-          plan_(make_plan(stage.prop, placed_)) {}
+    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, const Light& light,
+                       std::string name, Parts parts)
+        : stage_(stage), placed_(placed_level), light_(light), name_(std::move(name)),
+          parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override {
@@ -38,12 +57,17 @@ private:
                     projector.table_from_projector,
                     pose.table_from_prop,
                     {&pose.eye_m, 1},
-                    std::nullopt},
+                    light_.compensation,
+                    light_.exposure},
                    plan_);
+        if (!light_.feathered) {
+            plan_.feathers.clear();
+        }
     }
 
     const Stage& stage_;
     PlacedLevel placed_;
+    Light light_;
     std::string name_;
     Parts parts_;
     FramePlan plan_;
@@ -56,9 +80,11 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     const SceneLevel whole = whole_level(pack, level);
     ShaderKey shader;
     shader.cut_out = whole.cut_out;
+    shader.even_light = options.lit;
     const int samples = options.samples > 0 ? options.samples : pack.samples;
     Result<Renderer> renderer =
-        Renderer::create(stage.width(), stage.height(), {std::max(samples, default_samples), {shader}});
+        Renderer::create(stage.width(), stage.height(),
+                         {std::max(samples, default_samples), {shader, {ShaderKey::Pass::EdgeFeather}}});
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -72,7 +98,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(name),
+    return std::make_unique<PackLevelTechnique>(stage, shown, light_of(stage, pack, whole, options),
+                                                std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 

@@ -15,6 +15,9 @@ namespace frustumscreen {
 /// Options of the exhibit's renderer for the pictures that are measured.
 struct PictureOptions {
     int samples = 0; ///< a pixel; 0 = what the pack asks for
+    /// Even light and exposure, as visitors see it; else the colours are those of the ray cast.
+    bool lit = false;
+    bool feathered = true; ///< of a lit picture; false: sharp edges between faces, to be compared with
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,

@@ -95,8 +95,7 @@ Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place) {
     return set_ups;
 }
 
-Result<void> write_all(const std::filesystem::path& folder,
-                       const std::vector<std::pair<std::string, std::string>>& files) {
+Result<void> write_all(const std::filesystem::path& folder, const OutputFiles& files) {
     std::error_code made;
     std::filesystem::create_directories(folder, made);
     if (made) {

@@ -72,19 +72,20 @@ struct LoadedArtifact {
 [[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
 [[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
 
+/// Names and contents.
+using OutputFiles = std::vector<std::pair<std::string, std::string>>;
 /// Writes files into --out; stops at the first that fails.
-[[nodiscard]] Result<void> write_all(const std::filesystem::path& folder,
-                                     const std::vector<std::pair<std::string, std::string>>& files);
+[[nodiscard]] Result<void> write_all(const std::filesystem::path& folder, const OutputFiles& files);
 /// Draws tables that are in `folder`, each as an SVG beside it.
 [[nodiscard]] Result<void> draw_all(const std::filesystem::path& folder,
                                     const std::vector<std::string>& tables);
 
 /// One artifact in every set-up: `measure(set_up, pack, mesh, steps)` gives a result whose `worst` is a
-/// picture; its `table` goes to the console, the pictures to NAME_SETUP.png, all results to NAME.csv.
-template <typename Measure, typename Table, typename Csv>
-[[nodiscard]] Result<void> measure_set_ups(const std::string& name, const BenchPlace& place,
-                                           const BenchArtifact& measured, BenchProgress& progress,
-                                           const Measure& measure, const Table& table, const Csv& csv) {
+/// picture; its `table` goes to the console, the pictures to NAME_SETUP.png; `files_of` makes the tables of all results.
+template <typename Measure, typename Table, typename Files>
+[[nodiscard]] Result<void>
+measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArtifact& measured,
+                BenchProgress& progress, const Measure& measure, const Table& table, const Files& files_of) {
     const Result<std::vector<SetUp>> set_ups = load_set_ups(place);
     if (!set_ups) {
         return tl::unexpected<Error>(set_ups.error());
@@ -96,7 +97,7 @@ template <typename Measure, typename Table, typename Csv>
     const auto steps = [&progress](const std::string& step, double done) { progress.show(step, done); };
     using Measured = decltype(measure(set_ups->front(), *artifact->pack, artifact->mesh, steps));
     std::vector<typename Measured::value_type> results;
-    std::vector<std::pair<std::string, std::string>> files;
+    OutputFiles files;
     for (const SetUp& set_up : *set_ups) {
         Measured result = measure(set_up, *artifact->pack, artifact->mesh, steps);
         if (!result) {
@@ -108,7 +109,9 @@ template <typename Measure, typename Table, typename Csv>
         files.emplace_back(name + "_" + set_up.name + ".png", as_text(encode_png(result->worst)));
         results.push_back(std::move(*result));
     }
-    files.emplace_back(name + ".csv", csv(results));
+    for (auto& file : files_of(results)) {
+        files.push_back(std::move(file));
+    }
     return write_all(place.out, files);
 }
 

@@ -19,7 +19,9 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
             const StepProgress& steps) { return projection(set_up, pack, mesh, arguments.options, steps); },
         projection_table,
-        [](const std::vector<ProjectionResult>& results) { return projection_csv(results); });
+        [](const std::vector<ProjectionResult>& results) {
+            return OutputFiles{{"projection.csv", projection_csv(results)}};
+        });
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 #include "app/bench/setup/advice_report.h"
+#include "app/pack/pack_file.h"
 #include "app/programs/bench/bench_command.h"
 
 #include <memory>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -10,9 +12,43 @@ namespace {
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path config;
-    std::vector<int> picture; ///< width, height; empty: that of the settings
+    std::filesystem::path pack; ///< whose frames are timed; empty: none
+    std::vector<int> picture;   ///< width, height; empty: that of the settings
     AdviceOptions options;
 };
+
+constexpr std::size_t most_timed = 5;
+
+/// Times a frame of the pack in the settings as they are and in the best choices.
+Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUpChoice>& found,
+                           BenchProgress& progress) {
+    std::vector<SetUpChoice*> timed = best_working(found, most_timed);
+    timed.insert(timed.begin(), &now);
+    std::vector<const Settings*> set_ups;
+    for (const SetUpChoice* choice : timed) {
+        set_ups.push_back(&choice->settings);
+    }
+    const Result<std::vector<FrameCost>> costs =
+        frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); });
+    if (!costs) {
+        return tl::unexpected<Error>(costs.error());
+    }
+    for (std::size_t k = 0; k < timed.size(); ++k) {
+        timed[k]->cost = (*costs)[k];
+    }
+    return {};
+}
+
+Result<std::optional<VerifiedPack>> load_if_named(const std::filesystem::path& file) {
+    if (file.empty()) {
+        return std::optional<VerifiedPack>();
+    }
+    Result<VerifiedPack> pack = load_pack(file);
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    return std::optional(std::move(*pack));
+}
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const Result<CheckedSettings> checked = load_settings(arguments.config);
@@ -28,10 +64,23 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         options.width = arguments.picture[0];
         options.height = arguments.picture[1];
     }
-    const std::vector<SetUpChoice> found =
+    const Result<std::optional<VerifiedPack>> pack = load_if_named(arguments.pack);
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    SetUpChoice now = as_it_is(settings);
+    std::vector<SetUpChoice> found =
         choices(settings, options, [&progress](double done) { progress.show("set-ups", done); });
+    if (*pack) {
+        if (Result<void> measured = measure_costs(***pack, now, found, progress); !measured) {
+            return measured;
+        }
+    }
     progress.clear();
-    fmt::print("{}\n", setup_table(settings, found, options));
+    fmt::print("{}\n", setup_table(now, found, options));
+    if (!*pack) {
+        fmt::print("What a frame costs was not measured: name a baked pack with --pack.\n\n");
+    }
     if (const SetUpChoice* best = best_of(found); best != nullptr && best->works) {
         fmt::print("{}", setup_toml(*best));
     } else {
@@ -39,7 +88,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                    "(--evenness, "
                    "--pixels).\n");
     }
-    Result<void> written = write_all(arguments.out, {{"setup.csv", setup_csv(settings, found)}});
+    Result<void> written = write_all(arguments.out, {{"setup.csv", setup_csv(now, found)}});
     return written ? draw_all(arguments.out, {"setup.csv"}) : written;
 }
 
@@ -52,6 +101,9 @@ BenchCommand setup_command(CLI::App& app) {
     command->add_option("--config", arguments->config, "settings: the table, the eyes, the prop as it is")
         ->required();
     command->add_option("--out", arguments->out, "folder for the table and the plot")->required();
+    command->add_option(
+        "--pack", arguments->pack,
+        "a pack: what its frames cost in the best choices, in times of the settings as they are");
     command
         ->add_option("--picture", arguments->picture, "width and height of the projector's picture, pixels")
         ->expected(2)

@@ -19,20 +19,27 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         "shimmer", arguments.place, arguments.artifact, progress,
         [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
             const StepProgress& steps) { return shimmer(set_up, pack, mesh, arguments.options, steps); },
-        shimmer_table, [](const std::vector<ShimmerResult>& results) { return shimmer_csv(results); });
+        shimmer_table,
+        [](const std::vector<ShimmerResult>& results) {
+            return OutputFiles{{"shimmer.csv", shimmer_csv(results)},
+                               {"edge_sparkle.csv", edge_sparkle_csv(results)}};
+        });
 }
 
 } // namespace
 
 BenchCommand shimmer_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "shimmer", "the prop moved by 0.1 pixel steps: default and finest level against a ray cast");
+        "shimmer",
+        "the prop moved by small steps: default and finest level against a ray cast, edges between faces");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(*command, arguments->place);
     add_artifact_options(*command, arguments->artifact);
     add_picture_options(*command, arguments->options.picture);
     add_pose_options(*command, arguments->options.poses, arguments->options.seed);
-    command->add_option("--steps", arguments->options.steps, "of 0.1 projector pixel in each direction")
+    command
+        ->add_option("--steps", arguments->options.steps,
+                     "in each direction: of 0.1 projector pixel, and of 0.1 mm for the edges")
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     command->add_flag("--one-ray", arguments->one_ray, "leave out the ray cast with 16 rays a pixel");

@@ -72,8 +72,7 @@ public:
 
     [[nodiscard]] const std::vector<PropFace>& faces() const { return prop_.faces; }
     [[nodiscard]] glm::dvec3 centre(const PropFace& face) const {
-        return table_from_prop_.point(
-            0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]));
+        return table_from_prop_.point(face.middle());
     }
     [[nodiscard]] Plane plane(const PropFace& face) const {
         const glm::dvec3 normal = table_from_prop_.direction(face.plane.normal);

@@ -220,6 +220,28 @@ class OtherTables(Plots):
         self.assert_at(svg, 1, "governor", [(0.1, 1e-18), (10, 0.5)])
         self.assertEqual(svg.texts().count("all of it"), 1)
 
+    def setup_plot(self, *costs):
+        """A plot of the set-up as it is and two choices, with these costs of a frame."""
+        rows = [{"choice": choice, "lens_height_m": height, "lens_side_m": side, "evenness": 0.3, "pixels": 900,
+                 "reach_y_m": 0.04, "reference_light": 0.2, "frame_times_now": cost}
+                for (choice, height, side), cost in zip(
+                    (("as it is", 1.2, 0.0), ("tilted", 1.5, 0.0), ("tilted", 1.5, 0.3), ("tilted", 1.6, 0.0)), costs)]
+        write_table(self.folder / "setup.csv", rows)
+        main([str(self.folder / "setup.csv")])
+        return Svg(self.folder / "setup.svg")
+
+    def test_what_frames_cost_is_drawn_where_it_was_measured(self):
+        svg = self.setup_plot("1.0", "1.5", "", "2.0")
+        self.assert_at(svg, 4, "above the middle", [(1.5, 1.5), (1.6, 2.0)], log=False)
+        self.assertFalse(svg.marks("panel4/0.3 m behind it, tilted"))
+        self.assertTrue(svg.marks("panel3/0.3 m behind it, tilted"))
+        self.assertEqual(svg.texts().count("as it is"), 5)
+
+    def test_frames_that_nobody_timed_have_no_panel(self):
+        svg = self.setup_plot("", "", "", "")
+        self.assertIn("axes_4", svg.groups)
+        self.assertNotIn("axes_5", svg.groups)
+
 
 class Panels(Plots):
     def test_points_that_the_axes_cannot_show_are_left_out(self):

@@ -1,0 +1,87 @@
+#include "app/bench/setup/frame_cost.h"
+
+#include "app/bench/measures/counts.h"
+#include "app/bench/techniques/pack_level.h"
+#include "firmware_host/base/quantile.h"
+#include "firmware_host/display/egl_context.h"
+#include "firmware_host/display/picture_framebuffer.h"
+
+#include <memory>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int turns = 12;
+constexpr int rounds = 6; ///< fewer than 60 frame times have no steady median on a busy machine
+
+std::vector<BenchPose> turned_in_the_middle(const glm::dvec3& eye_m) {
+    std::vector<BenchPose> poses;
+    for (int k = 0; k < turns; ++k) {
+        const double yaw = 2.0 * std::numbers::pi * k / turns;
+        poses.push_back({{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)}, eye_m});
+    }
+    return poses;
+}
+
+/// One set-up's picture and what draws it. It stays where it was made: the technique refers to the stage.
+struct Candidate {
+    PictureFramebuffer picture;
+    Stage stage;
+    std::unique_ptr<Technique> level;
+};
+
+Result<std::unique_ptr<Candidate>> make_candidate(const Settings& settings, const Pack& pack) {
+    const Pinhole& pinhole = settings.projector.pinhole;
+    Result<PictureFramebuffer> picture = PictureFramebuffer::create(pinhole.width, pinhole.height);
+    if (!picture) {
+        return tl::unexpected<Error>(picture.error());
+    }
+    const unsigned framebuffer = picture->name();
+    auto made = std::make_unique<Candidate>(
+        Candidate{std::move(*picture), {settings, make_prop(settings.prop), framebuffer}, nullptr});
+    PictureOptions options;
+    options.lit = true;
+    Result<std::unique_ptr<Technique>> level =
+        make_pack_level(made->stage, pack, pack.default_level, options, "default level");
+    if (!level) {
+        return tl::unexpected<Error>(level.error());
+    }
+    made->level = std::move(*level);
+    return made;
+}
+
+} // namespace
+
+Result<std::vector<FrameCost>> frame_costs(std::span<const Settings* const> set_ups, const Pack& pack,
+                                           const Progress& progress) {
+    if (set_ups.empty()) {
+        return std::vector<FrameCost>{};
+    }
+    const Result<EglContext> context = EglContext::without_screen();
+    if (!context) {
+        return tl::unexpected<Error>(context.error());
+    }
+    std::vector<std::unique_ptr<Candidate>> candidates;
+    std::vector<Technique*> techniques;
+    for (const Settings* settings : set_ups) {
+        Result<std::unique_ptr<Candidate>> candidate = make_candidate(*settings, pack);
+        if (!candidate) {
+            return tl::unexpected<Error>(candidate.error());
+        }
+        techniques.push_back((*candidate)->level.get());
+        candidates.push_back(std::move(*candidate));
+    }
+    const std::vector<BenchPose> poses = turned_in_the_middle(set_ups.front()->eye.default_m);
+    const std::vector<FrameTimes> times = time_interleaved(techniques, poses, {rounds}, progress);
+    std::vector<FrameCost> costs;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        costs.push_back({quantile(times[k].wall_ms, 0.5) / quantile(times[0].wall_ms, 0.5),
+                         quantile(times[k].cpu_ms, 0.5) / quantile(times[0].cpu_ms, 0.5),
+                         count_frames(*set_ups[k], pack, poses).samples});
+    }
+    return costs;
+}
+
+} // namespace frustumscreen

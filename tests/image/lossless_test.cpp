@@ -1,0 +1,83 @@
+// What holds of PNG and lossless WebP alike: every texel comes back, and bytes that are none are refused.
+
+#include "tests/image/pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+using namespace frustumscreen;
+
+namespace {
+
+struct Codec {
+    const char* name;
+    Bytes (*encode)(const Image8&);
+    Result<Image8> (*decode)(std::span<const std::byte>, std::int64_t most_pixels);
+    std::size_t tail; ///< bytes at the end that hold nothing of the picture
+};
+
+constexpr std::int64_t plenty = 1 << 20; ///< pixels
+
+class Lossless : public ::testing::TestWithParam<Codec> {
+protected:
+    const Codec& codec_ = GetParam();
+};
+
+} // namespace
+
+TEST_P(Lossless, every_texel_comes_back_unchanged_under_alpha_too) {
+    for (const Image8& image :
+         {noise(61, 37, false), noise(61, 37, true), smooth(200, 100), noise(1, 1, true)}) {
+        const Result<Image8> back = codec_.decode(codec_.encode(image), plenty);
+        ASSERT_TRUE(back) << back.error().message;
+        EXPECT_EQ(back->width, image.width);
+        EXPECT_EQ(back->height, image.height);
+        EXPECT_EQ(back->texels, image.texels);
+    }
+}
+
+TEST_P(Lossless, the_same_picture_gives_the_same_bytes) {
+    const Image8 image = noise(20, 30, true);
+    EXPECT_EQ(codec_.encode(image), codec_.encode(image));
+}
+
+TEST_P(Lossless, a_picture_without_texels_gives_no_bytes) {
+    EXPECT_TRUE(codec_.encode(Image8()).empty());
+}
+
+TEST_P(Lossless, a_picture_above_the_limit_is_refused_before_it_is_decoded) {
+    const Bytes bytes = codec_.encode(noise(64, 64, false));
+    EXPECT_TRUE(codec_.decode(bytes, 4096));
+    const Result<Image8> back = codec_.decode(bytes, 4095);
+    ASSERT_FALSE(back);
+    EXPECT_NE(back.error().message.find("64 x 64"), std::string::npos);
+}
+
+TEST_P(Lossless, every_truncation_is_refused) {
+    const Bytes bytes = codec_.encode(noise(16, 16, true));
+    for (std::size_t size = 0; size + codec_.tail < bytes.size(); ++size) {
+        const Result<Image8> back = codec_.decode(std::span(bytes).first(size), plenty);
+        ASSERT_FALSE(back) << size;
+        EXPECT_EQ(back.error().message.find('\n'), std::string::npos);
+    }
+}
+
+TEST_P(Lossless, altered_bytes_never_crash) {
+    const Bytes bytes = codec_.encode(noise(16, 16, true));
+    std::mt19937 random(3);
+    for (int k = 0; k < 2000; ++k) {
+        Bytes altered = bytes;
+        altered[random() % altered.size()] ^= static_cast<std::byte>(1U << (random() % 8));
+        if (const Result<Image8> back = codec_.decode(altered, plenty); back) {
+            ASSERT_EQ(back->texels.size(),
+                      static_cast<std::size_t>(back->width) * static_cast<std::size_t>(back->height));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Codecs, Lossless,
+                         ::testing::Values(Codec{"Png", encode_png, decode_png8, 12}, // the chunk IEND
+                                           Codec{"WebP", encode_webp, decode_webp8, 4}),
+                         [](const auto& info) { return std::string(info.param.name); });
