@@ -28,7 +28,7 @@ float sample_of(const Prompt& prompt, std::uint32_t k) {
 }
 
 std::int16_t code_of(float x) {
-    return static_cast<std::int16_t>(std::clamp(std::lrint(x * full_scale), -32768L, 32767L));
+    return static_cast<std::int16_t>(std::clamp(std::lrint(x * full_scale), -32767L, 32767L));
 }
 
 } // namespace
