@@ -1,8 +1,11 @@
-// ALSA's own 'file' and 'null' devices stand in for a card: what arrives in the file is what would be heard.
+// ALSA's own 'file' and 'null' devices stand in for a card: what arrives in the file is what would be heard. A plugin of
+// ALSA's is the card that has faults.
 #include "firmware_host/base/file.h"
 #include "firmware_host/sound/device_sound.h"
+#include "tests/sound/faulty_card.h"
 #include "tests/sound/sound_samples.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -27,6 +30,8 @@ pcm.mono_44100 {
     slave { pcm { type file slave.pcm { type null } file "mono.raw" format "raw" } rate 44100 channels 1 }
 }
 )";
+        std::ofstream("asound.conf", std::ios::app)
+            << "pcm_type.faulty { lib \"" FRUSTUMSCREEN_FAULTY_CARD "\" }\npcm.faulty { type faulty }\n";
         ::setenv("ALSA_CONFIG_PATH", "asound.conf", 1); // before ALSA first looks
     }
 
@@ -84,6 +89,54 @@ TEST_F(AlsaDevice, ACardThatIsMonoAndOfAnotherRateIsConvertedFor) {
     const std::vector<std::int16_t> heard = recorded("mono.raw");
     const double length_s = static_cast<double>(end_of_heard(heard) - first_heard(heard)) / 44'100.0;
     EXPECT_NEAR(length_s, 0.5, 0.002);
+}
+
+/// Polls until `done(report)` or for twenty seconds: no time is asserted.
+template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
+    const auto give_up = std::chrono::steady_clock::now() + seconds(20);
+    while (!done(sound.poll(monotonic_now(), wish))) {
+        if (std::chrono::steady_clock::now() > give_up) {
+            ADD_FAILURE() << sound.state();
+            return false;
+        }
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return true;
+}
+
+TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
+    void* const plugin = ::dlopen(FRUSTUMSCREEN_FAULTY_CARD, RTLD_NOW);
+    ASSERT_NE(plugin, nullptr) << ::dlerror();
+    auto& card = *static_cast<FaultyCard*>(::dlsym(plugin, "faulty_card"));
+    const auto plays_on = [&card](Sound& sound, const SoundWish& wish) {
+        return until(sound, wish, [&card, from = card.frames.load()](const SoundReport& report) {
+            return report.audible && card.frames > from + 9600;
+        });
+    };
+    DeviceSound sound([] { return open_alsa("faulty"); });
+    SoundWish wish;
+    wish.say(level(600 * 48'000, 100));
+    ASSERT_TRUE(plays_on(sound, wish));
+    const std::uint64_t own = sound.poll(monotonic_now(), wish).underruns; // of a machine with more to do
+    card.underruns = 3;
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.underruns >= own + 3; }));
+    ASSERT_TRUE(plays_on(sound, wish));
+    card.resumes_refused = 5;
+    card.suspensions = 1;
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) { return card.resumed == 1; }));
+    ASSERT_TRUE(plays_on(sound, wish));
+    EXPECT_EQ(card.opened, 1);
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 0U);
+    card.gone = true;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return !report.audible; }));
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) {
+        return sound.state().find("sound device faulty: it is not there") == 0;
+    }));
+    card.gone = false;
+    ASSERT_TRUE(plays_on(sound, wish));
+    EXPECT_EQ(card.opened, 2);
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).number, 1U); // the prompt went on all the time
 }
 
 TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {

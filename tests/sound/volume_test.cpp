@@ -30,7 +30,7 @@ TEST(Volume, NeverJumpsNotEvenOverMidnightOrInShortHours) {
     };
     for (const Volume& volume : volumes) {
         ASSERT_TRUE(check_volume(volume));
-        constexpr double step_h = 1e-5;
+        constexpr double step_h = 1e-4;
         constexpr double steepest = 65.0 / 1e-3; // dB an hour: from one row to the next
         double last = gain_db_at(volume, 0.0);
         for (double hour = step_h; hour < 24.5; hour += step_h) {
