@@ -1,4 +1,5 @@
 #include "firmware_host/sound/device_sound.h"
+#include "tests/render/counted_new.h"
 #include "tests/sound/sound_samples.h"
 
 #include <gtest/gtest.h>
@@ -208,6 +209,41 @@ TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
         until(sound, wish, [](const SoundReport& report) { return report.heard > milliseconds(300); }));
     const Nanoseconds took = monotonic_now() - before;
     EXPECT_LE(duration_of(card.count()), took + took / 40 + 2 * longest_queue);
+}
+
+/// Takes all and keeps nothing.
+class DeafPcm final : public PcmDevice {
+public:
+    [[nodiscard]] Result<std::size_t> room() override { return capacity; }
+    [[nodiscard]] Result<void> write(std::span<const std::int16_t>) override { return {}; }
+    [[nodiscard]] std::size_t queued() const override { return 0; }
+    void wait(Nanoseconds longest) override { std::this_thread::sleep_for(longest); }
+    [[nodiscard]] std::uint64_t underruns() const override { return 0; }
+    [[nodiscard]] std::string_view state() const override { return "nobody listens"; }
+};
+
+TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "the sanitizers bring their own allocations";
+    }
+    DeviceSound sound([]() -> Result<std::unique_ptr<PcmDevice>> { return std::make_unique<DeafPcm>(); });
+    SoundWish wish;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
+    const SharedPrompt prompts[] = {noise(4000, 9000, 34, {{1000, 1100}}), noise(9000, 9000, 35)};
+    const long before = synthetic::allocations_so_far();
+    std::uint64_t number = 0;
+    for (int k = 0; k < 20; ++k) {
+        number = wish.say(prompts[k % 2]);
+        wish.play_ambience(prompts[k % 2], -1.0 * k);
+        wish.set_gain_db(-1.0 * k);
+        const auto heard = [&](const SoundReport& report) { return report.number == number; };
+        ASSERT_TRUE(until(sound, wish, heard));
+        if (k % 3 == 0) {
+            wish.leave();
+        }
+    }
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.over == number; }));
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
 /// For the thread sanitizer, and for the order of what is reported: a caller who wishes something else all the
