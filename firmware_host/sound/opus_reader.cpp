@@ -1,5 +1,7 @@
 #include "firmware_host/sound/opus_reader.h"
 
+#include "firmware_host/base/file.h"
+
 #include <fmt/format.h>
 #include <opusfile.h>
 
@@ -43,14 +45,20 @@ tl::unexpected<Error> too_long(const OpusLimits& limits) {
                                  std::chrono::duration_cast<std::chrono::seconds>(limits.longest).count()));
 }
 
-Result<void> check_channels(const OggOpusFile* file) {
-    for (int link = 0; link < ::op_link_count(file); ++link) {
-        if (const int channels = ::op_channel_count(file, link); channels > most_channels) {
-            return bad_input(
-                fmt::format("the recording has {} channels; store it with one or two", channels));
-        }
+/// Pages that begin a stream (RFC 3533, 'Beginning of stream'), wherever they lie. libopusfile 0.12 loses memory
+/// for each damaged stream behind the first, so there must not be any.
+std::size_t streams_in(std::span<const std::byte> bytes) {
+    constexpr std::string_view capture = "OggS";
+    constexpr std::size_t flags_at = 5;
+    constexpr std::byte begins_stream{2};
+    const std::string_view text = as_text(bytes);
+    std::size_t streams = 0;
+    for (std::size_t at = text.find(capture); at != text.npos; at = text.find(capture, at + 1)) {
+        const bool begins =
+            at + flags_at < bytes.size() && (bytes[at + flags_at] & begins_stream) != std::byte(0);
+        streams += begins ? 1 : 0;
     }
-    return {};
+    return streams;
 }
 
 std::int16_t code_of(float x) {
@@ -61,14 +69,18 @@ std::int16_t code_of(float x) {
 } // namespace
 
 Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& limits) {
+    if (streams_in(bytes) > 1) {
+        return bad_input("the file holds more than one recording; store each in a file of its own");
+    }
     int error = 0;
     const OpusFile file(
         ::op_open_memory(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), &error));
     if (!file) {
         return refused(error);
     }
-    if (Result<void> checked = check_channels(file.get()); !checked) {
-        return tl::unexpected<Error>(checked.error());
+    const int channels = ::op_channel_count(file.get(), 0);
+    if (channels > most_channels) {
+        return bad_input(fmt::format("the recording has {} channels; store it with one or two", channels));
     }
     const ogg_int64_t claimed = ::op_pcm_total(file.get(), -1);
     if (claimed < 0) {
@@ -82,8 +94,7 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
     prompt.samples.reserve(static_cast<std::size_t>(claimed));
     std::array<float, longest_packet * most_channels> packet{};
     for (;;) {
-        int link = 0;
-        const int read = ::op_read_float(file.get(), packet.data(), static_cast<int>(packet.size()), &link);
+        const int read = ::op_read_float(file.get(), packet.data(), static_cast<int>(packet.size()), nullptr);
         if (read == 0) {
             break;
         }
@@ -94,10 +105,9 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
         if (prompt.samples.size() + count > most) {
             return too_long(limits);
         }
-        const bool stereo = ::op_channel_count(file.get(), link) == 2;
         for (std::size_t k = 0; k < count; ++k) {
             prompt.samples.push_back(
-                code_of(stereo ? 0.5F * (packet[2 * k] + packet[2 * k + 1]) : packet[k]));
+                code_of(channels == 2 ? 0.5F * (packet[2 * k] + packet[2 * k + 1]) : packet[k]));
         }
     }
     if (prompt.samples.empty()) {

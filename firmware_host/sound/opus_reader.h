@@ -1,7 +1,7 @@
 /// Reads an Ogg Opus recording (RFC 7845, RFC 6716; by libopusfile) into a prompt.
 ///
-/// Input    outside bytes: at most `OpusLimits::longest`, one or two channels, which are averaged. What is
-///          claimed is checked before memory is taken, what is decoded while it is.
+/// Input    outside bytes: one recording of at most `OpusLimits::longest`, of one or two channels, which are
+///          averaged. What is claimed is checked before memory is taken, what is decoded while it is.
 /// Errors   bad input, one sentence.
 /// Memory   96 kB for a second; while it is read, for as long as `longest` at most.
 /// Threads  pure; any but the exhibit's in its frame: a second takes some milliseconds.
