@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 namespace frustumscreen {
 namespace {
@@ -33,6 +34,15 @@ pcm.mono_44100 {
         std::ofstream("asound.conf", std::ios::app)
             << "pcm_type.faulty { lib \"" FRUSTUMSCREEN_FAULTY_CARD "\" }\npcm.faulty { type faulty }\n";
         ::setenv("ALSA_CONFIG_PATH", "asound.conf", 1); // before ALSA first looks
+    }
+
+    /// The plugin's own, as ALSA loads it.
+    static FaultyCard& faulty_card() {
+        void* const plugin = ::dlopen(FRUSTUMSCREEN_FAULTY_CARD, RTLD_NOW);
+        if (plugin == nullptr) {
+            throw std::runtime_error(::dlerror());
+        }
+        return *static_cast<FaultyCard*>(::dlsym(plugin, "faulty_card"));
     }
 
     static std::vector<std::int16_t> recorded(const std::string& file) {
@@ -105,9 +115,8 @@ template <typename Done> bool until(Sound& sound, const SoundWish& wish, const D
 }
 
 TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
-    void* const plugin = ::dlopen(FRUSTUMSCREEN_FAULTY_CARD, RTLD_NOW);
-    ASSERT_NE(plugin, nullptr) << ::dlerror();
-    auto& card = *static_cast<FaultyCard*>(::dlsym(plugin, "faulty_card"));
+    FaultyCard& card = faulty_card();
+    card.opened = 0;
     const auto plays_on = [&card](Sound& sound, const SoundWish& wish) {
         return until(sound, wish, [&card, from = card.frames.load()](const SoundReport& report) {
             return report.audible && card.frames > from + 9600;
@@ -146,6 +155,40 @@ TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {
     ASSERT_TRUE(room);
     EXPECT_LE(*room, samples_in(longest_queue));
     EXPECT_GE(*room, samples_in(longest_queue) / 2);
+}
+
+TEST_F(AlsaDevice, ALargeBufferIsNotFilled) {
+    FaultyCard& card = faulty_card();
+    card.period = 480;
+    card.buffer = 48'000;
+    Result<std::unique_ptr<PcmDevice>> device = open_alsa("faulty");
+    card.period = 0;
+    card.buffer = 0;
+    ASSERT_TRUE(device) << device.error().message;
+    std::size_t most = 0;
+    for (int round = 0; round < 40; ++round) {
+        const Result<std::size_t> room = (*device)->room();
+        ASSERT_TRUE(room);
+        const std::vector<std::int16_t> silence(*room);
+        ASSERT_TRUE((*device)->write(silence));
+        most = std::max(most, (*device)->queued());
+        (*device)->wait(milliseconds(10));
+    }
+    EXPECT_LE(most, samples_in(longest_queue));
+    EXPECT_GE(most, samples_in(longest_queue) / 2);
+}
+
+TEST_F(AlsaDevice, ADeviceOfLongPeriodsSaysThatItSpeaksLate) {
+    FaultyCard& card = faulty_card();
+    card.period = 2048;
+    card.buffer = 8192;
+    const Result<std::unique_ptr<PcmDevice>> device = open_alsa("faulty");
+    card.period = 0;
+    card.buffer = 0;
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ(*(*device)->room(), 2 * 2048U);
+    EXPECT_NE((*device)->state().find("holds 85 ms back: it speaks late"), std::string_view::npos)
+        << (*device)->state();
 }
 
 TEST_F(AlsaDevice, ADeviceThatIsNotThereIsSaidInOneSentence) {

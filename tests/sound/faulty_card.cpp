@@ -124,6 +124,13 @@ int create(snd_pcm_t** pcm, const char* name, snd_pcm_stream_t stream, int mode)
     ::snd_pcm_ioplug_set_param_list(&plugin, SND_PCM_IOPLUG_HW_FORMAT, 1, &format);
     ::snd_pcm_ioplug_set_param_minmax(&plugin, SND_PCM_IOPLUG_HW_CHANNELS, 2, 2);
     ::snd_pcm_ioplug_set_param_minmax(&plugin, SND_PCM_IOPLUG_HW_RATE, 48'000, 48'000);
+    constexpr unsigned frame_bytes = 4;
+    if (const unsigned bytes = frame_bytes * faulty_card.period; bytes > 0) {
+        ::snd_pcm_ioplug_set_param_minmax(&plugin, SND_PCM_IOPLUG_HW_PERIOD_BYTES, bytes, bytes);
+    }
+    if (const unsigned bytes = frame_bytes * faulty_card.buffer; bytes > 0) {
+        ::snd_pcm_ioplug_set_param_minmax(&plugin, SND_PCM_IOPLUG_HW_BUFFER_BYTES, bytes, bytes);
+    }
     ++faulty_card.opened;
     *pcm = plugin.pcm;
     return 0;

@@ -9,6 +9,8 @@ struct FaultyCard {
     std::atomic<int> underruns{0};       ///< to happen still
     std::atomic<int> suspensions{0};     ///< to happen still
     std::atomic<int> resumes_refused{0}; ///< for now, with EAGAIN
+    std::atomic<unsigned> period{0};     ///< frames, which it insists on when it is opened; 0: any
+    std::atomic<unsigned> buffer{0};     ///< the same
     std::atomic<bool> gone{false};
     std::atomic<int> opened{0};
     std::atomic<int> resumed{0};
