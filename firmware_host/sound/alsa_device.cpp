@@ -1,3 +1,4 @@
+#include "firmware_host/sound/alsa_controls.h"
 #include "firmware_host/sound/pcm_device.h"
 
 #include <alsa/asoundlib.h>
@@ -23,6 +24,9 @@ struct FreeHardware {
 };
 struct FreeSoftware {
     void operator()(snd_pcm_sw_params_t* params) const { ::snd_pcm_sw_params_free(params); }
+};
+struct FreeInfo {
+    void operator()(snd_pcm_info_t* info) const { ::snd_pcm_info_free(info); }
 };
 
 /// How a device was set up.
@@ -97,12 +101,13 @@ int set_software(snd_pcm_t* pcm, const SetUp& set_up) {
         return error;
     }
     const std::unique_ptr<snd_pcm_sw_params_t, FreeSoftware> params(raw);
-    // It wakes when a period's room is in the queue, which may be shorter than the device's own buffer.
+    // It starts when the queue is full, and wakes when there is room for a period in it; the device's own
+    // buffer may be longer.
     const snd_pcm_uframes_t wake_at = std::min(set_up.buffer - set_up.queue + set_up.period, set_up.buffer);
     return Calls()
         .then([&] { return ::snd_pcm_sw_params_current(pcm, raw); })
         .then([&] { return ::snd_pcm_sw_params_set_avail_min(pcm, raw, wake_at); })
-        .then([&] { return ::snd_pcm_sw_params_set_start_threshold(pcm, raw, set_up.period); })
+        .then([&] { return ::snd_pcm_sw_params_set_start_threshold(pcm, raw, set_up.queue); })
         .then([&] { return ::snd_pcm_sw_params(pcm, raw); })
         .error();
 }
@@ -198,6 +203,16 @@ private:
     std::string state_;
 };
 
+/// The card that it plays on at last, by its number; -1: none.
+int card_of(snd_pcm_t* pcm) {
+    snd_pcm_info_t* raw = nullptr;
+    if (::snd_pcm_info_malloc(&raw) < 0) {
+        return -1;
+    }
+    const std::unique_ptr<snd_pcm_info_t, FreeInfo> info(raw);
+    return ::snd_pcm_info(pcm, raw) < 0 ? -1 : ::snd_pcm_info_get_card(raw);
+}
+
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
 } // namespace
@@ -220,6 +235,7 @@ Result<std::unique_ptr<PcmDevice>> open_alsa(const std::string& name) {
     if (const int error = set_software(raw, set_up); error < 0) {
         return lost(name, error);
     }
+    wake_controls(card_of(raw));
     return std::make_unique<AlsaDevice>(std::move(pcm), name, set_up);
 }
 

@@ -35,6 +35,7 @@ using OpenPcm = std::function<Result<std::unique_ptr<PcmDevice>>()>;
 
 /// A sound device of ALSA by its name: "default", "plughw:0,0", or any other that `aplay -L` lists.
 ///
+/// Mute     a card that is muted by its own controls is woken (alsa_controls.h).
 /// Delay    periods of 10 ms, and at most `longest_queue` in the device: what is written is heard within it.
 ///          Where a device wants longer periods, two of them wait, and `state` says how long that is.
 [[nodiscard]] Result<std::unique_ptr<PcmDevice>> open_alsa(const std::string& name);
