@@ -11,6 +11,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Nanoseconds look_again = std::chrono::seconds(1);
+/// A device that takes long to say no stops the time of what is spoken meanwhile: it is asked seldom.
+constexpr int rests_for_each_look = 10;
 constexpr Nanoseconds round = milliseconds(10);
 constexpr Nanoseconds stalls_after = milliseconds(500);
 
@@ -53,8 +55,10 @@ void DeviceSound::run(const std::stop_token& stop) {
     begin_device_thread("sound");
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + longest_round);
+        const MonotonicTime began = monotonic_now();
         Result<std::unique_ptr<PcmDevice>> device = open_();
-        go_on_silently(); // that took time
+        const Nanoseconds took = monotonic_now() - began;
+        go_on_silently();
         if (device) {
             said_.set((*device)->state());
             const Error lost = play(**device, stop);
@@ -65,7 +69,7 @@ void DeviceSound::run(const std::stop_token& stop) {
             said_.set(device.error().message);
         }
         device = {}; // it is closed before it is looked for again
-        rest(stop);
+        rest(std::max(look_again, rests_for_each_look * took), stop);
     }
 }
 
@@ -105,8 +109,8 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
     return {ErrorKind::DeviceLost, {}};
 }
 
-void DeviceSound::rest(const std::stop_token& stop) {
-    const MonotonicTime end = monotonic_now() + look_again;
+void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {
+    const MonotonicTime end = monotonic_now() + length;
     std::unique_lock lock(rest_mutex_);
     while (!stop.stop_requested() && monotonic_now() < end) {
         heartbeat_.promise(monotonic_now() + longest_round);

@@ -43,8 +43,8 @@ private:
     void run(const std::stop_token& stop);
     /// Until the device is lost, which it returns, or `stop` is requested.
     [[nodiscard]] Error play(PcmDevice& device, const std::stop_token& stop);
-    /// Keeps time without a device for `look_again`.
-    void rest(const std::stop_token& stop);
+    /// Keeps time without a device.
+    void rest(Nanoseconds length, const std::stop_token& stop);
     void go_on_silently();
     void follow_wish();
     void report(Nanoseconds queued, bool audible);

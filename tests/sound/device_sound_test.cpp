@@ -186,6 +186,20 @@ TEST(DeviceSound, ADeviceThatStandsStillIsOpenedAgain) {
     EXPECT_EQ(card.opened, 2);
 }
 
+TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
+    static constexpr Nanoseconds takes = milliseconds(300);
+    std::atomic<int> asked{0};
+    DeviceSound sound([&asked]() -> Result<std::unique_ptr<PcmDevice>> {
+        ++asked;
+        std::this_thread::sleep_for(takes);
+        return fail(ErrorKind::DeviceLost, "not there");
+    });
+    SoundWish wish;
+    wish.say(level(60 * 48'000, 1));
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.heard > seconds(3); }));
+    EXPECT_LE(asked, 2); // time stands still for a tenth of it at most
+}
+
 TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
     FakeCard card;
     DeviceSound sound(opener(card));
