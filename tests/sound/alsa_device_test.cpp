@@ -124,7 +124,7 @@ TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
     };
     DeviceSound sound([] { return open_alsa("faulty"); });
     SoundWish wish;
-    wish.say(level(600 * 48'000, 100));
+    wish.say(level(120 * 48'000, 100));
     ASSERT_TRUE(plays_on(sound, wish));
     const std::uint64_t own = sound.poll(monotonic_now(), wish).underruns; // of a machine with more to do
     card.underruns = 3;

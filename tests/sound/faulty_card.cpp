@@ -46,9 +46,11 @@ snd_pcm_sframes_t pointer(snd_pcm_ioplug_t* plugin) {
     (void)!::read(plugin->poll_fd, &ticks, sizeof(ticks));
     if (faulty_card.gone) {
         ::snd_pcm_ioplug_set_state(plugin, SND_PCM_STATE_DISCONNECTED);
-    } else if (happens(faulty_card.suspensions)) {
-        ::snd_pcm_ioplug_set_state(plugin, SND_PCM_STATE_SUSPENDED);
     } else if (plugin->state == SND_PCM_STATE_RUNNING) {
+        if (happens(faulty_card.suspensions)) {
+            ::snd_pcm_ioplug_set_state(plugin, SND_PCM_STATE_SUSPENDED);
+            return static_cast<snd_pcm_sframes_t>(card.at % plugin->buffer_size);
+        }
         const double seconds = std::chrono::duration<double>(Clock::now() - card.started).count();
         const auto due = static_cast<snd_pcm_uframes_t>(seconds * plugin->rate);
         if (due > plugin->appl_ptr || happens(faulty_card.underruns)) {

@@ -19,7 +19,10 @@ template <typename Value> SharedPrompt prompt_of(std::size_t count, std::vector<
 }
 /// Held at one level: whatever moves then is a fade.
 inline SharedPrompt level(std::size_t count, int code, std::vector<Mark> marks = {}) {
-    return prompt_of(count, std::move(marks), [code](std::size_t) { return code; });
+    auto prompt = std::make_shared<Prompt>();
+    prompt->samples.assign(count, static_cast<std::int16_t>(code));
+    prompt->marks = std::move(marks);
+    return prompt;
 }
 /// No two stretches of it are alike.
 inline SharedPrompt noise(std::size_t count, int loudest, unsigned seed, std::vector<Mark> marks = {}) {
