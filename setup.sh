@@ -19,6 +19,8 @@ packages=(
     libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
+    # sound
+    libasound2-dev libopusfile-dev
     # projectors
     libdrm-dev libgbm-dev libudev-dev libxcvt-dev
     # OpenGL ES without a screen

@@ -132,6 +132,15 @@ void pictures(const Seeds& seeds) {
     }
 }
 
+/// Recordings of a few packets, which libsndfile wrote.
+void sounds(const Seeds& seeds) {
+    const std::string mono = file_text("tests/fuzz/corpus/opus/mono");
+    const std::string stereo = file_text("tests/fuzz/corpus/opus/stereo");
+    seeds.add("opus", "mono", mono);
+    seeds.add("opus", "stereo", stereo);
+    seeds.add("opus", "chain", mono + stereo);
+}
+
 void meshes(const Seeds& seeds) {
     seeds.add("mesh", "meshlab.ply", file_text("tests/fuzz/corpus/mesh/meshlab.ply"));
     for (const frustumscreen::testing::SampleModel& model : frustumscreen::testing::sample_models()) {
@@ -159,5 +168,6 @@ int main(int count, char** arguments) {
     packs(seeds);
     pictures(seeds);
     meshes(seeds);
+    sounds(seeds);
     return 0;
 }

@@ -137,6 +137,7 @@ const std::vector<Guard> guards = {
     {"linux/input", {"firmware_host/panel/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},
+    {"opusfile", {"firmware_host/sound/"}},
     {"embree", {"assets_baked/bake/", "app/bench/"}},
     {"draco/", {"assets_baked/bake/"}},
     {"tiny_obj_loader", {"assets_baked/bake/"}},

@@ -1,0 +1,142 @@
+#include "firmware_host/sound/device_sound.h"
+
+#include "firmware_host/base/device_thread.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Nanoseconds look_again = std::chrono::seconds(1);
+/// A device that takes long to say no stops the time of what is spoken meanwhile: it is asked seldom.
+constexpr int rests_for_each_look = 10;
+constexpr Nanoseconds round = milliseconds(10);
+constexpr Nanoseconds stalls_after = milliseconds(500);
+
+/// What a device may take by the clock: 2 % more than the clock's samples, and a little at once. ALSA's 'null'
+/// takes all at once, for ever.
+class Allowance {
+public:
+    explicit Allowance(MonotonicTime now) : then_(now) {}
+
+    [[nodiscard]] std::size_t samples(MonotonicTime now) {
+        left_ = std::min(left_ + (now - then_) + (now - then_) / 50, most);
+        then_ = now;
+        return static_cast<std::size_t>(samples_in(left_));
+    }
+    void use(std::size_t samples) { left_ -= duration_of(samples); }
+
+private:
+    static constexpr Nanoseconds most = 2 * longest_queue;
+    MonotonicTime then_;
+    Nanoseconds left_ = most;
+};
+
+} // namespace
+
+DeviceSound::DeviceSound(OpenPcm open)
+    : open_(std::move(open)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundWish& wish) {
+    if (wish != wished_ && wishes_.try_put(wish)) {
+        wished_ = wish;
+    }
+    if (SoundReport latest; reports_.try_take(latest)) {
+        report_ = latest;
+    }
+    said_.read(state_);
+    return report_;
+}
+
+void DeviceSound::run(const std::stop_token& stop) {
+    begin_device_thread("sound");
+    while (!stop.stop_requested()) {
+        heartbeat_.promise(monotonic_now() + longest_round);
+        const MonotonicTime began = monotonic_now();
+        Result<std::unique_ptr<PcmDevice>> device = open_();
+        const Nanoseconds took = monotonic_now() - began;
+        go_on_silently();
+        if (device) {
+            said_.set((*device)->state());
+            const Error lost = play(**device, stop);
+            clock_ = SampleClock(monotonic_now());
+            ++losses_;
+            said_.set(lost.message);
+        } else {
+            said_.set(device.error().message);
+        }
+        device = {}; // it is closed before it is looked for again
+        rest(std::max(look_again, rests_for_each_look * took), stop);
+    }
+}
+
+Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
+    const std::uint64_t underruns_before = underruns_;
+    MonotonicTime moved = monotonic_now();
+    Allowance allowance(moved);
+    while (!stop.stop_requested()) {
+        const MonotonicTime now = monotonic_now();
+        heartbeat_.promise(now + longest_round);
+        follow_wish();
+        const Result<std::size_t> room = device.room();
+        if (!room) {
+            return room.error();
+        }
+        const std::size_t allowed = allowance.samples(now);
+        Result<void> written;
+        mix_in_blocks(mixer_, std::min(*room, allowed), [&](std::span<const std::int16_t> block) {
+            written = written ? device.write(block) : written;
+        });
+        if (!written) {
+            return written.error();
+        }
+        allowance.use(std::min(*room, allowed));
+        moved = *room > 0 ? now : moved;
+        if (now - moved > stalls_after) {
+            return {ErrorKind::DeviceLost, "the sound device takes no more samples; it is opened again"};
+        }
+        underruns_ = underruns_before + device.underruns();
+        report(duration_of(device.queued()), true);
+        if (*room > allowed) {
+            std::this_thread::sleep_for(round);
+        } else {
+            device.wait(round);
+        }
+    }
+    return {ErrorKind::DeviceLost, {}};
+}
+
+void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {
+    const MonotonicTime end = monotonic_now() + length;
+    std::unique_lock lock(rest_mutex_);
+    while (!stop.stop_requested() && monotonic_now() < end) {
+        heartbeat_.promise(monotonic_now() + longest_round);
+        go_on_silently();
+        stopped_.wait_for(lock, stop, round, [] { return false; });
+    }
+}
+
+void DeviceSound::go_on_silently() {
+    mix_in_blocks(mixer_, clock_.take_due(monotonic_now()), [](std::span<const std::int16_t>) {});
+    follow_wish();
+    report(Nanoseconds(0), false);
+}
+
+void DeviceSound::follow_wish() {
+    if (SoundWish wish; wishes_.take(wish)) {
+        mixer_.follow(wish);
+    }
+}
+
+void DeviceSound::report(Nanoseconds queued, bool audible) {
+    SoundReport report = mixer_.report(queued);
+    report.audible = audible;
+    report.underruns = underruns_;
+    report.losses = losses_;
+    reports_.put(report);
+}
+
+} // namespace frustumscreen

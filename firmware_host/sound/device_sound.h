@@ -1,0 +1,72 @@
+/// A sound through a real device. Its own thread mixes and writes; it looks for a missing or lost device until
+/// it is back, and keeps time meanwhile.
+///
+/// Delay    speech begins within 150 ms of the `poll` that first wishes it: 10 ms until its thread looks, up to
+///          60 ms of breath if another prompt has just ended, 50 ms that wait in the device
+///          (`longest_queue`); the rest is for the thread to be late, and for amplifiers.
+/// Threads  `poll`, `state`: one caller. They wait for nothing, whatever the device does: what the other side is
+///          at in that moment is handed over by the next `poll`.
+/// Clock    that of the device. One that takes samples faster than a clock's could is none, and is held back.
+#pragma once
+
+#include "firmware_host/base/heartbeat.h"
+#include "firmware_host/base/latest.h"
+#include "firmware_host/base/sentence.h"
+#include "firmware_host/sound/mixer.h"
+#include "firmware_host/sound/pcm_device.h"
+#include "firmware_host/sound/sample_clock.h"
+#include "firmware_host/sound/sound.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+namespace frustumscreen {
+
+class DeviceSound final : public Sound {
+public:
+    /// Opening or closing takes no longer: a USB device that does not answer costs 5 s a transfer, until the
+    /// kernel gives up, and opening takes several.
+    static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
+
+    explicit DeviceSound(OpenPcm open);
+
+    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    [[nodiscard]] std::string name() const override { return "device"; }
+    [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
+        return heartbeat_.promised_until();
+    }
+
+private:
+    void run(const std::stop_token& stop);
+    /// Until the device is lost, which it returns, or `stop` is requested.
+    [[nodiscard]] Error play(PcmDevice& device, const std::stop_token& stop);
+    /// Keeps time without a device.
+    void rest(Nanoseconds length, const std::stop_token& stop);
+    void go_on_silently();
+    void follow_wish();
+    void report(Nanoseconds queued, bool audible);
+
+    OpenPcm open_;
+    // Between the threads:
+    Latest<SoundWish> wishes_;
+    Latest<SoundReport> reports_;
+    SharedSentence said_{"its sound device is not opened yet"};
+    Heartbeat heartbeat_{monotonic_now() + longest_round};
+    // Of the caller:
+    SoundWish wished_; ///< the latest that was handed over
+    SoundReport report_;
+    Sentence state_;
+    // Of the thread:
+    Mixer mixer_;
+    SampleClock clock_{monotonic_now()}; ///< while there is no device
+    std::uint64_t underruns_ = 0;        ///< of all devices
+    std::uint64_t losses_ = 0;
+    std::mutex rest_mutex_;
+    std::condition_variable_any stopped_;
+    std::jthread thread_; ///< last: it uses all of the above
+};
+
+} // namespace frustumscreen

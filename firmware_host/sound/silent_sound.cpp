@@ -1,0 +1,11 @@
+#include "firmware_host/sound/silent_sound.h"
+
+namespace frustumscreen {
+
+SoundReport SilentSound::poll(MonotonicTime now, const SoundWish& wish) {
+    mix_in_blocks(mixer_, clock_.take_due(now), [](std::span<const std::int16_t>) {});
+    mixer_.follow(wish);
+    return mixer_.report(Nanoseconds(0));
+}
+
+} // namespace frustumscreen

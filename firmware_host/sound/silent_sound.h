@@ -1,0 +1,24 @@
+/// A sound that nobody hears: it keeps time alone, for an exhibit without a loudspeaker.
+///
+/// Time     that of `poll`, by whole samples since `start`: what is wished begins where the last `poll` ended.
+#pragma once
+
+#include "firmware_host/sound/mixer.h"
+#include "firmware_host/sound/sample_clock.h"
+#include "firmware_host/sound/sound.h"
+
+namespace frustumscreen {
+
+class SilentSound final : public Sound {
+public:
+    explicit SilentSound(MonotonicTime start) : clock_(start) {}
+
+    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    [[nodiscard]] std::string name() const override { return "silent"; }
+
+private:
+    Mixer mixer_;
+    SampleClock clock_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,73 @@
+#include "firmware_host/sound/volume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double hours_a_day = 24.0;
+
+bool allowed(double gain_db) {
+    return gain_db >= Volume::least_db && gain_db <= Volume::most_db; // false for what is no number
+}
+
+/// Hours from `from` forward to `to`, around midnight if need be.
+double hours_between(double from, double to) {
+    const double hours = std::fmod(to - from, hours_a_day);
+    return hours < 0.0 ? hours + hours_a_day : hours;
+}
+
+tl::unexpected<Error> wrong(std::string message) {
+    return fail(ErrorKind::BadConfiguration, std::move(message));
+}
+
+} // namespace
+
+Result<void> check_volume(const Volume& volume) {
+    if (!allowed(volume.gain_db)) {
+        return wrong(fmt::format("the volume is {} dB; allowed are {} to {} dB", volume.gain_db,
+                                 Volume::least_db, Volume::most_db));
+    }
+    double last = -1.0;
+    for (const VolumeHour& row : volume.hours) {
+        if (!(row.from_h >= 0.0 && row.from_h < hours_a_day)) {
+            return wrong(fmt::format("the volume's hour {} is none of a day; allowed are 0 to below 24, 19.5 "
+                                     "is half past seven in the evening",
+                                     row.from_h));
+        }
+        if (row.from_h <= last) {
+            return wrong(
+                fmt::format("the volume's hour {} comes after {}; write the hours in ascending order, "
+                            "each once",
+                            row.from_h, last));
+        }
+        if (!allowed(row.gain_db)) {
+            return wrong(fmt::format("the volume from {} h on is {} dB; allowed are {} to {} dB", row.from_h,
+                                     row.gain_db, Volume::least_db, Volume::most_db));
+        }
+        last = row.from_h;
+    }
+    return {};
+}
+
+double gain_db_at(const Volume& volume, double hour_of_day) {
+    const std::vector<VolumeHour>& rows = volume.hours;
+    if (rows.size() < 2) {
+        return volume.gain_db + (rows.empty() ? 0.0 : rows.front().gain_db);
+    }
+    const double hour = hours_between(0.0, hour_of_day);
+    const auto after = std::upper_bound(rows.begin(), rows.end(), hour,
+                                        [](double h, const VolumeHour& row) { return h < row.from_h; });
+    const std::size_t next = static_cast<std::size_t>(after - rows.begin()) % rows.size();
+    const VolumeHour& now = rows[(next + rows.size() - 1) % rows.size()];
+    const VolumeHour& before = rows[(next + rows.size() - 2) % rows.size()];
+    const double ramp_h = std::min(Volume::ramp_h, hours_between(now.from_h, rows[next].from_h));
+    const double share = std::min(hours_between(now.from_h, hour) / ramp_h, 1.0);
+    return volume.gain_db + before.gain_db + (now.gain_db - before.gain_db) * share;
+}
+
+} // namespace frustumscreen

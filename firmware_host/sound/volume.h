@@ -1,0 +1,35 @@
+/// How loud the exhibit is, and when it is quieter.
+///
+/// Units    decibels, hours of the local day.
+/// Threads  pure; any.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+struct VolumeHour {
+    double from_h = 0.0;  ///< 0 <= from_h < 24
+    double gain_db = 0.0; ///< on top of the volume's own, until the next row's hour
+};
+
+struct Volume {
+    /// A change of the hour is a slow ramp from that hour on: nobody hears it happen.
+    static constexpr double ramp_h = 0.25;
+    static constexpr double least_db = -60.0;
+    static constexpr double most_db = 12.0;
+
+    double gain_db = 0.0;
+    std::vector<VolumeHour>
+        hours; ///< ascending; the last row holds over midnight until the first. None: always 0 dB
+};
+
+/// Errors: a gain that is out of range, or hours that are no hours of a day or do not ascend.
+[[nodiscard]] Result<void> check_volume(const Volume& volume);
+
+/// Continuous in time, over midnight too. `volume` was checked.
+[[nodiscard]] double gain_db_at(const Volume& volume, double hour_of_day);
+
+} // namespace frustumscreen

@@ -1,0 +1,36 @@
+/// A sound that goes into a WAV file (RIFF, 16-bit PCM, mono, 48 kHz), sample by sample the same for the same
+/// polls.
+///
+/// Time     that of `poll`, by whole samples since `start`: what is wished begins where the last `poll` ended.
+/// Memory   96 kB for a second of time, until `write`; it holds `longest`, and leaves out what comes later.
+/// Errors   of the file, one sentence; it appears by rename.
+#pragma once
+
+#include "firmware_host/base/result.h"
+#include "firmware_host/sound/mixer.h"
+#include "firmware_host/sound/sample_clock.h"
+#include "firmware_host/sound/sound.h"
+
+#include <filesystem>
+
+namespace frustumscreen {
+
+class WavSound final : public Sound {
+public:
+    static constexpr Nanoseconds longest = std::chrono::hours(1);
+
+    explicit WavSound(MonotonicTime start) : clock_(start) {}
+
+    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    [[nodiscard]] std::string name() const override { return "wav"; }
+    [[nodiscard]] std::string_view state() const override;
+    /// All that was heard until the last `poll`.
+    [[nodiscard]] Result<void> write(const std::filesystem::path& path) const;
+
+private:
+    Mixer mixer_;
+    SampleClock clock_;
+    std::vector<std::int16_t> samples_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,311 @@
+#include "firmware_host/sound/device_sound.h"
+#include "tests/render/counted_new.h"
+#include "tests/sound/sound_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace frustumscreen {
+namespace {
+
+using namespace testing;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::size_t capacity = samples_in(longest_queue);
+
+/// A sound card that a test plugs, unplugs, stops and listens to.
+struct FakeCard {
+    std::atomic<bool> plugged{true};
+    std::atomic<bool> plays{true};        ///< takes what is in its queue as soon as it was written
+    std::atomic<std::uint64_t> played{0}; ///< samples that left the queue, where a test takes them out
+    std::atomic<std::uint64_t> underruns{0};
+    std::atomic<int> opened{0};
+    std::atomic<int> fails_every{0}; ///< calls; 0: never
+
+    std::mutex mutex;
+    std::vector<std::int16_t> written;
+
+    [[nodiscard]] std::uint64_t count() {
+        const std::lock_guard lock(mutex);
+        return written.size();
+    }
+    [[nodiscard]] std::vector<std::int16_t> heard() {
+        const std::lock_guard lock(mutex);
+        return written;
+    }
+};
+
+class FakePcm final : public PcmDevice {
+public:
+    explicit FakePcm(FakeCard& card) : card_(card) {}
+
+    [[nodiscard]] Result<std::size_t> room() override {
+        if (fails()) {
+            return fail(ErrorKind::DeviceLost, "unplugged");
+        }
+        return capacity - queued();
+    }
+    [[nodiscard]] Result<void> write(std::span<const std::int16_t> samples) override {
+        if (fails()) {
+            return fail(ErrorKind::DeviceLost, "unplugged");
+        }
+        EXPECT_LE(samples.size(), capacity - queued());
+        const std::lock_guard lock(card_.mutex);
+        card_.written.insert(card_.written.end(), samples.begin(), samples.end());
+        if (card_.plays) {
+            card_.played = card_.written.size();
+        }
+        return {};
+    }
+    [[nodiscard]] std::size_t queued() const override { return card_.count() - card_.played; }
+    void wait(Nanoseconds longest) override {
+        std::this_thread::sleep_for(std::min<Nanoseconds>(longest, milliseconds(1)));
+    }
+    [[nodiscard]] std::uint64_t underruns() const override { return card_.underruns; }
+    [[nodiscard]] std::string_view state() const override { return "it sounds"; }
+
+private:
+    [[nodiscard]] bool fails() {
+        ++calls_;
+        return !card_.plugged || (card_.fails_every > 0 && calls_ % card_.fails_every == 0);
+    }
+
+    FakeCard& card_;
+    int calls_ = 0;
+};
+
+OpenPcm opener(FakeCard& card) {
+    return [&card]() -> Result<std::unique_ptr<PcmDevice>> {
+        if (!card.plugged) {
+            return fail(ErrorKind::DeviceLost, "not there");
+        }
+        ++card.opened;
+        return std::make_unique<FakePcm>(card);
+    };
+}
+
+/// Polls until `done(report)` or for twenty seconds: no time is asserted.
+template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
+    const auto give_up = std::chrono::steady_clock::now() + seconds(20);
+    while (!done(sound.poll(monotonic_now(), wish))) {
+        if (std::chrono::steady_clock::now() > give_up) {
+            return false;
+        }
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return true;
+}
+
+TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
+    FakeCard card;
+    const SharedPrompt prompt = noise(15'000, 20'000, 31);
+    {
+        DeviceSound sound(opener(card));
+        SoundWish wish;
+        const std::uint64_t number = wish.say(prompt);
+        ASSERT_TRUE(
+            until(sound, wish, [&](const SoundReport& r) { return r.audible && r.number == number; }));
+        EXPECT_EQ(sound.state(), "it sounds");
+        ASSERT_TRUE(sound.alive_until());
+        EXPECT_GT(*sound.alive_until(), monotonic_now());
+        ASSERT_TRUE(until(sound, wish, [&](const SoundReport& r) { return r.over == number; }));
+    }
+    const std::vector<std::int16_t> heard = card.heard();
+    const auto middle = prompt->samples.begin() + Mixer::fade_samples;
+    EXPECT_NE(std::search(heard.begin(), heard.end(), middle, middle + 15'000 - 2 * Mixer::fade_samples),
+              heard.end());
+}
+
+TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
+    FakeCard card;
+    card.plays = false;
+    DeviceSound sound(opener(card));
+    SoundWish wish;
+    // The queue is full, and nothing leaves it before the prompt is wished: as late as it can be.
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) { return card.count() == capacity; }));
+    wish.say(level(24'000, 20'000));
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) {
+        const std::uint64_t full = card.played + capacity;
+        if (card.count() == full && full < 4 * capacity) {
+            card.played += capacity / 5; // 10 ms
+        }
+        return card.count() >= 3 * capacity;
+    }));
+    const std::size_t begin = first_heard(card.heard());
+    EXPECT_GE(begin, capacity);
+    EXPECT_LE(begin, capacity + capacity / 5); // 60 ms after the wish
+}
+
+TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
+    FakeCard card;
+    card.plugged = false;
+    DeviceSound sound(opener(card));
+    SoundWish wish;
+    const std::uint64_t number = wish.say(level(60 * 48'000, 5000));
+    Nanoseconds heard{0};
+    const auto goes_on = [&](bool audible) {
+        return until(sound, wish, [&, from = heard](const SoundReport& report) {
+            if (report.number == number) {
+                EXPECT_GE(report.heard + longest_queue, heard);
+                heard = std::max(heard, report.heard);
+            }
+            return report.audible == audible && heard > from + milliseconds(50);
+        });
+    };
+    ASSERT_TRUE(goes_on(false)); // missing at the start
+    EXPECT_EQ(sound.state(), "not there");
+    EXPECT_EQ(card.count(), 0U);
+    card.plugged = true;
+    ASSERT_TRUE(goes_on(true));
+    EXPECT_EQ(sound.state(), "it sounds");
+    card.plugged = false;
+    ASSERT_TRUE(goes_on(false)); // lost
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
+    card.plugged = true;
+    ASSERT_TRUE(goes_on(true)); // and back, in the middle of the prompt
+    EXPECT_EQ(card.opened, 2);
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
+    EXPECT_EQ(card.heard().back(), 5000);
+}
+
+TEST(DeviceSound, ADeviceThatStandsStillIsOpenedAgain) {
+    FakeCard card;
+    DeviceSound sound(opener(card));
+    const SoundWish wish;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
+    card.plays = false;
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.losses > 0; }));
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) {
+        return sound.state() == "the sound device takes no more samples; it is opened again";
+    }));
+    card.played = card.count();
+    card.plays = true;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
+    EXPECT_EQ(card.opened, 2);
+}
+
+TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
+    static constexpr Nanoseconds takes = milliseconds(300);
+    std::atomic<int> asked{0};
+    DeviceSound sound([&asked]() -> Result<std::unique_ptr<PcmDevice>> {
+        ++asked;
+        std::this_thread::sleep_for(takes);
+        return fail(ErrorKind::DeviceLost, "not there");
+    });
+    SoundWish wish;
+    wish.say(level(60 * 48'000, 1));
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.heard > seconds(3); }));
+    const int times = asked; // before it is heard how long that took
+    const Nanoseconds heard = sound.poll(monotonic_now(), wish).heard;
+    EXPECT_LE(times, 2 + heard / (11 * takes));
+}
+
+TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
+    FakeCard card;
+    DeviceSound sound(opener(card));
+    const SoundWish wish;
+    card.underruns = 3;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 3; }));
+    card.plugged = false;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.losses == 1; }));
+    card.underruns = 2; // of another device
+    card.plugged = true;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 5; }));
+}
+
+TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
+    FakeCard card; // it plays what it gets at once, for ever
+    DeviceSound sound(opener(card));
+    SoundWish wish;
+    const MonotonicTime before = monotonic_now();
+    wish.say(level(60 * 48'000, 1));
+    ASSERT_TRUE(
+        until(sound, wish, [](const SoundReport& report) { return report.heard > milliseconds(300); }));
+    const Nanoseconds took = monotonic_now() - before;
+    EXPECT_LE(duration_of(card.count()), took + took / 40 + 2 * longest_queue);
+}
+
+/// Takes all and keeps nothing.
+class DeafPcm final : public PcmDevice {
+public:
+    [[nodiscard]] Result<std::size_t> room() override { return capacity; }
+    [[nodiscard]] Result<void> write(std::span<const std::int16_t>) override { return {}; }
+    [[nodiscard]] std::size_t queued() const override { return 0; }
+    void wait(Nanoseconds longest) override { std::this_thread::sleep_for(longest); }
+    [[nodiscard]] std::uint64_t underruns() const override { return 0; }
+    [[nodiscard]] std::string_view state() const override { return "nobody listens"; }
+};
+
+TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "the sanitizers bring their own allocations";
+    }
+    DeviceSound sound([]() -> Result<std::unique_ptr<PcmDevice>> { return std::make_unique<DeafPcm>(); });
+    SoundWish wish;
+    ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
+    const SharedPrompt prompts[] = {noise(4000, 9000, 34, {{1000, 1100}}), noise(9000, 9000, 35)};
+    const long before = synthetic::allocations_so_far();
+    std::uint64_t number = 0;
+    for (int k = 0; k < 20; ++k) {
+        number = wish.say(prompts[k % 2]);
+        wish.play_ambience(prompts[k % 2], -1.0 * k);
+        wish.set_gain_db(-1.0 * k);
+        const auto heard = [&](const SoundReport& report) { return report.number == number; };
+        ASSERT_TRUE(until(sound, wish, heard));
+        if (k % 3 == 0) {
+            wish.leave();
+        }
+    }
+    ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.over == number; }));
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
+}
+
+/// For the thread sanitizer, and for the order of what is reported: a caller who wishes something else all the
+/// time, a device that fails all the time.
+TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
+    FakeCard card;
+    card.fails_every = 7;
+    DeviceSound sound([&card, open = opener(card)]() -> Result<std::unique_ptr<PcmDevice>> {
+        return card.opened % 3 == 1 && card.opened++ > 0 ? fail(ErrorKind::DeviceLost, "not now") : open();
+    });
+    SoundWish wish;
+    std::mt19937 random(32);
+    const SharedPrompt prompts[] = {noise(3000, 9000, 33, {{1000, 1100}}), level(700, 9), level(0, 0)};
+    std::uint64_t number = 0;
+    std::uint64_t over = 0;
+    for (int k = 0; k < 4000; ++k) {
+        switch (random() % 8) {
+        case 0:
+            wish.leave();
+            break;
+        case 1:
+            wish.stop();
+            break;
+        case 2:
+            wish.play_ambience(random() % 2 == 0 ? prompts[0] : nullptr, -10.0);
+            break;
+        case 3:
+            wish.set_gain_db(-static_cast<double>(random() % 70));
+            break;
+        default:
+            number = wish.say(prompts[random() % 3]);
+            break;
+        }
+        const SoundReport report = sound.poll(monotonic_now(), wish);
+        ASSERT_GE(report.over, over);
+        ASSERT_LE(report.over, number);
+        ASSERT_TRUE(report.number == 0 || report.number == report.over + 1);
+        over = report.over;
+        if (k % 16 == 0) {
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+    }
+    wish.stop();
+    EXPECT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.over == number; }));
+    EXPECT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.losses > 0; }));
+}
+
+} // namespace
+} // namespace frustumscreen
