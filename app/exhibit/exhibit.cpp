@@ -30,6 +30,7 @@ Selection make_selection(const Catalogue& catalogue, const std::string& language
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
+      guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       placer_(place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
@@ -53,6 +54,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.caption = caption(now, shown, situation, stand);
     presentation.zone_share =
         stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
+    guide(now, situation, stand, !commands.empty(), presentation);
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -108,6 +110,21 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
         return std::nullopt;
     }
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
+}
+
+void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
+                    Presentation& presentation) {
+    const bool there = presence_.update(now, situation, pressed);
+    if (!guide_ || !there || stand.attracts || !situation.prop_known) {
+        return;
+    }
+    const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
+    const Guidance& guidance = guide_->step(now, guided, Sensing::Good, false);
+    const std::optional<TablePolygon> shadow =
+        hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m);
+    if (shadow && guidance.stage != Stage::Quiet) {
+        presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
+    }
 }
 
 /// The language of the artifact's caption; without captions the chosen one.

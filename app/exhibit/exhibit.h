@@ -13,8 +13,10 @@
 /// Errors   none. A catalogue without artifacts shows nothing.
 #pragma once
 
+#include "app/exhibit/advice_sign.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
+#include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
@@ -50,6 +52,7 @@ struct ExhibitPlace {
     ZoneFrame zone;                    ///< by default there is none
     glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
+    std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
 };
 
 struct PresentedCaption {
@@ -64,6 +67,7 @@ struct Presentation {
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
+    std::optional<PlacedSign> sign; ///< what the visitor should do
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -91,13 +95,17 @@ private:
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
+    void guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
+               Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
     Catalogue catalogue_;
     ExhibitPlace place_;
     Selection selection_;
     std::optional<Attract> attract_; ///< from the first step on
-    VisitorSide side_;               ///< what lies on the table is turned to it
+    std::optional<Guide> guide_;
+    Presence presence_; ///< guidance is for somebody who is there
+    VisitorSide side_;  ///< what lies on the table is turned to it
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.

@@ -83,7 +83,7 @@ struct PlanView {
     std::optional<TablePicture> caption = std::nullopt;
     std::span<const TablePicture> lines = {}; ///< drawn before the caption, at most most_lines
 };
-inline constexpr std::size_t most_lines = 4;
+inline constexpr std::size_t most_lines = 8;
 
 /// A run of FramePlan::indices.
 struct IndexRange {

@@ -96,7 +96,7 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     plan.left_out.push_back({UnusedCaptions, "captions and the typeface", std::string(why)});
 }
 
-void choose_shaders(const SceneRequest& request, bool zone_frame, ScenePlan& plan) {
+void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
     const bool all = (plan.economies & UnusedShaders) == 0;
     const std::uint32_t first = plan.rungs.front().level;
     const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
@@ -117,7 +117,7 @@ void choose_shaders(const SceneRequest& request, bool zone_frame, ScenePlan& pla
     if (even) {
         needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     }
-    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0 || zone_frame) {
+    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0 || signs) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
     for (const Rung& rung : plan.rungs) {
@@ -222,7 +222,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
-    choose_shaders(request, request.live && shows_zone_frame(settings), plan);
+    choose_shaders(request, request.live && (shows_zone_frame(settings) || settings.exhibit.guidance), plan);
     choose_faces(plan);
     return plan;
 }

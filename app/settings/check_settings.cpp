@@ -195,6 +195,15 @@ void check_devices(const Settings& settings, Fitness& fitness) {
                     settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
+void check_sound(const Settings& settings, Fitness& fitness) {
+    const auto& hours = settings.sound.hours;
+    fitness.require(std::adjacent_find(hours.begin(), hours.end(),
+                                       [](const SoundHour& a, const SoundHour& b) {
+                                           return a.from_h >= b.from_h;
+                                       }) == hours.end(),
+                    "sound.hours", "goes back in time or names an hour twice; sort it by from_h");
+}
+
 } // namespace
 
 std::optional<std::string> unfit(const Settings& settings, const std::string& file, const KeyLines& lines) {
@@ -203,6 +212,7 @@ std::optional<std::string> unfit(const Settings& settings, const std::string& fi
     check_projector(settings, fitness);
     check_eye(settings, fitness);
     check_devices(settings, fitness);
+    check_sound(settings, fitness);
     return fitness.error();
 }
 

@@ -24,6 +24,8 @@ namespace frustumscreen {
 inline constexpr std::size_t most_packs = 256;
 inline constexpr std::size_t most_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
+inline constexpr std::size_t most_hours = 24;
+inline constexpr Range sound_gain{-60.0, 12.0, "decibels"};
 inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
 /// Each list is in the order of its enumeration.
@@ -33,6 +35,7 @@ inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"
 inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse",
                                                                "none"};
 inline constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
+inline constexpr std::array<std::string_view, 2> sound_names{"none", "alsa"};
 inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 
 template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
@@ -225,6 +228,24 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.flag("zone_frame", exhibit.zone_frame,
                 "a frame of light on the table shows where the prop is lit, when it leaves these places or "
                 "is lifted");
+    fields.flag("guidance", exhibit.guidance,
+                "signs, texts and speech say what to do where a visitor sees a dark face");
+    fields.path("words", exhibit.words,
+                "the exhibit's own words, from frustumscreen-bake --words; left out: signs without words");
+}
+
+void hour_settings(auto& fields, auto& hour) {
+    fields.number("from_h", hour.from_h, {0.0, 23.99, "hours"}, "of the local day");
+    fields.number("gain_db", hour.gain_db, sound_gain, "on top of the volume, until the next row's hour");
+}
+
+void sound_settings(auto& fields, auto& sound) {
+    fields.choice("kind", sound.kind, sound_names, "none: captions alone");
+    fields.text("device", sound.device, "alsa: the sound card's name; aplay -L lists them");
+    fields.number("gain_db", sound.gain_db, sound_gain, "volume; 0: as the words were recorded");
+    fields.tables(
+        "hours", sound.hours, most_hours, [](auto& item, auto& hour) { hour_settings(item, hour); },
+        "quieter at night: in the order of their hours; the last one holds over midnight");
 }
 
 void all_settings(auto& file, auto& settings) {
@@ -246,6 +267,8 @@ void all_settings(auto& file, auto& settings) {
     table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
     table("exhibit", "What is shown and said.",
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
+    table("sound", "What is said aloud, and how loud.",
+          [&](auto& fields) { sound_settings(fields, settings.sound); });
 }
 
 } // namespace frustumscreen

@@ -24,6 +24,10 @@ std::vector<std::string> missing_files(const Settings& settings) {
     for (const std::filesystem::path& pack : settings.exhibit.packs) {
         look(settings.exhibit.packs_key, pack, "make it with frustumscreen-bake, or take it off the list");
     }
+    if (!settings.exhibit.words.empty()) {
+        look("exhibit.words", settings.exhibit.words,
+             "make it with frustumscreen-bake --words, or leave the line out");
+    }
     if (settings.tracker.kind == TrackerKind::Replay) {
         look(settings.tracker.poses_key, settings.tracker.poses,
              "make it with frustumscreen record, or choose another tracker.kind");

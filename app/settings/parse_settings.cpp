@@ -30,6 +30,10 @@ std::string_view name_of(PanelKind kind) {
     return panel_names[static_cast<std::size_t>(kind)];
 }
 
+std::string_view name_of(SoundKind kind) {
+    return sound_names[static_cast<std::size_t>(kind)];
+}
+
 std::string_view name_of(LineBias bias) {
     return bias_names[static_cast<std::size_t>(bias)];
 }

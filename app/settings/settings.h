@@ -124,6 +124,22 @@ struct ExhibitSettings {
     double caption_height_m = 0.010;
     double caption_brightness = 0.6; ///< share of the projector's light
     bool zone_frame = true;          ///< a frame of light shows where the prop belongs
+    bool guidance = true;            ///< whoever sees a dark face is told what to do
+    std::filesystem::path words;     ///< the exhibit's own words; empty: none. Resolved as above
+};
+
+/// Alsa: a sound card of this machine. It is opened only if there is something to say.
+enum class SoundKind { None, Alsa };
+[[nodiscard]] std::string_view name_of(SoundKind kind);
+struct SoundHour {
+    double from_h = 0.0;
+    double gain_db = 0.0;
+};
+struct SoundSettings {
+    SoundKind kind = SoundKind::Alsa;
+    std::string device = "default";
+    double gain_db = 0.0;
+    std::vector<SoundHour> hours; ///< ascending; on top of the gain, each until the next
 };
 
 struct RenderSettings {
@@ -141,6 +157,7 @@ struct Settings {
     TrackerSettings tracker;
     PanelSettings panel;
     ExhibitSettings exhibit;
+    SoundSettings sound;
 };
 
 /// A prop in the hand has no zone on the table, and one that is not tracked never leaves it.

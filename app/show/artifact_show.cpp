@@ -1,6 +1,7 @@
 #include "app/show/artifact_show.h"
 
 #include "app/exhibit/caption_image.h"
+#include "app/exhibit/guidance_setup.h"
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/prop_note.h"
@@ -237,6 +238,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         }
         show->white_ = *white;
     }
+    if (Result<void> signs = show->upload_signs(settings); !signs) {
+        return tl::unexpected<Error>(signs.error());
+    }
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
     if (settings.exhibit.captions && !loader.languages.empty() &&
@@ -292,15 +296,40 @@ ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, R
     }
 }
 
-std::span<const TablePicture> ArtifactShow::place_zone(const Presentation& presentation) {
-    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
-    if (brightness <= 0.0) {
+Result<void> ArtifactShow::upload_signs(const Settings& settings) {
+    if (!settings.exhibit.guidance) {
         return {};
     }
-    for (std::size_t k = 0; k < lines_.size(); ++k) {
-        lines_[k] = {picture_corners(zone_.sides()[k]), brightness, white_};
+    const double texels_per_m = projector_.fx / table_from_projector_.translation.z;
+    for (std::size_t k = 0; k < signs_.size(); ++k) {
+        const Image<std::uint8_t> picture = sign_picture(static_cast<Sign>(k), texels_per_m);
+        const Result<TextureId> texture = renderer_.store().upload(picture);
+        if (!texture) {
+            return tl::unexpected<Error>(texture.error());
+        }
+        signs_.at(k) = *texture;
+        planned_sign_bytes_ += caption_gpu_bytes(picture.width, picture.height);
     }
-    return lines_;
+    return {};
+}
+
+std::span<const TablePicture> ArtifactShow::place_signs(const Presentation& presentation) {
+    std::size_t count = 0;
+    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
+    if (brightness > 0.0 && white_ != TextureId::None) {
+        for (const TableRectangle& side : zone_.sides()) {
+            lines_.at(count++) = {picture_corners(side), brightness, white_};
+        }
+    }
+    if (presentation.sign) {
+        const PlacedSign& sign = *presentation.sign;
+        TablePicture& picture = lines_.at(count++);
+        std::transform(sign.corners_m.begin(), sign.corners_m.end(), picture.corners_m.begin(),
+                       [](const glm::dvec2& corner) { return glm::dvec3(corner, 0.0); });
+        picture.brightness = caption_brightness_ * sign.brightness;
+        picture.texture = signs_.at(static_cast<std::size_t>(sign.sign));
+    }
+    return std::span(lines_).first(count);
 }
 
 std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
@@ -320,7 +349,7 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     view.light = artifacts_[presentation.artifact].plan.light;
     view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
     view.caption = place_caption(presentation);
-    view.lines = place_zone(presentation);
+    view.lines = place_signs(presentation);
     if (on_ != presentation.artifact) {
         artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
         on_ = presentation.artifact;
@@ -335,6 +364,7 @@ ShowUse ArtifactShow::use() const {
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
+    use.planned_gpu_bytes += planned_sign_bytes_;
     use.gpu_bytes = renderer_.bytes();
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
@@ -377,7 +407,8 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
     const RigidTransform& table_from_projector = settings.projector.table_from_projector;
     return {artifacts.catalogue(),
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
-             artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons()},
+             artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
+             settings.exhibit.guidance ? std::optional(guidance_setup(settings)) : std::nullopt},
             settings.exhibit.language,
             now};
 }

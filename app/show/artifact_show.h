@@ -91,8 +91,9 @@ private:
                  std::vector<Artifact> artifacts);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
-    /// The frame around the prop's zone; none if it is dark.
-    [[nodiscard]] std::span<const TablePicture> place_zone(const Presentation& presentation);
+    [[nodiscard]] Result<void> upload_signs(const Settings& settings);
+    /// The frame around the prop's zone and the sign of the guidance; none if they are dark.
+    [[nodiscard]] std::span<const TablePicture> place_signs(const Presentation& presentation);
     /// Nothing if none is shown.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
@@ -108,7 +109,9 @@ private:
     Catalogue catalogue_;
     glm::dvec2 attract_place_m_;
     ZoneFrame zone_;
-    TextureId white_ = TextureId::None; ///< one texel: what the frame is drawn with
+    TextureId white_ = TextureId::None;         ///< one texel: what the frame is drawn with
+    std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
+    std::uint64_t planned_sign_bytes_ = 0;
     std::array<TablePicture, most_lines> lines_{};
     std::size_t on_ = 0; ///< the artifact that is on
 };
