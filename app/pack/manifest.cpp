@@ -51,7 +51,8 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
             refusal.refuse(place, fmt::format("is {}, which occurs twice", part.name));
         }
         if (part.bytes == 0) {
-            refusal.refuse(fmt::format("parts[{}].bytes", k), "is 0; a part that holds nothing is not listed");
+            refusal.refuse(fmt::format("parts[{}].bytes", k),
+                           "is 0; a part that holds nothing is not listed");
         }
         together += part.bytes;
     }
