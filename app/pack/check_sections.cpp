@@ -49,9 +49,17 @@ Result<void> check_hotspot(const std::string& place, const PackHotspot& hotspot,
 
 Result<void> check_sections(const PackDescription& pack) {
     std::size_t parts = 0;
+    std::size_t data_bytes = 0;
     std::set<std::string_view> names;
     for (const PackSection& section : pack.sections) {
         parts += section.parts.size();
+        data_bytes += section.data.size();
+        if (data_bytes > most_section_data_bytes) {
+            return bad_input(
+                fmt::format("the sections have more than {} bytes of data together; put what is large "
+                            "into parts",
+                            most_section_data_bytes));
+        }
         if (!is_section_name(section.name) || is_known_section(section.name) ||
             !names.insert(section.name).second) {
             return bad_input(

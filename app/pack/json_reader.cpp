@@ -236,9 +236,17 @@ void JsonReader::finish() {
 
 Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth) {
     std::vector<std::set<std::string>> open_objects;
+    std::size_t values = 0;
     const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
         if (refusal.message) {
             return false; // nothing of it is kept
+        }
+        const bool ends = event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
+        values += ends ? 0 : 1;
+        if (values > most_manifest_values) {
+            refusal.refuse("the manifest",
+                           fmt::format("holds more than {} values; allowed are fewer", most_manifest_values));
+            return false;
         }
         const bool begins =
             event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;

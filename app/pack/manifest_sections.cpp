@@ -118,8 +118,15 @@ bool is_known_section(std::string_view name) {
 
 void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifest& manifest) {
     std::size_t parts = 0;
+    std::size_t data_bytes = 0;
     for (SectionRecord& record : records) {
         parts += record.parts.size();
+        data_bytes += record.data.size();
+        if (data_bytes > most_section_data_bytes) {
+            refusal.refuse("sections",
+                           fmt::format("have more than {} bytes of data together; allowed are fewer",
+                                       most_section_data_bytes));
+        }
         if (refusal.message) {
             return;
         }

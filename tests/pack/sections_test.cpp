@@ -166,6 +166,12 @@ TEST(Sections, have_few_plain_names_and_bounded_depth) {
             m["sections"]["s" + std::to_string(k)] = {{"parts", Json::array()}, {"data", Json::object()}};
         }
     });
+    expect_refused("bytes of data together", [](Json& m) {
+        m["sections"]["sounds"]["data"] = {{"large", std::string(1 << 20, 'x')}};
+    });
+    expect_refused("more than 1048576 values", [](Json& m) {
+        m["sections"]["sounds"]["data"] = {{"many", std::vector<int>(1 << 20)}};
+    });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("sounds/en/0.opus"); });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("levels/0.bin"); });
     expect_refused("does not list it",
@@ -194,6 +200,7 @@ TEST(Sections, the_writer_refuses_what_the_reader_would) {
     refused("'sounds'", [](Pack& p) { p.sections[0].name = "sounds"; });
     refused("no JSON object", [](Pack& p) { p.sections[0].data = "[]"; });
     refused("no JSON object", [](Pack& p) { p.sections[0].data = R"({"a":1,"a":2})"; });
+    refused("put what is large", [](Pack& p) { p.sections[0].data = '"' + std::string(1 << 20, 'x') + '"'; });
     refused("which is not there", [](Pack& p) { p.section_parts.clear(); });
     refused("two parts are called", [](Pack& p) {
         p.sections[0].parts = {"levels/0.bin"};
