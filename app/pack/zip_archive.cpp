@@ -66,19 +66,20 @@ struct ViewedBytes final : ArchiveBytes {
     }
 };
 
-/// The library reads a directory byte by byte; a window keeps that from being a call of the system each.
+/// The library reads a directory byte by byte, and looks for its end from behind; a window that begins at whole steps
+/// keeps that from being a call of the system each.
 class FileBytes final : public ArchiveBytes {
 public:
     explicit FileBytes(OpenFile file) : file_(std::move(file)) {}
 
     [[nodiscard]] std::uint64_t size() const override { return file_.bytes(); }
     [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
-        if (out.size() > window_bytes / 2) {
+        if (out.size() > step_bytes) {
             return file_.read(offset, out);
         }
         if (offset < begin_ || offset + out.size() > begin_ + window_.size()) {
-            window_.resize(std::min<std::uint64_t>(window_bytes, file_.bytes() - offset));
-            begin_ = offset;
+            begin_ = offset / step_bytes * step_bytes;
+            window_.resize(std::min<std::uint64_t>(2 * step_bytes, file_.bytes() - begin_));
             if (!file_.read(begin_, window_)) {
                 window_.clear();
                 return false;
@@ -89,7 +90,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t window_bytes = 16384;
+    static constexpr std::size_t step_bytes = 8192;
     OpenFile file_;
     Bytes window_;
     std::uint64_t begin_ = 0;
