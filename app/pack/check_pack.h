@@ -8,17 +8,29 @@
 #include "app/pack/pack.h"
 #include "firmware_host/base/result.h"
 
+#include <string>
+#include <vector>
+
 namespace frustumscreen::pack_format {
 
-/// Title, languages, captions, provenance, kind of prop.
-[[nodiscard]] Result<void> check_texts(const Pack& pack);
+/// All that follow but the levels and the pictures.
+[[nodiscard]] Result<void> check_description(const PackDescription& pack);
+/// Id, title, languages, captions, provenance, kind of prop.
+[[nodiscard]] Result<void> check_texts(const PackDescription& pack);
 /// box_size, box_from_file, extremes.
-[[nodiscard]] Result<void> check_placement(const Pack& pack);
+[[nodiscard]] Result<void> check_placement(const PackDescription& pack);
+/// The sections that the description has no members for.
+[[nodiscard]] Result<void> check_sections(const PackDescription& pack);
+/// box_size must have been checked.
+[[nodiscard]] Result<void> check_hotspots(const PackDescription& pack);
+/// One line for each language; `place` names what they label.
+[[nodiscard]] Result<void> check_labels(const std::string& place, const std::vector<PackLabel>& labels);
 /// The number of levels, and that the default is one of them; the levels themselves are not needed.
 [[nodiscard]] Result<void> check_level_count(const Pack& pack, std::size_t levels);
-/// Textures, relief and its charts; the levels are not needed. `Chosen`: an empty texture was not read.
+/// Textures, relief and its charts, the table's picture; the levels are not needed. `Chosen`: an empty texture was not read.
 enum class Read { All, Chosen };
 [[nodiscard]] Result<void> check_pictures(const Pack& pack, Read read = Read::All);
+[[nodiscard]] Result<void> check_table_picture(const Image8& picture);
 /// Levels; the pictures must have been checked. `Chosen`: an empty level was not read.
 [[nodiscard]] Result<void> check_levels(const Pack& pack, Read read = Read::All);
 /// One level's own vertices, indices and clusters.

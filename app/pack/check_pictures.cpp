@@ -95,11 +95,25 @@ Result<void> check_relief(const ReliefAtlas& atlas) {
 
 } // namespace
 
+Result<void> check_table_picture(const Image8& picture) {
+    if (picture.texels.empty()) {
+        return {};
+    }
+    if (auto good = check_size("the table's picture", picture); !good) {
+        return good;
+    }
+    if (picture.width > most_table_picture_side || picture.height > most_table_picture_side) {
+        return bad_input(fmt::format("the table's picture is {} x {} texels; allowed are {} a side",
+                                     picture.width, picture.height, most_table_picture_side));
+    }
+    return {};
+}
+
 Result<void> check_pictures(const Pack& pack, Read read) {
     if (auto good = check_textures(pack, read); !good) {
         return good;
     }
-    return check_relief(pack.relief);
+    return check_relief(pack.relief).and_then([&] { return check_table_picture(pack.table_picture); });
 }
 
 } // namespace frustumscreen::pack_format

@@ -43,7 +43,7 @@ bool is_similarity(const glm::dmat4& m) {
     return true;
 }
 
-Result<void> check_extremes(const Pack& pack) {
+Result<void> check_extremes(const PackDescription& pack) {
     if (pack.extremes.empty() || pack.extremes.size() > most_extremes) {
         return bad_input(fmt::format("the placement has {} extremes, allowed are 1 to {}",
                                      pack.extremes.size(), most_extremes));
@@ -69,7 +69,7 @@ Result<void> check_extremes(const Pack& pack) {
 
 } // namespace
 
-Result<void> check_placement(const Pack& pack) {
+Result<void> check_placement(const PackDescription& pack) {
     const glm::dvec3& size = pack.box_size;
     if (!is_finite(size) || !(std::min({size.x, size.y, size.z}) > 0.0) ||
         !(std::abs(std::max({size.x, size.y, size.z}) - 1.0) <= similarity_tolerance)) {

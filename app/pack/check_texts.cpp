@@ -1,62 +1,58 @@
 #include "app/pack/check_pack.h"
 #include "app/pack/limits.h"
+#include "app/pack/pack_text.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace frustumscreen::pack_format {
 
 namespace {
 
-/// UTF-8 without control characters; line feeds only where a text has lines.
-bool is_clean(std::string_view text, bool with_lines) {
-    while (!text.empty()) {
-        const std::size_t bytes = character_bytes(text);
-        const std::string_view character = text.substr(0, bytes);
-        if (bytes == 0 || (is_control(character) && !(with_lines && character == "\n"))) {
-            return false;
-        }
-        text.remove_prefix(bytes);
-    }
-    return true;
-}
-
-Result<void> check_text(const std::string& what, std::string_view text, std::size_t most_bytes,
-                        bool with_lines) {
-    if (text.size() > most_bytes) {
-        return bad_input(fmt::format("{} has {} bytes, allowed are {}", what, text.size(), most_bytes));
-    }
-    if (!is_clean(text, with_lines)) {
-        return bad_input(fmt::format("{} is '{}'; allowed is UTF-8 text without control characters", what,
-                                     printable(text, 40)));
+Result<void> check_text(const std::string& what, std::string_view text, TextShape shape) {
+    if (const std::optional<std::string> fault = fault_of_text(text, shape)) {
+        return bad_input(fmt::format("{} {} (it is '{}')", what, *fault, printable(text, 40)));
     }
     return {};
 }
 
 Result<void> check_line(const std::string& what, std::string_view text) {
-    return check_text(what, text, most_line_bytes, false);
-}
-
-bool is_language(std::string_view text) {
-    const auto allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-    };
-    return text.size() >= 2 && text.size() <= most_language_bytes &&
-           std::all_of(text.begin(), text.end(), allowed);
+    return check_text(what, text, TextShape::Line);
 }
 
 Result<void> check_language(const std::string& what, std::string_view text) {
-    if (!is_language(text)) {
+    if (!has_language_form(text)) {
         return bad_input(fmt::format("{} is '{}'; allowed are BCP 47 tags such as en or pt-BR", what,
                                      printable(text, 40)));
     }
     return {};
 }
 
-Result<void> check_captions(const Pack& pack) {
+Result<void> check_caption(const std::string& place, const PackCaption& caption) {
+    if (auto good = check_language(place + "language", caption.language); !good) {
+        return good;
+    }
+    struct Named {
+        const char* name;
+        const std::string& text;
+        TextShape shape;
+    };
+    for (const auto& [name, text, shape] :
+         {Named{"title", caption.title, TextShape::Line}, Named{"text", caption.text, TextShape::Lines},
+          Named{"period", caption.period, TextShape::Line}, Named{"place", caption.place, TextShape::Line},
+          Named{"maker", caption.maker, TextShape::Line}, Named{"credit", caption.credit, TextShape::Line},
+          Named{"description", caption.description, TextShape::Lines}}) {
+        if (auto good = check_text(place + name, text, shape); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+Result<void> check_captions(const PackDescription& pack) {
     if (pack.languages.size() > most_languages || pack.captions.size() > most_languages) {
         return bad_input(fmt::format("the pack has {} languages and {} captions, allowed are {} of each",
                                      pack.languages.size(), pack.captions.size(), most_languages));
@@ -67,15 +63,7 @@ Result<void> check_captions(const Pack& pack) {
         }
     }
     for (std::size_t k = 0; k < pack.captions.size(); ++k) {
-        const PackCaption& caption = pack.captions[k];
-        const std::string place = fmt::format("caption {}'s ", k);
-        if (auto good = check_language(place + "language", caption.language); !good) {
-            return good;
-        }
-        if (auto good = check_line(place + "title", caption.title); !good) {
-            return good;
-        }
-        if (auto good = check_text(place + "text", caption.text, most_text_bytes, true); !good) {
+        if (auto good = check_caption(fmt::format("caption {}'s ", k), pack.captions[k]); !good) {
             return good;
         }
     }
@@ -101,7 +89,33 @@ Result<void> check_provenance(const PackProvenance& provenance) {
 
 } // namespace
 
-Result<void> check_texts(const Pack& pack) {
+Result<void> check_labels(const std::string& place, const std::vector<PackLabel>& labels) {
+    if (labels.size() > most_languages) {
+        return bad_input(fmt::format("{} has labels in {} languages, allowed are {}", place, labels.size(),
+                                     most_languages));
+    }
+    std::set<std::string_view> languages;
+    for (const PackLabel& label : labels) {
+        if (auto good = check_language(place + "'s language", label.language); !good) {
+            return good;
+        }
+        if (!languages.insert(label.language).second) {
+            return bad_input(fmt::format("{} has two labels in {}; allowed is one", place, label.language));
+        }
+        if (auto good = check_line(place + "'s label", label.text); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+Result<void> check_texts(const PackDescription& pack) {
+    if (!pack.id.empty() && !is_artifact_id(pack.id)) {
+        return bad_input(
+            fmt::format("the id is '{}'; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit "
+                        "first",
+                        printable(pack.id, 40), most_id_bytes));
+    }
     if (auto good = check_line("the title", pack.title); !good) {
         return good;
     }

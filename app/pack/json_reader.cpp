@@ -70,6 +70,35 @@ const Json* JsonReader::take_list(const char* key, std::size_t most) {
     return value;
 }
 
+const Json* JsonReader::take_members(const char* key, std::size_t most) {
+    known_.insert(key);
+    if (refusal_->message || object_ == nullptr || !object_->contains(key)) {
+        return nullptr;
+    }
+    const Json* value = take(key);
+    if (!value->is_object() || value->size() > most) {
+        refuse(key, fmt::format("is {}; allowed is an object of at most {}", found(*value), most));
+        return nullptr;
+    }
+    return value;
+}
+
+std::string JsonReader::printable_name(const std::string& name) {
+    return printable(name, 40);
+}
+
+void JsonReader::free_object(const char* key, std::string& text) {
+    const Json* value = take(key);
+    if (value == nullptr) {
+        return;
+    }
+    if (!value->is_object()) {
+        refuse(key, fmt::format("is {}; allowed is an object {{ ... }}", found(*value)));
+        return;
+    }
+    text = value->dump();
+}
+
 void JsonReader::text(const char* key, std::string& value) {
     const Json* read = take(key);
     if (read == nullptr) {
@@ -205,9 +234,27 @@ void JsonReader::finish() {
     }
 }
 
-Json parse_json(Refusal& refusal, std::string_view text) {
+Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth) {
     std::vector<std::set<std::string>> open_objects;
-    const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    std::size_t values = 0;
+    const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+        if (refusal.message) {
+            return false; // nothing of it is kept
+        }
+        const bool ends = event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
+        values += ends ? 0 : 1;
+        if (values > most_manifest_values) {
+            refusal.refuse("the manifest",
+                           fmt::format("holds more than {} values; allowed are fewer", most_manifest_values));
+            return false;
+        }
+        const bool begins =
+            event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+        if (begins && depth >= static_cast<int>(most_depth)) {
+            refusal.refuse("the manifest",
+                           fmt::format("has more than {} objects and lists inside each other", most_depth));
+            return false;
+        }
         if (event == Json::parse_event_t::object_start) {
             open_objects.emplace_back();
         } else if (event == Json::parse_event_t::object_end) {

@@ -5,6 +5,8 @@
 /// Threads  one caller.
 #pragma once
 
+#include "app/pack/limits.h"
+
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
@@ -74,6 +76,23 @@ public:
             item.finish();
         }
     }
+    /// One value for each field of the object `key`, with the field's name, in the names' order. It may be left out.
+    template <typename Value>
+    void members_or_none(const char* key, std::vector<Value>& values, std::size_t most,
+                         const auto& describe) {
+        const nlohmann::json* object = take_members(key, most);
+        if (object == nullptr) {
+            return;
+        }
+        for (const auto& [name, value] : object->items()) {
+            JsonReader item(*refusal_, &value, place_of(key) + "." + printable_name(name));
+            describe(item, values.emplace_back());
+            values.back().name = name;
+            item.finish();
+        }
+    }
+    /// An object with any fields, as text: keys in order, without white space.
+    void free_object(const char* key, std::string& text);
     /// Refuses fields that nobody asked for. Call once, last.
     void finish();
 
@@ -82,6 +101,8 @@ public:
 private:
     [[nodiscard]] const nlohmann::json* take(const char* key);
     [[nodiscard]] const nlohmann::json* take_list(const char* key, std::size_t most);
+    [[nodiscard]] const nlohmann::json* take_members(const char* key, std::size_t most);
+    [[nodiscard]] static std::string printable_name(const std::string& name);
     [[nodiscard]] std::uint64_t whole_of(const char* key, std::uint64_t most);
     [[nodiscard]] std::size_t word_of(const char* key, std::span<const std::string_view> words);
     [[nodiscard]] std::string place_of(const char* key) const;
@@ -93,7 +114,9 @@ private:
     std::set<std::string> known_;
 };
 
-/// Parses the document. It refuses what is not JSON (and says at which byte) and a field that occurs twice.
-[[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text);
+/// Parses the document. It refuses what is not JSON (and says at which byte), a field that occurs twice, and
+/// objects and lists that lie too deep inside each other.
+[[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text,
+                                        std::size_t most_depth = most_manifest_depth);
 
 } // namespace frustumscreen::pack_format

@@ -69,6 +69,14 @@ public:
             object(key, [&](JsonWriter& inner) { describe(inner, *value); });
         }
     }
+    void members_or_none(const char* key, const auto& values, std::size_t /*most*/, const auto& describe) {
+        for (const auto& value : values) {
+            JsonWriter item;
+            describe(item, value);
+            object_[key][value.name] = std::move(item.object_);
+        }
+    }
+    void free_object(const char* key, const std::string& text) { object_[key] = nlohmann::json::parse(text); }
     void objects(const char* key, const auto& values, std::size_t /*most*/, const auto& describe) {
         Json list = Json::array();
         for (const auto& value : values) {

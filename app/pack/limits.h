@@ -19,6 +19,18 @@ inline constexpr std::size_t most_languages = 64;
 inline constexpr std::size_t most_language_bytes = 35; ///< RFC 5646, 4.4.1
 inline constexpr std::size_t most_line_bytes = 1000;   ///< titles, names, licences
 inline constexpr std::size_t most_text_bytes = 100000; ///< a caption's text
+inline constexpr std::size_t most_text_lines = 1000;
+
+inline constexpr std::size_t most_sections = 64;
+inline constexpr std::size_t most_section_name_bytes = 40;
+inline constexpr std::size_t most_section_parts = 4096; ///< of all sections together
+/// Of all sections together, written without white space.
+inline constexpr std::size_t most_section_data_bytes = 1U << 20;
+inline constexpr std::size_t most_manifest_depth = 32;        ///< objects and lists inside each other
+inline constexpr std::size_t most_manifest_values = 1U << 20; ///< names, numbers, texts, objects and lists
+inline constexpr std::size_t most_id_bytes = 64;
+inline constexpr std::size_t most_hotspots = 3;
+inline constexpr int most_table_picture_side = 1024; ///< texels
 
 inline constexpr std::size_t most_extremes = 100000;
 inline constexpr double least_scale = 0.05; ///< on the largest size inside the prop

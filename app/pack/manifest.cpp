@@ -3,6 +3,7 @@
 #include "app/pack/json_reader.h"
 #include "app/pack/json_writer.h"
 #include "app/pack/manifest_fields.h"
+#include "app/pack/manifest_sections.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -36,16 +37,6 @@ void read_format(Refusal& refusal, const nlohmann::json& document) {
     }
 }
 
-bool is_part_name(std::string_view name) {
-    const auto allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
-               c == '/';
-    };
-    return !name.empty() && name.size() <= most_name_bytes &&
-           std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' &&
-           name.find("..") == std::string_view::npos && name != manifest_name && name != signature_name;
-}
-
 void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
     std::set<std::string> names;
     std::uint64_t together = 0;
@@ -59,6 +50,10 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
         if (!names.insert(part.name).second) {
             refusal.refuse(place, fmt::format("is {}, which occurs twice", part.name));
         }
+        if (part.bytes == 0) {
+            refusal.refuse(fmt::format("parts[{}].bytes", k),
+                           "is 0; a part that holds nothing is not listed");
+        }
         together += part.bytes;
     }
     if (together > most_parts_bytes) {
@@ -69,14 +64,26 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
 
 Manifest read_fields(Refusal& refusal, const nlohmann::json& document) {
     Manifest manifest;
+    std::vector<SectionRecord> sections;
     JsonReader fields(refusal, &document, "");
-    manifest_fields(fields, manifest);
+    manifest_fields(fields, manifest, sections);
     check_parts(refusal, manifest.parts);
     fields.finish();
+    take_sections(refusal, std::move(sections), manifest);
     return manifest;
 }
 
 } // namespace
+
+bool is_part_name(std::string_view name) {
+    const auto allowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
+               c == '/';
+    };
+    return !name.empty() && name.size() <= most_name_bytes &&
+           std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' &&
+           name.find("..") == std::string_view::npos && name != manifest_name && name != signature_name;
+}
 
 Result<Manifest> parse_manifest(std::string_view text) {
     Refusal refusal;
@@ -96,7 +103,7 @@ Result<Manifest> parse_manifest(std::string_view text) {
 
 std::string write_manifest(const Manifest& manifest) {
     JsonWriter fields;
-    manifest_fields(fields, manifest);
+    manifest_fields(fields, manifest, make_sections(manifest));
     return fields.document().dump(2) + "\n";
 }
 

@@ -35,8 +35,16 @@ struct LevelRecord : LevelOutline {
     std::string mesh; ///< part
 };
 
+/// A section as it stands in the file.
+struct SectionRecord {
+    std::string name;
+    std::vector<std::string> parts;
+    std::string data; ///< as PackSection
+};
+
 struct Manifest {
     PackDescription description;
+    std::string table_picture; ///< part; empty = none
     std::vector<std::string> textures;
     std::optional<ReliefRecord> relief;
     std::vector<LevelRecord> levels;
@@ -46,5 +54,8 @@ struct Manifest {
 /// Checks syntax, types and names, and only those values that size something or refer to something.
 [[nodiscard]] Result<Manifest> parse_manifest(std::string_view text);
 [[nodiscard]] std::string write_manifest(const Manifest& manifest);
+
+/// Whether a part may have this name.
+[[nodiscard]] bool is_part_name(std::string_view name);
 
 } // namespace frustumscreen::pack_format

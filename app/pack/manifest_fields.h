@@ -19,7 +19,8 @@ namespace frustumscreen::pack_format {
 
 inline constexpr std::string_view format_name = "FrustumScreen pack";
 inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-inline constexpr std::size_t most_parts = most_textures + most_levels + 2; ///< and the relief's two
+inline constexpr std::size_t most_parts =
+    most_textures + most_levels + 2 + most_section_parts; ///< the two are the relief's
 /// In the order of LevelTechnique.
 inline constexpr std::array<std::string_view, 2> technique_names{"relief", "mesh"};
 
@@ -71,7 +72,12 @@ void part_fields(auto& fields, auto& part) {
     fields.text("sha256", part.sha256);
 }
 
-void manifest_fields(auto& fields, auto& manifest) {
+void section_fields(auto& fields, auto& section) {
+    fields.texts("parts", section.parts, most_section_parts);
+    fields.free_object("data", section.data);
+}
+
+void manifest_fields(auto& fields, auto& manifest, auto&& sections) {
     auto& pack = manifest.description;
     fields.fixed("format", format_name);
     fields.fixed("version", pack_format_version);
@@ -91,6 +97,8 @@ void manifest_fields(auto& fields, auto& manifest) {
     fields.objects("levels", manifest.levels, most_levels,
                    [&](auto& item, auto& level) { level_fields(item, level, manifest.textures); });
     fields.whole("default_level", pack.default_level, most_levels - 1);
+    fields.members_or_none("sections", sections, most_sections,
+                           [](auto& item, auto& section) { section_fields(item, section); });
     fields.objects("parts", manifest.parts, most_parts,
                    [](auto& item, auto& part) { part_fields(item, part); });
 }

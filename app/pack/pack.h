@@ -12,18 +12,51 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace frustumscreen {
 
+/// What is said of the artifact in one language. All but the language may be empty.
 struct PackCaption {
     std::string language; ///< BCP 47
     std::string title;
-    std::string text; ///< may be empty
+    std::string text;
+    std::string period{};
+    std::string place{};
+    std::string maker{};
+    std::string credit{};      ///< the line that names whose it is
+    std::string description{}; ///< for who hears it: what there is to see
 
     [[nodiscard]] bool operator==(const PackCaption&) const = default;
+};
+
+struct PackLabel {
+    std::string language; ///< BCP 47
+    std::string text;
+
+    [[nodiscard]] bool operator==(const PackLabel&) const = default;
+};
+
+/// A place on the artifact that there is something to say about.
+struct PackHotspot {
+    glm::dvec3 point{0.0};            ///< on the surface, box frame
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< of the surface there: unit, outward, box frame
+    std::vector<PackLabel> labels;
+
+    [[nodiscard]] bool operator==(const PackHotspot&) const = default;
+};
+
+/// A part of a pack that this description has no member for: who knows its name interprets it.
+struct PackSection {
+    std::string name;
+    std::string data = "{}";        ///< a JSON object, keys in order, without white space
+    std::vector<std::string> parts; ///< names; their bytes are read apart (pack_sections.h)
+
+    [[nodiscard]] bool operator==(const PackSection&) const = default;
 };
 
 struct PackProvenance {
@@ -99,9 +132,12 @@ struct PackLevel {
 
 /// All of a pack but its pictures and triangles.
 struct PackDescription {
+    std::string id; ///< the artifact's own name, the same in each pack that replaces another; empty = none
     std::string title;
     std::vector<std::string> languages;
     std::vector<PackCaption> captions;
+    std::vector<PackHotspot> hotspots;
+    std::vector<PackSection> sections;
     PackProvenance provenance;
     std::string prop_kind = "frustum"; ///< the prop whose directions the relief was baked for
     bool unlit = false;
@@ -122,6 +158,10 @@ struct Pack : PackDescription {
     std::vector<Image8> textures;  ///< sRGB colour
     ReliefAtlas relief;            ///< empty if no level is a relief
     std::vector<PackLevel> levels; ///< coarse to fine
+    /// The artifact cut out, for the table; empty = none. It is not read with chosen levels: see load_pack_card.
+    Image8 table_picture;
+    /// Bytes of the sections' parts, by name; none where only some levels were chosen.
+    std::map<std::string, std::vector<std::byte>> section_parts;
 };
 
 } // namespace frustumscreen

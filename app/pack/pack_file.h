@@ -19,7 +19,11 @@ namespace frustumscreen {
 /// What is written. Packs of all earlier versions are read.
 inline constexpr int pack_format_version = 2;
 
-/// A pack in which everything that was read was checked; only `verify_pack` makes one. Levels and textures
+namespace pack_format {
+class PackReader;
+}
+
+/// A pack in which everything that was read was checked; only the functions below make one. Levels and textures
 /// that were not chosen are empty but keep their places, so that indices are those of the file.
 class VerifiedPack {
 public:
@@ -27,8 +31,8 @@ public:
     [[nodiscard]] const Pack* operator->() const { return &pack_; }
 
 private:
-    friend Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseLevels& choose);
-    explicit VerifiedPack(Pack pack) : pack_(std::move(pack)) {}
+    friend Result<VerifiedPack> read_pack(pack_format::PackReader& reader, const ChooseLevels& choose);
+    VerifiedPack() = default;
     Pack pack_;
 };
 
@@ -37,7 +41,7 @@ private:
 /// Without `choose`, all of it is read. Parts of levels that are not chosen are neither unpacked nor hashed.
 [[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes,
                                                const ChooseLevels& choose = {});
-/// Reads and verifies; messages begin with the file's name.
+/// Reads and verifies, part by part: what is not chosen is not read either. Messages begin with the file's name.
 [[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file,
                                              const ChooseLevels& choose = {});
 

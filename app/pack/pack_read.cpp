@@ -3,6 +3,7 @@
 #include "app/pack/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_reader.h"
+#include "app/pack/picture_part.h"
 
 #include <fmt/format.h>
 
@@ -50,15 +51,9 @@ Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack)
             pack.textures.emplace_back();
             continue;
         }
-        const Result<Bytes> bytes = reader.take(name);
-        if (!bytes) {
-            return tl::unexpected(bytes.error());
-        }
-        const std::int64_t most = std::min(most_texels, left);
-        Result<Image8> texture =
-            begins_as_webp(*bytes) ? decode_webp8(*bytes, most) : decode_png8(*bytes, most);
+        Result<Image8> texture = read_picture(reader, name, std::min(most_texels, left));
         if (!texture) {
-            return at(name, texture.error());
+            return tl::unexpected(texture.error());
         }
         left -= static_cast<std::int64_t>(texture->texels.size());
         pack.textures.push_back(std::move(*texture));
@@ -134,9 +129,40 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
     return {};
 }
 
+/// With chosen levels, neither the table's picture nor a section's part is read.
+Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
+    if (read == Read::All) {
+        Result<Image8> picture = read_table_picture(reader);
+        if (!picture) {
+            return tl::unexpected(picture.error());
+        }
+        pack.table_picture = std::move(*picture);
+    } else if (!reader.manifest().table_picture.empty()) {
+        if (Result<void> passed = reader.pass_over(reader.manifest().table_picture); !passed) {
+            return passed;
+        }
+    }
+    for (const PackSection& section : pack.sections) {
+        for (const std::string& name : section.parts) {
+            if (read == Read::Chosen) {
+                if (Result<void> passed = reader.pass_over(name); !passed) {
+                    return passed;
+                }
+                continue;
+            }
+            Result<Bytes> bytes = reader.take(name);
+            if (!bytes) {
+                return tl::unexpected(bytes.error());
+            }
+            pack.section_parts.emplace(name, std::move(*bytes));
+        }
+    }
+    return {};
+}
+
 /// Each step needs that the ones before it passed.
 Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack) {
-    if (Result<void> good = check_texts(pack).and_then([&] { return check_placement(pack); }); !good) {
+    if (Result<void> good = check_description(pack); !good) {
         return good;
     }
     if (Result<void> good = check_level_count(pack, reader.manifest().levels.size()); !good) {
@@ -153,6 +179,7 @@ Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack
         .and_then([&] { return check_pictures(pack, read); })
         .and_then([&] { return read_levels(reader, *chosen, pack); })
         .and_then([&] { return check_levels(pack, read); })
+        .and_then([&] { return read_extras(reader, read, pack); })
         .and_then([&] { return reader.finish(); });
 }
 
@@ -167,27 +194,32 @@ PackOutline outline_of(const Pack& pack) {
     return outline;
 }
 
+/// A friend of VerifiedPack, for the two functions below.
+Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose);
+
+Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose) {
+    VerifiedPack read;
+    read.pack_ = Pack{reader.manifest().description, {}, {}, {}, {}, {}};
+    if (auto good = read_all(reader, choose, read.pack_); !good) {
+        return tl::unexpected(good.error());
+    }
+    return read;
+}
+
 Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseLevels& choose) {
     Result<PackReader> reader = PackReader::open(bytes);
     if (!reader) {
         return tl::unexpected(reader.error());
     }
-    Pack pack{reader->manifest().description, {}, {}, {}};
-    if (auto good = read_all(*reader, choose, pack); !good) {
-        return tl::unexpected(good.error());
-    }
-    return VerifiedPack(std::move(pack));
+    return read_pack(*reader, choose);
 }
 
 Result<VerifiedPack> load_pack(const std::filesystem::path& file, const ChooseLevels& choose) {
-    if (std::error_code none; std::filesystem::is_directory(file, none)) {
-        return bad_input(file.string() + ": this is a folder; name the *.fspack files in it");
+    Result<PackReader> reader = open_pack_file(file);
+    if (!reader) {
+        return tl::unexpected(reader.error());
     }
-    const Result<Bytes> bytes = read_file(file, most_pack_bytes);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    Result<VerifiedPack> pack = verify_pack(*bytes, choose);
+    Result<VerifiedPack> pack = read_pack(*reader, choose);
     if (!pack) {
         return at(file.string(), pack.error());
     }

@@ -50,13 +50,16 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
                                          part.name, entry->bytes, part.bytes));
         }
     }
+    std::set<std::string_view> listed;
+    for (const PartRecord& part : manifest.parts) {
+        listed.insert(part.name);
+    }
     for (const ZipEntry& entry : zip.entries()) {
         if (entry.name == signature_name && entry.bytes > most_signature_bytes) {
             return bad_input(
                 fmt::format("the signature has {} bytes, allowed are {}", entry.bytes, most_signature_bytes));
         }
-        if (entry.name != manifest_name && entry.name != signature_name &&
-            find_part(manifest, entry.name) == nullptr) {
+        if (entry.name != manifest_name && entry.name != signature_name && !listed.contains(entry.name)) {
             return bad_input(
                 fmt::format("{} is not listed in the manifest; the pack is altered", entry.name));
         }
@@ -70,7 +73,14 @@ Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
     if (bytes.size() > most_pack_bytes) {
         return bad_input(fmt::format("the pack has {} bytes, allowed are {}", bytes.size(), most_pack_bytes));
     }
-    Result<ZipReader> zip = ZipReader::open(bytes);
+    return open(ZipReader::open(bytes));
+}
+
+Result<PackReader> PackReader::open(OpenFile file) {
+    return open(ZipReader::open(std::move(file)));
+}
+
+Result<PackReader> PackReader::open(Result<ZipReader> zip) {
     if (!zip) {
         return tl::unexpected(zip.error());
     }
@@ -119,6 +129,21 @@ Result<void> PackReader::finish() const {
         }
     }
     return {};
+}
+
+Result<PackReader> open_pack_file(const std::filesystem::path& file) {
+    if (std::error_code none; std::filesystem::is_directory(file, none)) {
+        return bad_input(file.string() + ": this is a folder; name the *.fspack files in it");
+    }
+    Result<OpenFile> opened = OpenFile::open(file, most_pack_bytes);
+    if (!opened) {
+        return tl::unexpected(opened.error());
+    }
+    Result<PackReader> reader = PackReader::open(*std::move(opened));
+    if (!reader) {
+        return at(file.string(), reader.error());
+    }
+    return reader;
 }
 
 } // namespace frustumscreen::pack_format

@@ -7,6 +7,7 @@
 #include "app/pack/manifest.h"
 #include "app/pack/zip_archive.h"
 
+#include <filesystem>
 #include <set>
 #include <span>
 #include <string>
@@ -18,6 +19,8 @@ public:
     /// Reads the manifest, and checks that the parts are exactly those that it lists, with the sizes that it
     /// lists. `bytes` must outlive the reader.
     [[nodiscard]] static Result<PackReader> open(std::span<const std::byte> bytes);
+    /// Reads of the file what is asked for and no more. Messages do not begin with its name.
+    [[nodiscard]] static Result<PackReader> open(OpenFile file);
 
     [[nodiscard]] const Manifest& manifest() const { return manifest_; }
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
@@ -30,10 +33,14 @@ public:
 
 private:
     PackReader(ZipReader zip, Manifest manifest) : zip_(std::move(zip)), manifest_(std::move(manifest)) {}
+    static Result<PackReader> open(Result<ZipReader> zip);
+    [[nodiscard]] Result<const PartRecord*> use(const std::string& name);
     ZipReader zip_;
     Manifest manifest_;
-    [[nodiscard]] Result<const PartRecord*> use(const std::string& name);
     std::set<std::string> taken_;
 };
+
+/// Errors: as PackReader::open; a folder; what cannot be opened. Messages begin with the file's name.
+[[nodiscard]] Result<PackReader> open_pack_file(const std::filesystem::path& file);
 
 } // namespace frustumscreen::pack_format

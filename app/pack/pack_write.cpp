@@ -5,8 +5,11 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/sha256.h"
 #include "app/pack/zip_archive.h"
+#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+
+#include <set>
 
 namespace frustumscreen {
 
@@ -22,21 +25,49 @@ struct Part {
 };
 
 Result<void> check(const Pack& pack) {
-    return check_texts(pack)
-        .and_then([&] { return check_placement(pack); })
-        .and_then([&] { return check_pictures(pack); })
-        .and_then([&] { return check_levels(pack); });
+    return check_description(pack).and_then([&] { return check_pictures(pack); }).and_then([&] {
+        return check_levels(pack);
+    });
 }
 
-/// As PNG or WebP, whichever is smaller.
+/// As PNG or WebP, whichever is smaller; `name` is without the ending.
+Part picture_part(const std::string& name, const Image8& picture) {
+    Bytes png = encode_png(picture);
+    Bytes webp = encode_webp(picture);
+    const bool is_webp = !webp.empty() && webp.size() < png.size();
+    return {name + (is_webp ? ".webp" : ".png"), std::move(is_webp ? webp : png), Packing::Stored};
+}
+
 void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
     for (std::size_t k = 0; k < pack.textures.size(); ++k) {
-        Bytes png = encode_png(pack.textures[k]);
-        Bytes webp = encode_webp(pack.textures[k]);
-        const bool is_webp = !webp.empty() && webp.size() < png.size();
-        manifest.textures.push_back(fmt::format("textures/{}.{}", k, is_webp ? "webp" : "png"));
-        parts.push_back({manifest.textures.back(), std::move(is_webp ? webp : png), Packing::Stored});
+        parts.push_back(picture_part(fmt::format("textures/{}", k), pack.textures[k]));
+        manifest.textures.push_back(parts.back().name);
     }
+}
+
+/// The table's picture stands first, so that little is read of a file for it alone.
+void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
+    if (!pack.table_picture.texels.empty()) {
+        parts.push_back(picture_part("table_picture", pack.table_picture));
+        manifest.table_picture = parts.back().name;
+    }
+}
+
+/// Parts that are packed already, as sounds and pictures are, do not get smaller.
+Result<void> add_section_parts(const Pack& pack, std::vector<Part>& parts) {
+    for (const PackSection& section : pack.sections) {
+        for (const std::string& name : section.parts) {
+            const auto bytes = pack.section_parts.find(name);
+            if (!is_part_name(name) || bytes == pack.section_parts.end()) {
+                return bad_input(
+                    fmt::format("the section {} names the part '{}', which is not there or is no "
+                                "name of a part",
+                                section.name, printable(name, 40)));
+            }
+            parts.push_back({name, bytes->second, Packing::Stored});
+        }
+    }
+    return {};
 }
 
 void add_relief(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
@@ -66,7 +97,11 @@ Result<void> add_levels(const Pack& pack, Manifest& manifest, std::vector<Part>&
 
 Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
     std::uint64_t together = 0;
+    std::set<std::string_view> names;
     for (const Part& part : parts) {
+        if (!names.insert(part.name).second) {
+            return bad_input(fmt::format("two parts are called {}; give them different names", part.name));
+        }
         together += part.bytes.size();
         if (part.bytes.empty() || part.bytes.size() > most_part_bytes || together > most_parts_bytes) {
             return bad_input(
@@ -87,9 +122,12 @@ Result<Bytes> write_pack(const Pack& pack) {
     Manifest manifest;
     manifest.description = pack;
     std::vector<Part> parts;
+    add_table_picture(pack, manifest, parts);
     add_textures(pack, manifest, parts);
     add_relief(pack, manifest, parts);
-    if (auto good = add_levels(pack, manifest, parts); !good) {
+    if (auto good =
+            add_levels(pack, manifest, parts).and_then([&] { return add_section_parts(pack, parts); });
+        !good) {
         return tl::unexpected(good.error());
     }
     if (auto good = list_parts(parts, manifest); !good) {

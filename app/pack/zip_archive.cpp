@@ -9,18 +9,25 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
-#include <set>
 
 namespace frustumscreen::pack_format {
 
-/// Either a growing buffer (writing) or a view (reading), and the library's cursor in it.
-struct MemoryFile {
-    Bytes written;
-    std::span<const std::byte> view;
-    bool writing = false;
+/// What the library reads and writes, and its cursor in it.
+struct ArchiveBytes {
+    ArchiveBytes() = default;
+    ArchiveBytes(const ArchiveBytes&) = delete;
+    ArchiveBytes& operator=(const ArchiveBytes&) = delete;
+    virtual ~ArchiveBytes() = default;
+    [[nodiscard]] virtual std::uint64_t size() const = 0;
+    /// `out` lies inside.
+    [[nodiscard]] virtual bool read(std::uint64_t offset, std::span<std::byte> out) = 0;
+    [[nodiscard]] virtual bool write(std::uint64_t /*offset*/, std::span<const std::byte> /*in*/) {
+        return false;
+    }
+
     std::uint64_t cursor = 0;
-    [[nodiscard]] std::uint64_t size() const { return writing ? written.size() : view.size(); }
 };
 
 namespace {
@@ -33,85 +40,135 @@ constexpr uLong encrypted_flag = 1;
 constexpr std::uint64_t most_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
 
-MemoryFile& file_of(voidpf opaque) {
-    return *static_cast<MemoryFile*>(opaque);
+struct GrowingBytes final : ArchiveBytes {
+    Bytes bytes;
+
+    [[nodiscard]] std::uint64_t size() const override { return bytes.size(); }
+    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
+        std::memcpy(out.data(), bytes.data() + offset, out.size());
+        return true;
+    }
+    [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
+        bytes.resize(std::max<std::size_t>(bytes.size(), offset + in.size()));
+        std::memcpy(bytes.data() + offset, in.data(), in.size());
+        return true;
+    }
+};
+
+struct ViewedBytes final : ArchiveBytes {
+    explicit ViewedBytes(std::span<const std::byte> bytes) : view(bytes) {}
+    std::span<const std::byte> view;
+
+    [[nodiscard]] std::uint64_t size() const override { return view.size(); }
+    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
+        std::memcpy(out.data(), view.data() + offset, out.size());
+        return true;
+    }
+};
+
+/// The library reads a directory byte by byte, and looks for its end from behind; a window that begins at whole steps
+/// keeps that from being a call of the system each.
+class FileBytes final : public ArchiveBytes {
+public:
+    explicit FileBytes(OpenFile file) : file_(std::move(file)) {}
+
+    [[nodiscard]] std::uint64_t size() const override { return file_.bytes(); }
+    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
+        if (out.size() > step_bytes) {
+            return file_.read(offset, out);
+        }
+        if (offset < begin_ || offset + out.size() > begin_ + window_.size()) {
+            begin_ = offset / step_bytes * step_bytes;
+            window_.resize(std::min<std::uint64_t>(2 * step_bytes, file_.bytes() - begin_));
+            if (!file_.read(begin_, window_)) {
+                window_.clear();
+                return false;
+            }
+        }
+        std::memcpy(out.data(), window_.data() + (offset - begin_), out.size());
+        return true;
+    }
+
+private:
+    static constexpr std::size_t step_bytes = 8192;
+    OpenFile file_;
+    Bytes window_;
+    std::uint64_t begin_ = 0;
+};
+
+ArchiveBytes& bytes_of(voidpf opaque) {
+    return *static_cast<ArchiveBytes*>(opaque);
 }
 
-voidpf open_memory(voidpf opaque, const void*, int) {
+voidpf open_bytes(voidpf opaque, const void*, int) {
     return opaque;
 }
 
-uLong read_memory(voidpf opaque, voidpf, void* out, uLong size) {
-    MemoryFile& file = file_of(opaque);
-    const std::uint64_t left = file.size() - std::min(file.cursor, file.size());
+uLong read_bytes(voidpf opaque, voidpf, void* out, uLong size) {
+    ArchiveBytes& bytes = bytes_of(opaque);
+    const std::uint64_t left = bytes.size() - std::min(bytes.cursor, bytes.size());
     const std::uint64_t count = std::min<std::uint64_t>(size, left);
-    if (count > 0) {
-        const std::byte* bytes = file.writing ? file.written.data() : file.view.data();
-        std::memcpy(out, bytes + file.cursor, count);
+    if (count > 0 && !bytes.read(bytes.cursor, {static_cast<std::byte*>(out), count})) {
+        return 0;
     }
-    file.cursor += count;
+    bytes.cursor += count;
     return count;
 }
 
-uLong write_memory(voidpf opaque, voidpf, const void* in, uLong size) {
-    MemoryFile& file = file_of(opaque);
-    if (!file.writing) {
+uLong write_bytes(voidpf opaque, voidpf, const void* in, uLong size) {
+    ArchiveBytes& bytes = bytes_of(opaque);
+    if (size > 0 && !bytes.write(bytes.cursor, {static_cast<const std::byte*>(in), size})) {
         return 0;
     }
-    if (file.cursor + size > file.written.size()) {
-        file.written.resize(file.cursor + size);
-    }
-    if (size > 0) {
-        std::memcpy(file.written.data() + file.cursor, in, size);
-    }
-    file.cursor += size;
+    bytes.cursor += size;
     return size;
 }
 
-ZPOS64_T tell_memory(voidpf opaque, voidpf) {
-    return file_of(opaque).cursor;
+ZPOS64_T tell_cursor(voidpf opaque, voidpf) {
+    return bytes_of(opaque).cursor;
 }
 
-long seek_memory(voidpf opaque, voidpf, ZPOS64_T offset, int origin) {
-    MemoryFile& file = file_of(opaque);
-    const std::uint64_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? file.cursor
-                               : origin == ZLIB_FILEFUNC_SEEK_END ? file.size()
+long seek_cursor(voidpf opaque, voidpf, ZPOS64_T offset, int origin) {
+    ArchiveBytes& bytes = bytes_of(opaque);
+    const std::uint64_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? bytes.cursor
+                               : origin == ZLIB_FILEFUNC_SEEK_END ? bytes.size()
                                                                   : 0;
     const std::uint64_t target = from + offset;
-    if (target < from || target > file.size()) {
+    if (target < from || target > bytes.size()) {
         return -1;
     }
-    file.cursor = target;
+    bytes.cursor = target;
     return 0;
 }
 
-int close_memory(voidpf, voidpf) {
+int close_bytes(voidpf, voidpf) {
     return 0;
 }
 int no_error(voidpf, voidpf) {
     return 0;
 }
 
-zlib_filefunc64_def functions_over(MemoryFile& file) {
+zlib_filefunc64_def functions_over(ArchiveBytes& bytes) {
     zlib_filefunc64_def functions{};
-    functions.zopen64_file = open_memory;
-    functions.zread_file = read_memory;
-    functions.zwrite_file = write_memory;
-    functions.ztell64_file = tell_memory;
-    functions.zseek64_file = seek_memory;
-    functions.zclose_file = close_memory;
+    functions.zopen64_file = open_bytes;
+    functions.zread_file = read_bytes;
+    functions.zwrite_file = write_bytes;
+    functions.ztell64_file = tell_cursor;
+    functions.zseek64_file = seek_cursor;
+    functions.zclose_file = close_bytes;
     functions.zerror_file = no_error;
-    functions.opaque = &file;
+    functions.opaque = &bytes;
     return functions;
 }
 
 /// The end record is the last thing in the file and its directory ends where it begins (APPNOTE.TXT 4.3.16):
 /// nothing was cut off, put in front or added behind.
-bool is_whole(std::span<const std::byte> bytes) {
-    if (bytes.size() < end_record_bytes) {
+bool is_whole(ArchiveBytes& bytes) {
+    std::array<std::byte, end_record_bytes> record{};
+    if (bytes.size() < end_record_bytes || !bytes.read(bytes.size() - end_record_bytes, record)) {
         return false;
     }
-    const std::span<const std::byte> end = bytes.last(end_record_bytes);
+    const std::span<const std::byte> end(record);
     const auto signature = ByteReader(end).read<std::uint32_t>();
     ByteReader rest(end.subspan(12));
     const std::uint64_t directory_bytes = rest.read<std::uint32_t>();
@@ -141,8 +198,7 @@ Result<void> check_entry(const ZipEntry& entry, const unz_file_info64& info) {
 
 } // namespace
 
-ZipWriter::ZipWriter() : file_(std::make_unique<MemoryFile>()) {
-    file_->writing = true;
+ZipWriter::ZipWriter() : file_(std::make_unique<GrowingBytes>()) {
     zlib_filefunc64_def functions = functions_over(*file_);
     zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &functions);
     good_ = zip_ != nullptr;
@@ -173,13 +229,13 @@ Result<Bytes> ZipWriter::finish() {
     if (!good_ || !closed) {
         return fail(ErrorKind::Internal, "the ZIP library could not write the pack in memory");
     }
-    return std::move(file_->written);
+    return std::move(static_cast<GrowingBytes&>(*file_).bytes);
 }
 
-ZipReader::ZipReader() : file_(std::make_unique<MemoryFile>()) {}
+ZipReader::ZipReader(std::unique_ptr<ArchiveBytes> bytes) : file_(std::move(bytes)) {}
 ZipReader::ZipReader(ZipReader&& other) noexcept
     : file_(std::move(other.file_)), zip_(std::exchange(other.zip_, nullptr)),
-      entries_(std::move(other.entries_)) {}
+      entries_(std::move(other.entries_)), numbers_(std::move(other.numbers_)) {}
 ZipReader::~ZipReader() {
     if (zip_ != nullptr) {
         unzClose(zip_);
@@ -187,13 +243,22 @@ ZipReader::~ZipReader() {
 }
 
 Result<ZipReader> ZipReader::open(std::span<const std::byte> bytes) {
-    if (!is_whole(bytes)) {
-        const bool began_as_zip = ByteReader(bytes).read<std::uint32_t>() == 0x04034b50;
-        return bad_input(began_as_zip ? "the pack is truncated or altered; copy it again"
-                                      : "this is not a pack (not a ZIP container)");
+    return open(std::make_unique<ViewedBytes>(bytes));
+}
+
+Result<ZipReader> ZipReader::open(OpenFile file) {
+    return open(std::make_unique<FileBytes>(std::move(file)));
+}
+
+Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
+    if (!is_whole(*bytes)) {
+        std::array<std::byte, 4> first{};
+        const bool begins_as_zip = bytes->size() >= first.size() && bytes->read(0, first) &&
+                                   ByteReader(first).read<std::uint32_t>() == 0x04034b50;
+        return bad_input(begins_as_zip ? "the pack is truncated or altered; copy it again"
+                                       : "this is not a pack (not a ZIP container)");
     }
-    ZipReader reader;
-    reader.file_->view = bytes;
+    ZipReader reader(std::move(bytes));
     zlib_filefunc64_def functions = functions_over(*reader.file_);
     reader.zip_ = unzOpen2_64("", &functions);
     if (reader.zip_ == nullptr) {
@@ -208,7 +273,6 @@ Result<ZipReader> ZipReader::open(std::span<const std::byte> bytes) {
 Result<void> ZipReader::read_directory() {
     unz_global_info64 global{};
     unzGetGlobalInfo64(zip_, &global);
-    std::set<std::string> names;
     int found = unzGoToFirstFile(zip_);
     for (; found == UNZ_OK; found = unzGoToNextFile(zip_)) {
         unz_file_info64 info{};
@@ -226,7 +290,7 @@ Result<void> ZipReader::read_directory() {
         name.resize(info.size_filename);
         ZipEntry entry{printable(name), info.uncompressed_size, info.compressed_size,
                        position.pos_in_zip_directory, position.num_of_file};
-        if (!names.insert(entry.name).second) {
+        if (!numbers_.emplace(entry.name, entries_.size()).second) {
             return bad_input(fmt::format("two entries are called {}; the pack is altered", entry.name));
         }
         if (auto sound = check_entry(entry, info); !sound) {
@@ -241,9 +305,8 @@ Result<void> ZipReader::read_directory() {
 }
 
 const ZipEntry* ZipReader::find(std::string_view name) const {
-    const auto entry =
-        std::find_if(entries_.begin(), entries_.end(), [&](const ZipEntry& e) { return e.name == name; });
-    return entry != entries_.end() ? &*entry : nullptr;
+    const auto number = numbers_.find(name);
+    return number != numbers_.end() ? &entries_[number->second] : nullptr;
 }
 
 Result<Bytes> ZipReader::read(const ZipEntry& entry) {

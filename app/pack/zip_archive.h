@@ -1,15 +1,18 @@
-/// A ZIP container in memory: what a pack needs of it and no more.
+/// A ZIP container: what a pack needs of it and no more. It is written in memory, and read from memory or piece by
+/// piece from a file.
 ///
 /// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
 ///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum.
 /// Threads  one caller.
-/// Library  minizip (ioapi functions over memory).
+/// Library  minizip (ioapi functions over bytes of our own).
 #pragma once
 
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/open_file.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,7 +20,7 @@
 
 namespace frustumscreen::pack_format {
 
-struct MemoryFile;
+struct ArchiveBytes;
 
 enum class Packing { Stored, Deflated };
 
@@ -34,7 +37,7 @@ public:
     [[nodiscard]] Result<Bytes> finish();
 
 private:
-    std::unique_ptr<MemoryFile> file_;
+    std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     bool good_ = true;
 };
@@ -51,6 +54,7 @@ class ZipReader {
 public:
     /// `bytes` must outlive the reader.
     [[nodiscard]] static Result<ZipReader> open(std::span<const std::byte> bytes);
+    [[nodiscard]] static Result<ZipReader> open(OpenFile file);
     ~ZipReader();
     ZipReader(ZipReader&&) noexcept;
     ZipReader& operator=(ZipReader&&) = delete;
@@ -62,11 +66,13 @@ public:
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
 
 private:
-    ZipReader();
+    explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
+    static Result<ZipReader> open(std::unique_ptr<ArchiveBytes> bytes);
     Result<void> read_directory();
-    std::unique_ptr<MemoryFile> file_;
+    std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     std::vector<ZipEntry> entries_;
+    std::map<std::string, std::size_t, std::less<>> numbers_; ///< of the entries, by name
 };
 
 } // namespace frustumscreen::pack_format

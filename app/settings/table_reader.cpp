@@ -204,6 +204,42 @@ void TableReader::text(std::string_view key, std::string& value, std::string_vie
     }
 }
 
+void TableReader::any_text(std::string_view key, std::string& value) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    if (const auto* text = node->as_string()) {
+        value = text->get();
+    } else {
+        refuse(key, fmt::format("is {}; allowed is a text in quotes", found(*node)));
+    }
+}
+
+void TableReader::named_texts(std::string_view key, std::vector<std::pair<std::string, std::string>>& values,
+                              std::size_t most) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return;
+    }
+    const toml::table* table = node->as_table();
+    if (table == nullptr || table->size() > most) {
+        refuse(key,
+               fmt::format("is {}; allowed is a table {{ ... }} of at most {} texts", found(*node), most));
+        return;
+    }
+    for (const auto& [name, item] : *table) {
+        const auto* text = item.as_string();
+        if (text == nullptr) {
+            state_->refuse(line_of(item),
+                           fmt::format("{}.{} is {}; allowed is a text in quotes", full_name(key),
+                                       printable(name.str(), 60), found(item)));
+            return;
+        }
+        values.emplace_back(name.str(), text->get());
+    }
+}
+
 void TableReader::texts(std::string_view key, std::vector<std::string>& values, std::size_t most,
                         std::string_view /*sentence*/) {
     const toml::array* array = list_of(key, 0, most, fmt::format("at most {} texts", most));

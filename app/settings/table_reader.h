@@ -63,6 +63,11 @@ public:
     void integer(std::string_view key, int& value, int low, int high, std::string_view sentence);
     void integer(std::string_view key, std::uint64_t& value, std::string_view sentence);
     void text(std::string_view key, std::string& value, std::string_view sentence = {});
+    /// Of any length, and perhaps empty: what it may hold, the caller checks.
+    void any_text(std::string_view key, std::string& value);
+    /// Texts under keys that the file chooses: { key = "text", ... }, in the keys' order.
+    void named_texts(std::string_view key, std::vector<std::pair<std::string, std::string>>& values,
+                     std::size_t most);
     void texts(std::string_view key, std::vector<std::string>& values, std::size_t most,
                std::string_view sentence = {});
     void path(std::string_view key, std::filesystem::path& value, std::string_view sentence);

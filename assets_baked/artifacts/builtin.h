@@ -19,11 +19,8 @@ namespace frustumscreen {
 /// triangles.
 [[nodiscard]] Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 
-/// Display title and short text of a built-in artifact in `language` ("en", "de", ...); English otherwise.
-struct BuiltinText {
-    std::string_view title;
-    std::string_view text;
-};
-[[nodiscard]] BuiltinText builtin_text(std::string_view name, std::string_view language);
+/// The artifact.toml of a folder with a built-in artifact's mesh (docs/curators.md): texts in five languages,
+/// hotspots. Empty for an unknown name.
+[[nodiscard]] std::string_view builtin_folder_text(std::string_view name);
 
 } // namespace frustumscreen

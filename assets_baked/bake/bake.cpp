@@ -5,6 +5,7 @@
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief.h"
 #include "assets_baked/bake/simplify.h"
+#include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
 #include "assets_baked/bake/triangle_mesh.h"
 #include "assets_baked/bake/visibility.h"
@@ -341,13 +342,20 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     if (!bakery.has_surface()) {
         return bad_input("every triangle is degenerate; there is no surface to show");
     }
+    Pack pack;
+    for (const GivenHotspot& given : options.hotspots) {
+        Result<PackHotspot> hotspot = put_on_surface(given, bakery.source(), *frame, options.prop.zone);
+        if (!hotspot) {
+            return tl::unexpected<Error>(hotspot.error());
+        }
+        pack.hotspots.push_back(*std::move(hotspot));
+    }
     std::vector<Surface> surfaces = bakery.surfaces();
     const bool may_need_relief = Bakery::may_need_relief(surfaces);
     keep_front(surfaces);
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
     ReliefAtlas atlas;
     TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
-    Pack pack;
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;
@@ -370,6 +378,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.samples =
         samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
     pack.default_level = choose_default(pack, bakery, options.prop);
+    pack.table_picture = make_table_picture(pack);
     options.progress("done", 1.0);
     return pack;
 }

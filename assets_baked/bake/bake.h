@@ -10,6 +10,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_outline.h"
+#include "assets_baked/bake/hotspots.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "assets_baked/bake/visibility.h"
 #include "firmware_host/base/result.h"
@@ -18,6 +19,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -40,11 +42,12 @@ struct BakeOptions {
     double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
     double lift = 0.0;     ///< above the prop's bottom, in heights of the artifact
     double scale = 1.0;    ///< on the largest size inside the prop
+    std::vector<GivenHotspot> hotspots;
     /// Called with what is being done and how much of all is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };
 
-/// Title, languages, captions and provenance are left for the caller to fill in.
+/// Id, title, languages, captions and provenance are left for the caller to fill in.
 [[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
 
 /// Disk space in bytes that a pack of this size (texels) may need. The largest pack measured, a helmet of

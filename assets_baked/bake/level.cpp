@@ -151,6 +151,18 @@ TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size) {
     return mesh;
 }
 
+SourceMesh textured_source(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size) {
+    SourceMesh mesh = as_source(surface_of(level, box_size));
+    for (const PackVertex& vertex : level.vertices) {
+        mesh.uvs.push_back(glm::vec2(vertex.uv[0], vertex.uv[1]) / 65535.0F);
+    }
+    const std::shared_ptr<const Image8> borrowed(std::shared_ptr<void>(), &texture);
+    mesh.textures = {{borrowed, Wrap::Clamp, Wrap::Clamp}};
+    mesh.materials[0].texture = 0;
+    mesh.materials[0].alpha_mask = has_cut_texels(texture);
+    return mesh;
+}
+
 SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible, float tolerance_box) {
     const SourceMesh seen_mesh = as_source(visible);
     const std::vector<glm::dvec3> seen_points(visible.positions.begin(), visible.positions.end());

@@ -23,6 +23,10 @@ namespace frustumscreen {
 /// Rebuilds a level's surface from its quantised vertices.
 [[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
 
+/// The same with its texture, for ray casts; where the texture's alpha cuts, rays pass. `texture` must outlive it.
+[[nodiscard]] SourceMesh textured_source(const PackLevel& level, const Image8& texture,
+                                         const glm::dvec3& box_size);
+
 /// Points on the source that a visitor sees, with their colour: chosen once, compared with every level.
 struct SourceSamples {
     struct Point {

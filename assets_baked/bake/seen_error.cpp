@@ -55,20 +55,6 @@ std::size_t outline_of(const Image<std::uint8_t>& hits) {
     return found;
 }
 
-/// Where the texture's alpha cuts, rays pass the level too.
-SourceMesh cut_out(SourceMesh mesh, const PackLevel& level, const Image8& texture) {
-    if (!has_cut_texels(texture)) {
-        return mesh;
-    }
-    for (const PackVertex& vertex : level.vertices) {
-        mesh.uvs.push_back(glm::vec2(vertex.uv[0], vertex.uv[1]) / 65535.0F);
-    }
-    mesh.textures = {{std::make_shared<Image8>(texture), Wrap::Clamp, Wrap::Clamp}};
-    mesh.materials[0].texture = 0;
-    mesh.materials[0].alpha_mask = true;
-    return mesh;
-}
-
 Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& source) {
     std::vector<Tally> rows(side);
     Image<std::uint8_t> hits(side, side);
@@ -107,10 +93,8 @@ SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::d
     constexpr double eye_distance_box = 6.0;
     const double lowest_deg = zone.lowest_elevation_deg + 9.0; // hardly anybody stands at the edge
     constexpr double highest_deg = 80.0;
-    const TriangleMesh surface = surface_of(level, box_size);
-    const SourceMesh level_mesh = cut_out(as_source(surface), level, texture);
-    const std::vector<glm::dvec3> level_points(surface.positions.begin(), surface.positions.end());
-    const SourceScene level_scene(level_mesh, level_points, Sides::Front);
+    const SourceMesh level_mesh = textured_source(level, texture, box_size);
+    const SourceScene level_scene(level_mesh, level_mesh.positions, Sides::Front);
     const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
     const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
     SeenError sum;

@@ -1,7 +1,10 @@
 #include "assets_baked/artifacts/builtin.h"
+#include "assets_baked/bake/hotspots.h"
+#include "assets_baked/folder/artifact_file.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -138,15 +141,51 @@ TEST_P(EveryBuiltin, ShowsItsFrontFromAllAround) {
     EXPECT_GT(seen, 100);
 }
 
-TEST_P(EveryBuiltin, HasItsTextsInFiveLanguages) {
-    std::set<std::string_view> texts;
-    for (const char* language : {"en", "de", "fr", "es", "el"}) {
-        const BuiltinText text = builtin_text(GetParam(), language);
-        EXPECT_FALSE(text.title.empty());
-        EXPECT_TRUE(texts.insert(text.text).second) << language;
-        EXPECT_EQ(text.text.find('\t'), std::string_view::npos);
+ArtifactFile folder_of(std::string_view name) {
+    const Result<ArtifactFile> file = parse_artifact_file(builtin_folder_text(name), artifact_file_name);
+    EXPECT_TRUE(file) << (file ? "" : file.error().message);
+    return file.value_or(ArtifactFile{});
+}
+
+TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
+    const ArtifactFile file = folder_of(GetParam());
+    EXPECT_EQ(file.scan, std::string(GetParam()) + ".glb");
+    ASSERT_EQ(file.texts.size(), 5U);
+    std::set<std::string> seen;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const PackCaption& caption = file.texts[k];
+        EXPECT_EQ(caption.language, (std::array{"en", "de", "fr", "es", "el"}.at(k)));
+        for (const std::string& text : {caption.title, caption.text, caption.period, caption.place,
+                                        caption.maker, caption.credit, caption.description}) {
+            EXPECT_FALSE(text.empty()) << caption.language;
+            EXPECT_EQ(text.find('\t'), std::string::npos);
+        }
+        EXPECT_TRUE(seen.insert(caption.text).second && seen.insert(caption.description).second)
+            << caption.language;
     }
-    EXPECT_EQ(builtin_text(GetParam(), "tlh").title, builtin_text(GetParam(), "en").title);
+}
+
+TEST_P(EveryBuiltin, HasTwoHotspotsOnItsSurfaceThatLookOutward) {
+    const SourceMesh& mesh = built(GetParam(), 8'000);
+    const Result<BoxFrame> frame = make_box_frame(mesh, {"y", 0.0, 0.0});
+    ASSERT_TRUE(frame);
+    const std::vector<glm::dvec3> points = in_box(mesh, *frame);
+    const SourceScene scene(mesh, points);
+    const ArtifactFile file = folder_of(GetParam());
+    ASSERT_EQ(file.hotspots.size(), 2U);
+    for (const ArtifactHotspot& given : file.hotspots) {
+        ASSERT_EQ(given.labels.size(), 5U);
+        const Result<PackHotspot> hotspot =
+            put_on_surface({given.place, given.point_file, given.labels}, scene, *frame, {});
+        ASSERT_TRUE(hotspot) << hotspot.error().message;
+        const glm::dvec3 wanted(frame->box_from_file * glm::dvec4(given.point_file, 1.0));
+        EXPECT_LT(glm::distance(wanted, hotspot->point), 0.02) << given.place;
+        // A ray from outside along the normal meets the front of the surface there.
+        const glm::dvec3 outward = glm::transpose(frame->turned_from_file) * hotspot->normal;
+        const Sight sight = look(mesh, given.point_file + 300.0 * outward, -outward);
+        EXPECT_NEAR(sight.t, 300.0, 8.0) << given.place;
+        EXPECT_TRUE(sight.front) << given.place;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Artifacts, EveryBuiltin, testing::ValuesIn(builtin_names()), [](const auto& test) {
@@ -221,7 +260,7 @@ TEST(Builtin, UnknownNamesAndCountsAreRefusedInOneLine) {
         EXPECT_EQ(mesh.error().message.find('\n'), std::string::npos);
         EXPECT_FALSE(mesh.error().message.empty());
     }
-    EXPECT_TRUE(builtin_text("vase", "en").title.empty());
+    EXPECT_TRUE(builtin_folder_text("vase").empty());
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
 #include "app/pack/manifest.h"
+#include "assets_baked/artifacts/builtin.h"
+#include "assets_baked/folder/new_folder.h"
 #include "firmware_host/tracker/packet_file.h"
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
@@ -110,6 +112,21 @@ void packs(const Seeds& seeds) {
     mesh_only.textures[0] = Image8(40, 30, {10, 20, 30, 255}); // as WebP
     seeds.add("pack", "webp", as_text(samples::bytes_of(mesh_only)));
     seeds.add("manifest", "everything", samples::take_apart(pack).manifest.dump());
+    const Bytes full = samples::bytes_of(samples::full_pack());
+    seeds.add("pack", "sections", as_text(full));
+    seeds.add("manifest", "sections", samples::take_apart(full).manifest.dump());
+}
+
+void folders(const Seeds& seeds) {
+    for (const std::string_view name : builtin_names()) {
+        seeds.add("artifact_file", std::string(name), builtin_folder_text(name));
+    }
+    const ScanFacts scan{"vase.stl", {}, {-1, 0, 2}, {1, 5, 4}, 'z'};
+    seeds.add("artifact_file", "new", new_artifact_text(scan, "A vase", "vase-1"));
+    seeds.add("artifact_file", "few",
+              "scan = 'a.stl'\nplacement = { up = '-z', turn_deg = -3e1, scale = 1.5, lift = 0 }\n"
+              "texts = [{ language = 'el', text = \"\"\"\na.\n\\u00e4\"\"\" }]\n"
+              "hotspots = [{ point = [1, 2.5, -3e2], labels = { en = 'x', 'pt-BR' = 'y' } }]\n");
 }
 
 void pictures(const Seeds& seeds) {
@@ -166,6 +183,7 @@ int main(int count, char** arguments) {
     talks(seeds);
     recordings(seeds);
     packs(seeds);
+    folders(seeds);
     pictures(seeds);
     meshes(seeds);
     sounds(seeds);

@@ -64,7 +64,7 @@ std::size_t first_texel() {
 
 TEST(HostilePart, a_level_with_other_counts_than_bytes_is_refused) {
     const char* level = "levels/0.bin";
-    expect_refused({{level, "FSLV", [](Bytes& b) { b.clear(); }},
+    expect_refused({{level, "bytes is 0", [](Bytes& b) { b.clear(); }},
                     {level, "FSLV", [](Bytes& b) { b[0] = std::byte{'X'}; }},
                     {level, "FSLV", [](Bytes& b) { b.resize(23); }},
                     {level, "version", [](Bytes& b) { set(b, 4, 2U); }},

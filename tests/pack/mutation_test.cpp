@@ -85,7 +85,7 @@ void judge(const Bytes& bytes, Count& count) {
 } // namespace
 
 TEST(Mutants, of_the_file_are_refused_or_usable) {
-    const Bytes bytes = samples::bytes_of(samples::pack());
+    const Bytes bytes = samples::bytes_of(samples::full_pack());
     std::mt19937 random(101);
     Count count;
     while (count.mutants < 3000 && !HasFatalFailure()) {
@@ -99,7 +99,7 @@ TEST(Mutants, of_the_file_are_refused_or_usable) {
 }
 
 TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
-    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     std::mt19937 random(102);
     Count count;
     while (count.mutants < 3000 && !HasFatalFailure()) {
@@ -113,7 +113,7 @@ TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
 }
 
 TEST(Mutants, of_the_manifest_are_refused_or_usable) {
-    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     const std::string manifest = entries.manifest.dump();
     const auto manifest_bytes = as_bytes(manifest);
     std::mt19937 random(103);

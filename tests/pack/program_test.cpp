@@ -104,3 +104,39 @@ TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
     ASSERT_TRUE(write_file("cube.toml", as_bytes("[prop]\nkind = \"cube\"\nbase_m = 0.1\nheight_m = 0.1\n")));
     expect_matrix("--config cube.toml", make_cube(0.1));
 }
+
+TEST_F(Program, explain_has_everything_that_a_pack_says) {
+    ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::full_pack())));
+    const Outcome outcome = pack_program("explain good.fspack --json");
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["id"], "museum-1234.a");
+    EXPECT_EQ(json["captions"][0]["maker"], "the Amasis painter (?)");
+    EXPECT_EQ(json["captions"][1],
+              nlohmann::json(
+                  {{"language", "pt-BR"}, {"title", "\xC3\x82nfora"}, {"text", ""}, {"place", "Atenas"}}));
+    EXPECT_EQ(json["hotspots"][1]["labels"][0]["text"], "The foot");
+    EXPECT_EQ(json["hotspots"][0]["point_box"], nlohmann::json({0.25, -0.125, 0.5}));
+    EXPECT_EQ(json["table_picture"], nlohmann::json({{"width", 31}, {"height", 17}}));
+    EXPECT_EQ(json["sections"][1]["name"], "sounds");
+    EXPECT_EQ(json["sections"][0]["data"]["size"], 12.5);
+    EXPECT_EQ(json["parts"].size(), 12U);
+    const Outcome text = pack_program("explain good.fspack");
+    ASSERT_EQ(text.status, 0) << text.error;
+    for (const char* words :
+         {"id museum-1234.a", "section glyphs: passed over", "sounds/pt-br/0.opus",
+          "maker: the Amasis painter", "en: The handle", "picture for the table: 31 x 17"}) {
+        EXPECT_NE(text.out.find(words), std::string::npos) << words << "\n" << text.out;
+    }
+    EXPECT_NE(pack_program("list good.fspack").out.find("section sounds: passed over"), std::string::npos);
+}
+
+TEST_F(Program, verify_holds_the_parts_of_unknown_sections_against_their_hashes) {
+    samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
+    entries.part("sounds/en/0.opus")[0] ^= std::byte{1};
+    ASSERT_TRUE(write_file("good.fspack", samples::put_together(entries)));
+    const Outcome outcome = pack_program("verify good.fspack");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.error.find("sounds/en/0.opus does not match its hash"), std::string::npos)
+        << outcome.error;
+}

@@ -55,6 +55,9 @@ void expect_same(const Pack& a, const Pack& b) {
         EXPECT_EQ(a.textures[k].texels, b.textures[k].texels);
     }
     expect_same(a.relief, b.relief);
+    EXPECT_EQ(a.table_picture.width, b.table_picture.width);
+    EXPECT_EQ(a.table_picture.texels, b.table_picture.texels);
+    EXPECT_EQ(a.section_parts, b.section_parts);
     ASSERT_EQ(a.levels.size(), b.levels.size());
     for (std::size_t k = 0; k < a.levels.size(); ++k) {
         expect_same(a.levels[k], b.levels[k]);
@@ -68,6 +71,15 @@ TEST(RoundTrip, everything_in_a_pack_comes_back_unchanged) {
     const Result<VerifiedPack> back = verify_pack(samples::bytes_of(pack));
     ASSERT_TRUE(back) << back.error().message;
     expect_same(pack, **back);
+}
+
+TEST(RoundTrip, sections_come_back_unchanged) {
+    const Pack pack = samples::full_pack();
+    const Bytes bytes = samples::bytes_of(pack);
+    const Result<VerifiedPack> back = verify_pack(bytes);
+    ASSERT_TRUE(back) << back.error().message;
+    expect_same(pack, **back);
+    EXPECT_EQ(samples::bytes_of(**back), bytes);
 }
 
 TEST(RoundTrip, what_was_read_is_written_again_byte_for_byte) {

@@ -106,7 +106,7 @@ inline Image8 texture(int width, int height, unsigned seed, bool opaque) {
     return image;
 }
 
-/// A pack with everything that a pack can hold, in few bytes.
+/// A pack without sections: levels of both kinds, in few bytes.
 inline Pack pack() {
     Pack pack;
     pack.title = "Amphora \xC3\xA0 colonnettes";
@@ -126,6 +126,39 @@ inline Pack pack() {
     pack.relief = relief_atlas();
     pack.levels = {mesh_level(), relief_level(pack.relief, pack.box_size)};
     pack.default_level = 1;
+    return pack;
+}
+
+inline Bytes some_bytes(std::string_view text) {
+    const auto bytes = as_bytes(text);
+    return {bytes.begin(), bytes.end()};
+}
+
+/// With every section that is defined, and two that no reader of today knows.
+inline Pack full_pack() {
+    Pack pack = samples::pack();
+    pack.id = "museum-1234.a";
+    pack.captions[0].period = "about 540 BC";
+    pack.captions[0].place = "Athens";
+    pack.captions[0].maker = "the Amasis painter (?)";
+    pack.captions[0].credit = "Gift of N.N.";
+    pack.captions[0].description = "A jar, as high as a hand.\nTwo handles.";
+    pack.captions[1].place = "Atenas";
+    pack.hotspots = {{{0.25, -0.125, 0.5},
+                      {0.0, -0.6, 0.8},
+                      {{"en", "The handle"},
+                       {"pt-BR", "A al\xC3\xA7"
+                                 "a"}}},
+                     {{-0.5, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {{"en", "The foot"}}}};
+    pack.table_picture = texture(31, 17, 3, false);
+    pack.sections = {{"glyphs", R"({"size":12.5})", {"glyphs/runs.bin", "glyphs/atlas.png"}},
+                     {"sounds",
+                      R"({"texts":[{"language":"en","part":"sounds/en/0.opus"}]})",
+                      {"sounds/en/0.opus", "sounds/pt-br/0.opus"}}};
+    pack.section_parts = {{"glyphs/runs.bin", some_bytes("runs")},
+                          {"glyphs/atlas.png", some_bytes("no picture; nobody looks")},
+                          {"sounds/en/0.opus", some_bytes("OggS english")},
+                          {"sounds/pt-br/0.opus", some_bytes("OggS portuguese")}};
     return pack;
 }
 

@@ -207,6 +207,108 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
     EXPECT_EQ((*pack)->captions[1].text, "Eine Katze=Kater.");
 }
 
+TEST_F(BakeCommand, TakesAFolder) {
+    ASSERT_EQ(run("frustumscreen-bake scan.obj --new vase"), 0) << text("err.txt");
+    EXPECT_NE(text("out.txt").find("vase/artifact.toml: edit it"), std::string::npos) << text("out.txt");
+    EXPECT_EQ(text("vase/skin.png"), text("skin.png")) << "what the scan names comes along";
+    ASSERT_EQ(run("frustumscreen-bake vase -o new.fspack --size 32"), 0) << text("err.txt");
+    put("vase/artifact.toml", R"(scan = "scan.obj"
+id = "vase-1"
+licence = "CC0-1.0"
+size = 48
+[placement]
+up = "z"
+turn_deg = 0
+[[texts]]
+language = "de"
+title = "Vase"
+credit = "Geschenk"
+text = "Eine Vase."
+[[texts]]
+language = "en"
+title = "A vase"
+description = "It is small."
+[[hotspots]]
+point = [0.2, 0.2, 0.0]
+labels = { en = "Foot", de = "Fuß" }
+[[hotspots]]
+point = [0.3, 0.0, 0.3]
+labels = { en = "Side" }
+)");
+    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack --json"), 1) << "the first point is below the foot";
+    EXPECT_NE(text("err.txt").find(
+                  "artifact.toml:18: hotspots[0].point is [0.2, 0.2, 0], where no visitor can see"),
+              std::string::npos)
+        << text("err.txt");
+    std::string file = text("vase/artifact.toml");
+    file.replace(file.find("[0.2, 0.2, 0.0]"), 15, "[0.0, 0.2, 0.2]");
+    put("vase/artifact.toml", file);
+    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt");
+    const auto pack = load_pack(folder / "vase.fspack");
+    ASSERT_TRUE(pack) << pack.error().message;
+    EXPECT_EQ((*pack)->id, "vase-1");
+    EXPECT_EQ((*pack)->title, "Vase");
+    EXPECT_EQ((*pack)->languages, (std::vector<std::string>{"de", "en"}));
+    EXPECT_EQ((*pack)->captions[0].credit, "Geschenk");
+    EXPECT_EQ((*pack)->captions[1].title, "A vase");
+    EXPECT_EQ((*pack)->captions[1].description, "It is small.");
+    EXPECT_EQ((*pack)->provenance.licence, "CC0-1.0");
+    EXPECT_EQ((*pack)->relief_size, 48);
+    ASSERT_EQ((*pack)->hotspots.size(), 2U);
+    // The tetrahedron fills its box, whose X is the file's and whose front, -Y, is the file's y = 0.
+    EXPECT_NEAR((*pack)->hotspots[0].point.x, -0.5, 1e-6);
+    EXPECT_NEAR((*pack)->hotspots[0].normal.x, -1.0, 0.01);
+    EXPECT_NEAR((*pack)->hotspots[1].point.y, -0.5, 1e-6);
+    EXPECT_NEAR((*pack)->hotspots[1].point.z, 0.3, 1e-6);
+    EXPECT_NEAR((*pack)->hotspots[1].normal.y, -1.0, 0.01);
+    EXPECT_EQ(std::max((*pack)->table_picture.width, (*pack)->table_picture.height), 256);
+}
+
+TEST_F(BakeCommand, OptionsStandAboveTheFolder) {
+    fs::create_directory(folder / "vase");
+    for (const char* file : {"scan.obj", "scan.mtl", "skin.png"}) {
+        fs::copy_file(folder / file, folder / "vase" / file);
+    }
+    put("vase/artifact.toml",
+        "scan = \"scan.obj\"\nlicence = \"a\"\nsize = 2000\nprop = \"cube\"\n[placement]\n"
+        "scale = 0.5\nup = \"x\"\n[[texts]]\nlanguage = \"de\"\ntitle = \"Vase\"\n"
+        "text = \"Eine Vase.\"\n[[texts]]\nlanguage = \"fr\"\nplace = \"Paris\"\n");
+    ASSERT_EQ(run("frustumscreen-bake vase -o a.fspack --size 32 --prop frustum --scale 2 --licence b "
+                  "--language fr "
+                  "--language en --caption 'fr=Un vase.' --up z"),
+              0)
+        << text("err.txt");
+    const auto pack = load_pack(folder / "a.fspack");
+    ASSERT_TRUE(pack) << pack.error().message;
+    EXPECT_EQ((*pack)->prop_kind, "frustum");
+    EXPECT_EQ((*pack)->scale, 2.0);
+    EXPECT_EQ((*pack)->provenance.licence, "b");
+    ASSERT_EQ((*pack)->captions.size(), 2U);
+    EXPECT_TRUE((*pack)->captions[0] == (PackCaption{"fr", "Vase", "Un vase.", "", "Paris", "", "", ""}));
+    EXPECT_TRUE((*pack)->captions[1] == (PackCaption{"en", "scan", ""}));
+    EXPECT_EQ(run("frustumscreen-bake vase -o vase/artifact.toml --force"), 1) << "it is an input";
+    EXPECT_EQ(run("frustumscreen-bake vase"), 2) << "no output is named";
+    put("vase/artifact.toml", "scan = \"scan.obj\"\nlicense = \"a\"\n");
+    EXPECT_EQ(run("frustumscreen-bake vase -o b.fspack"), 1);
+    EXPECT_EQ(text("err.txt"),
+              "frustumscreen-bake: vase/artifact.toml:2: license is not a known key; the nearest "
+              "allowed key is licence\n");
+    EXPECT_EQ(run("frustumscreen-bake scan.obj -o b.fspack --title 'a\x1b[2J'"), 2);
+    EXPECT_FALSE(fs::exists(folder / "b.fspack"));
+}
+
+TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-pack preview scan.fspack --table -o table.png"), 0) << text("err.txt");
+    const Result<Bytes> file = read_file(folder / "table.png");
+    ASSERT_TRUE(file);
+    const Result<Image8> picture = decode_png8(*file, 1 << 24);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(std::max(picture->width, picture->height), 256);
+    EXPECT_EQ(picture->at(0, 0).a, 0);
+    EXPECT_EQ(picture->at(picture->width / 2, picture->height / 2).a, 255);
+}
+
 /// A file system of one megabyte, where the test may make one.
 TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
     fs::create_directory(folder / "small");

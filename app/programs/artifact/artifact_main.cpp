@@ -1,18 +1,22 @@
-/// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file.
+/// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it.
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/artifacts/write_glb.h"
+#include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace frustumscreen {
 namespace {
@@ -22,12 +26,48 @@ int report(const Error& error) {
     return 1;
 }
 
+/// In the language, or in English where there is no text in it.
+const PackCaption& caption_in(const std::vector<PackCaption>& captions, const std::string& language) {
+    const auto found = std::find_if(captions.begin(), captions.end(),
+                                    [&](const PackCaption& caption) { return caption.language == language; });
+    return found != captions.end() ? *found : captions.front();
+}
+
 int list_artifacts(const std::string& language) {
     for (const std::string_view name : builtin_names()) {
-        const BuiltinText text = builtin_text(name, language);
-        fmt::print("{}\t{}\t{}\n", name, text.title, text.text);
+        const Result<ArtifactFile> file = parse_artifact_file(builtin_folder_text(name), artifact_file_name);
+        if (!file) {
+            return report(file.error());
+        }
+        const PackCaption& caption = caption_in(file->texts, language);
+        fmt::print("{}\t{}\t{}\n", name, caption.title, caption.text);
     }
     return 0;
+}
+
+/// The mesh, and with a folder its artifact.toml beside it.
+Result<void> write_artifact(const std::string& name, std::int64_t triangles,
+                            const std::filesystem::path& output, const std::filesystem::path& folder) {
+    const Result<SourceMesh> mesh = make_builtin(name, triangles);
+    if (!mesh) {
+        return tl::unexpected<Error>(mesh.error());
+    }
+    const Result<Bytes> bytes = write_glb(*mesh);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    if (folder.empty()) {
+        return write_file(output, *bytes);
+    }
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        return bad_input(
+            fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
+    }
+    return write_file(folder / (name + ".glb"), *bytes).and_then([&] {
+        return write_file(folder / artifact_file_name, as_bytes(builtin_folder_text(name)));
+    });
 }
 
 int run(int argc, char** argv) {
@@ -35,6 +75,7 @@ int run(int argc, char** argv) {
     std::string language = "en";
     std::int64_t triangles = 400'000;
     std::filesystem::path output;
+    std::filesystem::path folder;
     bool list = false;
 
     CLI::App app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
@@ -43,14 +84,20 @@ int run(int argc, char** argv) {
     auto* name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
     app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %")->capture_default_str();
     auto* output_option = app.add_option("-o,--output", output, "GLB file to write");
+    auto* folder_option =
+        app.add_option(
+               "--folder", folder,
+               "Folder to write, in place of a single file: the mesh, and an artifact.toml with texts and "
+               "hotspots for frustumscreen-bake")
+            ->excludes(output_option);
     auto* list_option = app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
     app.add_option("--language", language, "Language of --list: en, de, fr, es, el; English for others")
         ->capture_default_str();
-    list_option->excludes(name_option)->excludes(output_option);
+    list_option->excludes(name_option)->excludes(output_option)->excludes(folder_option);
     try {
         app.parse(argc, argv);
-        if (!list && (name.empty() || output.empty())) {
-            throw CLI::RequiredError("NAME and -o, or --list,");
+        if (!list && (name.empty() || (output.empty() && folder.empty()))) {
+            throw CLI::RequiredError("NAME and -o or --folder, or --list,");
         }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
@@ -64,15 +111,7 @@ int run(int argc, char** argv) {
     if (list) {
         return list_artifacts(language);
     }
-    const auto mesh = make_builtin(name, triangles);
-    if (!mesh) {
-        return report(mesh.error());
-    }
-    const auto bytes = write_glb(*mesh);
-    if (!bytes) {
-        return report(bytes.error());
-    }
-    const auto written = write_file(output, *bytes);
+    const Result<void> written = write_artifact(name, triangles, output, folder);
     return written ? 0 : report(written.error());
 }
 

@@ -55,7 +55,7 @@ std::uint64_t bytes_of(const BakeResult& result, std::size_t level) {
     for (const PackPart& part : result.parts) {
         const bool relief = of.technique == LevelTechnique::Relief && part.name.starts_with("relief/");
         if (relief || part.name == fmt::format("levels/{}.bin", level) ||
-            part.name == fmt::format("textures/{}.png", of.texture)) {
+            part.name.starts_with(fmt::format("textures/{}.", of.texture))) {
             bytes += part.stored_bytes;
         }
     }

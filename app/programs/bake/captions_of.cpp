@@ -18,7 +18,7 @@ PackCaption* caption_in(std::vector<PackCaption>& captions, std::string_view lan
     return found != captions.end() ? &*found : nullptr;
 }
 
-Result<void> add_language(const std::string& language, const std::string& title,
+Result<void> add_language(const std::string& language, const std::vector<PackCaption>& from_file,
                           std::vector<PackCaption>& captions) {
     const std::string found = fmt::format("--language '{}'", printable(language, 40));
     if (!parse_language_tag(language)) {
@@ -28,12 +28,15 @@ Result<void> add_language(const std::string& language, const std::string& title,
     if (caption_in(captions, language) != nullptr) {
         return bad_input(found + ": it is named already; write each language once");
     }
-    captions.push_back({language, title, ""});
+    const auto in_file = std::find_if(from_file.begin(), from_file.end(), [&](const PackCaption& caption) {
+        return caption.language == language;
+    });
+    captions.push_back(in_file != from_file.end() ? *in_file : PackCaption{language, "", ""});
     return {};
 }
 
-Result<void> add_text(const std::string& written, std::span<const std::string> languages,
-                      std::vector<std::string>& seen, std::vector<PackCaption>& captions) {
+Result<void> add_text(const std::string& written, std::vector<std::string>& seen,
+                      std::vector<PackCaption>& captions) {
     const std::string found = fmt::format("--caption '{}'", printable(written, 40));
     const std::size_t equals = written.find('=');
     if (equals == std::string::npos) {
@@ -42,9 +45,12 @@ Result<void> add_text(const std::string& written, std::span<const std::string> l
     const std::string language = written.substr(0, equals);
     PackCaption* const caption = caption_in(captions, language);
     if (caption == nullptr) {
+        std::vector<std::string> languages;
+        for (const PackCaption& each : captions) {
+            languages.push_back(each.language);
+        }
         return bad_input(fmt::format("{}: the languages are {}; add --language {}", found,
-                                     languages.empty() ? "en" : fmt::format("{}", fmt::join(languages, ", ")),
-                                     printable(language, 40)));
+                                     fmt::join(languages, ", "), printable(language, 40)));
     }
     if (std::find(seen.begin(), seen.end(), language) != seen.end()) {
         return bad_input(fmt::format("{}: there is a caption in {} already; write one for each language",
@@ -57,20 +63,26 @@ Result<void> add_text(const std::string& written, std::span<const std::string> l
 
 } // namespace
 
-Result<std::vector<PackCaption>> captions_of(const std::string& title, std::span<const std::string> languages,
-                                             std::span<const std::string> captions) {
+Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     std::vector<PackCaption> made;
-    for (const std::string& language : languages) {
-        if (const Result<void> added = add_language(language, title, made); !added) {
+    for (const std::string& language : written.languages) {
+        if (const Result<void> added = add_language(language, written.from_file, made); !added) {
             return tl::unexpected<Error>(added.error());
         }
     }
-    if (languages.empty()) {
-        made.push_back({"en", title, ""});
+    if (written.languages.empty()) {
+        made = written.from_file.empty() ? std::vector<PackCaption>{{"en", "", ""}} : written.from_file;
+    }
+    for (PackCaption& caption : made) {
+        if (!written.title.empty()) {
+            caption.title = written.title;
+        } else if (caption.title.empty()) {
+            caption.title = written.usual_title;
+        }
     }
     std::vector<std::string> seen;
-    for (const std::string& caption : captions) {
-        if (const Result<void> added = add_text(caption, languages, seen, made); !added) {
+    for (const std::string& text : written.texts) {
+        if (const Result<void> added = add_text(text, seen, made); !added) {
             return tl::unexpected<Error>(added.error());
         }
     }

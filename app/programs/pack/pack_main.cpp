@@ -1,4 +1,5 @@
 /// frustumscreen-pack: verifies, lists, explains and draws packs.
+#include "app/pack/pack_sections.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
@@ -23,6 +24,7 @@ struct Request {
     std::string config;
     std::filesystem::path output;
     bool json = false;
+    bool table = false; ///< preview: the table's picture
 };
 
 int complain(const Error& error) {
@@ -97,6 +99,17 @@ int explain(const Request& request) {
     return 0;
 }
 
+Result<Image8> table_picture_of(const std::filesystem::path& file) {
+    Result<PackCard> card = load_pack_card(file);
+    if (!card) {
+        return tl::unexpected<Error>(card.error());
+    }
+    if (card->table_picture.texels.empty()) {
+        return bad_input(file.string() + ": it has no picture for the table; bake it again");
+    }
+    return std::move(card->table_picture);
+}
+
 Result<void> write_preview(const Request& request) {
     if (Result<void> safe = check_output_is_no_input(request.output, {{request.pack}}); !safe) {
         return safe;
@@ -104,7 +117,8 @@ Result<void> write_preview(const Request& request) {
     if (Result<void> place = check_output_place(request.output); !place) {
         return place;
     }
-    const Result<Image8> picture = preview_of_pack(request.pack);
+    const Result<Image8> picture =
+        request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack);
     return picture ? write_file(request.output, encode_png(*picture))
                    : tl::unexpected<Error>(picture.error());
 }
@@ -133,6 +147,8 @@ int run(int argc, char** argv) {
         app.add_subcommand("preview", "draws the artifact from four sides into one picture");
     to_preview->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
     to_preview->add_option("-o,--output", request.output, "picture to write (*.png)")->required();
+    to_preview->add_flag("--table", request.table,
+                         "the small picture that lies on the table instead, cut out");
     for (CLI::App* command : {to_verify, to_list, to_explain}) {
         command->add_flag("--json", request.json, "for programs");
     }

@@ -1,5 +1,7 @@
 #include "app/programs/pack/pack_report.h"
 
+#include "firmware_host/base/printable.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,6 +22,17 @@ std::string in_units(std::uint64_t bytes) {
     return bytes < 1000      ? fmt::format("{} B", bytes)
            : bytes < 1000000 ? fmt::format("{:.1f} kB", value / 1e3)
                              : fmt::format("{:.1f} MB", value / 1e6);
+}
+
+/// What is said beside title and text, as far as anything is.
+std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& caption) {
+    std::vector<std::pair<std::string, std::string>> details{{"period", caption.period},
+                                                             {"place", caption.place},
+                                                             {"maker", caption.maker},
+                                                             {"credit", caption.credit},
+                                                             {"description", caption.description}};
+    std::erase_if(details, [](const auto& detail) { return detail.second.empty(); });
+    return details;
 }
 
 double mm_per_box(const Pack& pack, const PropSettings& prop) {
@@ -54,13 +67,51 @@ Json parts_json(const std::vector<PackPart>& parts) {
     return result;
 }
 
+Json captions_json(const Pack& pack) {
+    Json captions = Json::array();
+    for (const PackCaption& caption : pack.captions) {
+        Json made{{"language", caption.language}, {"title", caption.title}, {"text", caption.text}};
+        for (const auto& [name, text] : details_of(caption)) {
+            made[name] = text;
+        }
+        captions.push_back(std::move(made));
+    }
+    return captions;
+}
+
+Json hotspots_json(const Pack& pack) {
+    Json hotspots = Json::array();
+    for (const PackHotspot& hotspot : pack.hotspots) {
+        Json labels = Json::array();
+        for (const PackLabel& label : hotspot.labels) {
+            labels.push_back({{"language", label.language}, {"text", label.text}});
+        }
+        hotspots.push_back({{"point_box", {hotspot.point.x, hotspot.point.y, hotspot.point.z}},
+                            {"normal", {hotspot.normal.x, hotspot.normal.y, hotspot.normal.z}},
+                            {"labels", labels}});
+    }
+    return hotspots;
+}
+
+/// The sections that this program only passes on.
+Json sections_json(const Pack& pack) {
+    Json sections = Json::array();
+    for (const PackSection& section : pack.sections) {
+        sections.push_back(
+            {{"name", section.name}, {"parts", section.parts}, {"data", Json::parse(section.data)}});
+    }
+    return sections;
+}
+
 void add_description(Json& json, const Pack& pack) {
     json["format_version"] = pack_format_version;
-    json["captions"] = Json::array();
-    for (const PackCaption& caption : pack.captions) {
-        json["captions"].push_back(
-            {{"language", caption.language}, {"title", caption.title}, {"text", caption.text}});
+    json["captions"] = captions_json(pack);
+    json["hotspots"] = hotspots_json(pack);
+    json["table_picture"] = nullptr;
+    if (!pack.table_picture.texels.empty()) {
+        json["table_picture"] = {{"width", pack.table_picture.width}, {"height", pack.table_picture.height}};
     }
+    json["sections"] = sections_json(pack);
     json["provenance"] = {{"source_name", pack.provenance.source_name},
                           {"source_sha256", pack.provenance.source_sha256},
                           {"licence", pack.provenance.licence},
@@ -123,15 +174,48 @@ std::string matrix_text(const glm::dmat4& matrix) {
 }
 
 std::string title_line(const OpenedPack& opened) {
-    return fmt::format("{}: \"{}\" ({}), {}, unsigned\n", opened.file.string(), opened.pack->title,
-                       fmt::join(opened.pack->languages, ", "), in_units(opened.file_bytes));
+    const Pack& pack = *opened.pack;
+    return fmt::format("{}: \"{}\" ({}), {}, {}, unsigned\n", opened.file.string(), pack.title,
+                       fmt::join(pack.languages, ", "), pack.id.empty() ? "no id" : "id " + pack.id,
+                       in_units(opened.file_bytes));
 }
 
-std::string description_text(const Pack& pack) {
+std::string sections_text(const Pack& pack) {
+    std::string text;
+    for (const PackSection& section : pack.sections) {
+        text += fmt::format("  section {}: passed over by this version, {} parts\n", section.name,
+                            section.parts.size());
+    }
+    return text;
+}
+
+std::string hotspots_text(const Pack& pack, double mm) {
+    std::string text;
+    for (const PackHotspot& hotspot : pack.hotspots) {
+        const glm::dvec3 at = hotspot.point * mm;
+        std::vector<std::string> labels;
+        for (const PackLabel& label : hotspot.labels) {
+            labels.push_back(label.language + ": " + label.text);
+        }
+        text += fmt::format("  hotspot {:.1f} mm to the right, {:.1f} back, {:.1f} up; {}\n", at.x, at.y,
+                            at.z, fmt::join(labels, "; "));
+    }
+    return text;
+}
+
+std::string description_text(const Pack& pack, double mm) {
     std::string text;
     for (const PackCaption& caption : pack.captions) {
         text += fmt::format("  caption {}: {}{}{}\n", caption.language, caption.title,
                             caption.text.empty() ? "" : " - ", caption.text);
+        for (const auto& [name, detail] : details_of(caption)) {
+            text += fmt::format("          {}: {}\n", name, printable(detail, 200));
+        }
+    }
+    text += hotspots_text(pack, mm);
+    if (!pack.table_picture.texels.empty()) {
+        text += fmt::format("  picture for the table: {} x {} texels\n", pack.table_picture.width,
+                            pack.table_picture.height);
     }
     const PackProvenance& source = pack.provenance;
     text += fmt::format("  source: {}, {} triangles, licence {}\n          sha256 {}\n", source.source_name,
@@ -169,6 +253,7 @@ Json list_json(const OpenedPack& opened, const PropSettings& prop) {
     return {{"file", opened.file.string()},
             {"bytes", opened.file_bytes},
             {"signed", false},
+            {"id", pack.id.empty() ? Json(nullptr) : Json(pack.id)},
             {"title", pack.title},
             {"languages", pack.languages},
             {"levels", levels_json(pack, mm_per_box(pack, prop))},
@@ -190,14 +275,14 @@ std::string list_text(const OpenedPack& opened, const PropSettings& prop) {
         text += fmt::format("  {:<24}{:>12}{:>12} stored\n", part.name, in_units(part.bytes),
                             in_units(part.stored_bytes));
     }
-    return text;
+    return text + sections_text(pack);
 }
 
 std::string explain_text(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
     const Placement placement = place(pack, make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box * mm_per_m;
-    return list_text(opened, prop) + description_text(pack) +
+    return list_text(opened, prop) + description_text(pack, placement.metres_per_box * mm_per_m) +
            fmt::format("  in a {} of base {} m, height {} m the artifact is {:.1f} x {:.1f} x {:.1f} mm\n"
                        "  prop_from_artifact, from the file's coordinates to the prop's, metres:\n",
                        frustumscreen::name_of(prop.kind), prop.base_m, prop.height_m, size.x, size.y,

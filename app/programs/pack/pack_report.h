@@ -25,10 +25,11 @@ struct OpenedPack {
 };
 [[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
 
-/// {file, bytes, signed, title, languages, levels with errors in mm on this prop, default_level, parts}
+/// {file, bytes, signed, id, title, languages, levels with errors in mm on this prop, default_level, parts}
 [[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
-/// list_json and {format_version, captions, provenance, prop_kind, unlit, relief_size, box_size, textures,
-/// relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
+/// list_json and {format_version, captions with their details, hotspots, table_picture, sections, provenance, prop_kind,
+/// unlit, relief_size, box_size, textures, relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16
+/// numbers, column-major}.
 [[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);
 
 /// The same for people; each ends with a line break.

@@ -1,0 +1,87 @@
+#include "app/pack/pack_sections.h"
+
+#include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
+#include "app/pack/pack_reader.h"
+#include "app/pack/picture_part.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+using namespace pack_format;
+
+namespace {
+
+/// Opens the file and does with it what `work` does; messages get the file's name.
+template <typename Value>
+Result<Value> with_pack(const std::filesystem::path& file,
+                        const std::function<Result<Value>(PackReader&)>& work) {
+    Result<PackReader> reader = open_pack_file(file);
+    if (!reader) {
+        return tl::unexpected(reader.error());
+    }
+    const PackDescription& description = reader->manifest().description;
+    const Result<void> good = check_description(description);
+    Result<Value> done = good ? work(*reader) : tl::unexpected(good.error());
+    if (!done) {
+        return at(file.string(), done.error());
+    }
+    return done;
+}
+
+Result<PackCard> read_card(PackReader& reader) {
+    const PackDescription& pack = reader.manifest().description;
+    PackCard card{pack.id, pack.title, pack.languages, {}, {}};
+    for (const PackCaption& caption : pack.captions) {
+        card.titles.push_back({caption.language, caption.title});
+    }
+    Result<Image8> picture = read_table_picture(reader);
+    if (!picture) {
+        return tl::unexpected(picture.error());
+    }
+    card.table_picture = std::move(*picture);
+    return card;
+}
+
+bool has_part(const PackDescription& pack, const std::string& name) {
+    return std::any_of(pack.sections.begin(), pack.sections.end(), [&](const PackSection& section) {
+        return std::find(section.parts.begin(), section.parts.end(), name) != section.parts.end();
+    });
+}
+
+Result<std::map<std::string, Bytes>> read_parts(PackReader& reader, const ChooseParts& choose) {
+    const Result<std::vector<std::string>> names = choose(reader.manifest().description);
+    if (!names) {
+        return tl::unexpected(names.error());
+    }
+    std::map<std::string, Bytes> parts;
+    for (const std::string& name : *names) {
+        if (!has_part(reader.manifest().description, name)) {
+            return bad_input(fmt::format("no section has the part '{}'", printable(name, 40)));
+        }
+        Result<Bytes> bytes = reader.take(name);
+        if (!bytes) {
+            return tl::unexpected(bytes.error());
+        }
+        parts.emplace(name, std::move(*bytes));
+    }
+    return parts;
+}
+
+} // namespace
+
+Result<PackCard> load_pack_card(const std::filesystem::path& file) {
+    return with_pack<PackCard>(file, read_card);
+}
+
+Result<std::map<std::string, Bytes>> load_section_parts(const std::filesystem::path& file,
+                                                        const ChooseParts& choose) {
+    return with_pack<std::map<std::string, Bytes>>(
+        file, [&](PackReader& reader) { return read_parts(reader, choose); });
+}
+
+} // namespace frustumscreen

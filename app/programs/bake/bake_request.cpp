@@ -1,0 +1,97 @@
+#include "app/programs/bake/bake_request.h"
+
+#include "app/pack/pack_text.h"
+#include "app/programs/bake/captions_of.h"
+#include "assets_baked/folder/artifact_file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace frustumscreen {
+
+namespace {
+
+Result<ArtifactFile> file_of(const BakeArguments& arguments) {
+    std::error_code none;
+    if (std::filesystem::is_directory(arguments.input, none)) {
+        return read_artifact_file(arguments.input);
+    }
+    ArtifactFile file;
+    file.scan = arguments.input;
+    return file;
+}
+
+/// A text of the command line would be refused only after the work, when the pack is written.
+Result<void> check_text(const std::string& option, std::string_view text, TextShape shape) {
+    if (const auto fault = fault_of_text(text, shape)) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("{} '{}': it {}", option, printable(text, 40), *fault));
+    }
+    return {};
+}
+
+Result<void> check_texts(const BakeArguments& arguments) {
+    for (const auto& [option, text] :
+         {std::pair("--title", arguments.title), {"--licence", arguments.licence}}) {
+        if (Result<void> good = check_text(option, text, TextShape::Line); !good) {
+            return good;
+        }
+    }
+    for (const std::string& caption : arguments.captions) {
+        if (Result<void> good = check_text("--caption", caption, TextShape::Lines); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file) {
+    BakeOptions options;
+    options.size = arguments.size.value_or(file.size);
+    options.unlit = arguments.unlit || file.unlit;
+    options.prop = arguments.prop.value_or(file.prop) == "cube" ? baked_cube() : baked_frustum();
+    options.up = arguments.up.value_or(file.up);
+    options.scale = arguments.scale.value_or(file.scale);
+    options.lift = arguments.lift.value_or(file.lift);
+    for (const ArtifactHotspot& hotspot : file.hotspots) {
+        options.hotspots.push_back({hotspot.place, hotspot.point_file, hotspot.labels});
+    }
+    return options;
+}
+
+} // namespace
+
+Result<BakeRequest> request_of(const BakeArguments& arguments) {
+    if (const Result<void> good = check_texts(arguments); !good) {
+        return tl::unexpected<Error>(good.error());
+    }
+    Result<ArtifactFile> file = file_of(arguments);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const Result<std::vector<PackCaption>> captions = captions_of(
+        {arguments.title, arguments.languages, arguments.captions, file->texts, file->scan.stem().string()});
+    if (!captions) {
+        return fail(ErrorKind::BadConfiguration, captions.error().message);
+    }
+    BakeRequest request;
+    request.scan = file->scan;
+    request.output = arguments.output;
+    request.inputs = {file->scan};
+    if (file->scan != arguments.input) {
+        request.inputs.push_back(arguments.input / artifact_file_name);
+    }
+    request.force = arguments.force;
+    request.strict = arguments.strict;
+    request.texture = arguments.texture.empty() ? file->texture : arguments.texture;
+    request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file->turn_deg;
+    request.options = options_of(arguments, *file);
+    request.id = file->id;
+    request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
+    request.captions = *captions;
+    return request;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,56 @@
+/// What is to be baked: the command line over the folder's artifact.toml over what is usual.
+///
+/// Errors   one line. `BadInput`: the folder's file; `BadConfiguration`: the command line, which is wrong use.
+/// Threads  pure apart from reading the folder; any.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "assets_baked/bake/bake.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The command line as it was written; nothing where an option was left out.
+struct BakeArguments {
+    std::filesystem::path input; ///< a scan, or a folder
+    std::filesystem::path output;
+    std::filesystem::path new_folder; ///< --new: start a folder from the scan, bake nothing
+    bool force = false;               ///< replace an output that is no pack
+    bool strict = false;              ///< what is lost is an error
+    bool json = false;
+    bool unlit = false;
+    std::optional<int> size;
+    std::optional<std::string> prop;
+    std::optional<std::string> up;
+    std::optional<double> turn_deg;
+    std::optional<double> scale;
+    std::optional<double> lift;
+    std::filesystem::path texture;
+    std::string title;
+    std::string licence;
+    std::vector<std::string> languages;
+    std::vector<std::string> captions; ///< LANGUAGE=TEXT
+};
+
+struct BakeRequest {
+    std::filesystem::path scan;
+    std::filesystem::path output;
+    std::vector<std::filesystem::path> inputs; ///< what must not be replaced, as far as it is known now
+    bool force = false;
+    bool strict = false;
+    std::filesystem::path texture;
+    std::optional<double> turn_deg; ///< nothing: the best
+    BakeOptions options;
+    std::string id;
+    std::string licence;
+    std::vector<PackCaption> captions; ///< at least one
+};
+
+[[nodiscard]] Result<BakeRequest> request_of(const BakeArguments& arguments);
+
+} // namespace frustumscreen

@@ -1,0 +1,33 @@
+/// Points that a curator gave, brought onto the artifact's surface.
+///
+/// Frames   in: the file's own coordinates; out: the box.
+/// Errors   one line that begins with the hotspot's place: too far from the surface, or where no visitor sees it.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/source_scene.h"
+#include "assets_baked/bake/visibility.h"
+#include "firmware_host/base/result.h"
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct GivenHotspot {
+    std::string place; ///< where it was given, for messages
+    glm::dvec3 point_file{0.0};
+    std::vector<PackLabel> labels;
+};
+
+/// How far from the surface a point may be given: a share of the artifact's longest edge.
+inline constexpr double most_hotspot_distance_box = 0.05;
+
+/// The nearest point of the surface, and the mean normal of the surface about it, to the side from which more of the
+/// viewing zone is open.
+[[nodiscard]] Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
+                                                 const BoxFrame& frame, const ViewingZone& zone);
+
+} // namespace frustumscreen

@@ -1,0 +1,229 @@
+#include "assets_baked/folder/artifact_file.h"
+
+#include "app/pack/limits.h"
+#include "app/pack/pack_text.h"
+#include "app/settings/language_tag.h"
+#include "app/settings/table_reader.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // as the manifest
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
+constexpr std::size_t most_dots = 5000;
+constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-z"};
+constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
+constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
+
+void read_text(TableReader& table, std::string_view key, std::string& value,
+               TextShape shape = TextShape::Line) {
+    table.any_text(key, value);
+    if (const std::optional<std::string> fault = fault_of_text(value, shape)) {
+        table.refuse(key, *fault);
+    }
+}
+
+/// A path of the folder; one that leads out of it would not travel with it.
+void read_path(TableReader& table, std::string_view key, std::filesystem::path& value) {
+    std::filesystem::path written;
+    std::string text;
+    table.any_text(key, text);
+    written = std::filesystem::path(text).lexically_normal();
+    if (text.empty()) {
+        return;
+    }
+    if (written.is_absolute() || *written.begin() == ".." || text.size() > 4096 ||
+        text.find('\0') != std::string::npos) {
+        table.refuse(
+            key, fmt::format("is \"{}\"; allowed is the name of a file in this folder", printable(text, 60)));
+        return;
+    }
+    table.path(key, value, {});
+}
+
+void read_word(TableReader& table, std::string_view key, std::string& value,
+               std::span<const std::string_view> words) {
+    std::size_t index = 0;
+    table.choice(key, index, words, {});
+    if (table.has(key)) {
+        value = words[index];
+    }
+}
+
+void read_placement(TableReader& table, ArtifactFile& file) {
+    read_word(table, "up", file.up, up_words);
+    double turn_deg = 0.0;
+    table.number("turn_deg", turn_deg, {-360.0, 360.0, "degrees"});
+    if (table.has("turn_deg")) {
+        file.turn_deg = turn_deg;
+    }
+    table.number("scale", file.scale, {pack_format::least_scale, pack_format::most_scale, ""});
+    table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
+}
+
+bool check_language(TableReader& table, std::string_view key, const std::string& language) {
+    if (!has_language_form(language) || !parse_language_tag(language)) {
+        table.refuse(key, fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
+                                      allowed_language_tags));
+        return false;
+    }
+    return true;
+}
+
+void read_caption(TableReader& table, PackCaption& caption, std::set<std::string>& languages) {
+    table.any_text("language", caption.language);
+    if (caption.language.empty()) {
+        table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
+    } else if (check_language(table, "language", caption.language) &&
+               !languages.insert(caption.language).second) {
+        table.refuse("language",
+                     fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
+    }
+    read_text(table, "title", caption.title);
+    read_text(table, "period", caption.period);
+    read_text(table, "place", caption.place);
+    read_text(table, "maker", caption.maker);
+    read_text(table, "credit", caption.credit);
+    read_text(table, "text", caption.text, TextShape::Lines);
+    read_text(table, "description", caption.description, TextShape::Lines);
+}
+
+void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
+    table.vector("point", hotspot.point_file, coordinate);
+    table.require(table.has("point"), "point", "is missing; write it as [x, y, z] in the scan's coordinates");
+    hotspot.place = table.place("point");
+    std::vector<std::pair<std::string, std::string>> labels;
+    table.named_texts("labels", labels, pack_format::most_languages);
+    table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
+    for (auto& [language, text] : labels) {
+        if (!check_language(table, "labels", language)) {
+            return;
+        }
+        const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
+        table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
+        table.require(!text.empty(), "labels", fmt::format("in {} is empty; write what there is", language));
+        hotspot.labels.push_back({language, std::move(text)});
+    }
+}
+
+void read_all(TableReader& table, ArtifactFile& file) {
+    read_path(table, "scan", file.scan);
+    table.require(!file.scan.empty(), "scan", "is missing; name the file of the scan in this folder");
+    read_path(table, "texture", file.texture);
+    table.any_text("id", file.id);
+    table.require(file.id.empty() || is_artifact_id(file.id), "id",
+                  fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
+                              printable(file.id, 40), pack_format::most_id_bytes));
+    read_text(table, "licence", file.licence);
+    table.integer("size", file.size, 16, 4096, {});
+    table.flag("unlit", file.unlit, {});
+    read_word(table, "prop", file.prop, prop_words);
+    table.table("placement", {}, [&](TableReader& inner) { read_placement(inner, file); });
+    std::set<std::string> languages;
+    table.tables("texts", file.texts, pack_format::most_languages,
+                 [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages); },
+                 {});
+    table.tables("hotspots", file.hotspots, pack_format::most_hotspots, read_hotspot, {});
+    for (PackCaption& caption : file.texts) {
+        caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
+    }
+}
+
+/// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
+std::size_t end_of_text(std::string_view text, std::size_t at) {
+    const auto after = [&](std::string_view end, std::size_t from) {
+        const std::size_t found = text.find(end, from);
+        return found == std::string_view::npos ? text.size() : found + end.size();
+    };
+    if (text[at] == '#') {
+        return after("\n", at);
+    }
+    if (text[at] == '\'') {
+        const bool many_lines = text.substr(at, 3) == "'''";
+        return many_lines ? after("'''", at + 3) : std::min(after("'", at + 1), after("\n", at + 1));
+    }
+    if (text[at] != '"') {
+        return at;
+    }
+    const std::string_view quotes = text.substr(at, 3) == "\"\"\"" ? "\"\"\"" : "\"";
+    for (at += quotes.size(); at < text.size(); ++at) {
+        if (text.substr(at, quotes.size()) == quotes) {
+            return at + quotes.size();
+        }
+        if (text[at] == '\n' && quotes.size() == 1) {
+            return at;
+        }
+        at += text[at] == '\\' ? 1 : 0; // and what it escapes
+    }
+    return text.size();
+}
+
+/// Those of keys and numbers; sentences may have as many as they like.
+std::size_t dots_outside_texts(std::string_view text) {
+    std::size_t dots = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = end_of_text(text, at);
+        dots += end == at && text[at] == '.' ? 1 : 0;
+        at = std::max(end, at + 1);
+    }
+    return dots;
+}
+
+} // namespace
+
+Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::filesystem::path& file) {
+    ReadState state{printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
+    if (text.size() > largest_file_bytes) {
+        return bad_input(
+            located(state.file, 0,
+                    fmt::format("is {} bytes; allowed are at most {}", text.size(), largest_file_bytes)));
+    }
+    if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
+        return bad_input(located(
+            state.file, 0,
+            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots)));
+    }
+    try {
+        const toml::table root = toml::parse(text);
+        ArtifactFile read;
+        TableReader keys(state, &root, "");
+        read_all(keys, read);
+        keys.finish();
+        if (state.error) {
+            return bad_input(*state.error);
+        }
+        return read;
+    } catch (const toml::parse_error& error) {
+        return bad_input(located(state.file, static_cast<std::uint32_t>(error.source().begin.line),
+                                 fmt::format("is not TOML: {}", printable(error.description(), 200))));
+    } catch (const std::exception& error) {
+        return bad_input(
+            located(state.file, 0, fmt::format("cannot be read: {}", printable(error.what(), 200))));
+    }
+}
+
+Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / artifact_file_name;
+    if (std::error_code none; !std::filesystem::exists(file, none)) {
+        return bad_input(
+            fmt::format("{}: there is no {} in this folder; frustumscreen-bake --new {} SCAN writes "
+                        "one to start from",
+                        folder.string(), artifact_file_name, folder.string()));
+    }
+    const Result<Bytes> bytes = read_file(file, largest_file_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    return parse_artifact_file(as_text(*bytes), file);
+}
+
+} // namespace frustumscreen

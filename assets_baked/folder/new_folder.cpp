@@ -1,0 +1,194 @@
+#include "assets_baked/folder/new_folder.h"
+
+#include "app/pack/pack_text.h"
+#include "assets_baked/folder/artifact_file.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <system_error>
+
+namespace frustumscreen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As it stands between quotes in TOML.
+std::string toml_string(std::string_view text) {
+    std::string inside;
+    for (const char c : text) {
+        inside += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    }
+    return '"' + inside + '"';
+}
+
+/// A word of the title and a random number: nobody else's artifact has it, and a person can tell what it is.
+std::string new_id(std::string_view title) {
+    std::string word;
+    for (const char c : title.substr(0, 24)) {
+        const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        const bool plain = (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
+        word += plain ? small : '-';
+    }
+    std::random_device random;
+    word += fmt::format("-{:08x}", random());
+    return is_artifact_id(word) ? word : "artifact" + word;
+}
+
+bool is_same_folder(const fs::path& a, const fs::path& b) {
+    std::error_code none;
+    return fs::equivalent(a.empty() ? fs::path(".") : a, b.empty() ? fs::path(".") : b, none);
+}
+
+/// Where each of the scan's files goes, relative to the folder.
+Result<std::vector<std::pair<fs::path, fs::path>>> copies_of(const ScanFacts& scan) {
+    std::vector<std::pair<fs::path, fs::path>> copies{{scan.file, scan.file.filename()}};
+    for (const fs::path& side : scan.side_files) {
+        std::error_code none;
+        if (!fs::is_regular_file(side, none)) {
+            continue; // the bake says what is missing
+        }
+        const fs::path relative = side.lexically_relative(scan.file.parent_path());
+        if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
+            return bad_input(
+                fmt::format("{}: it names {}, which lies outside its folder; put that file beside "
+                            "it and change the name, then try again",
+                            scan.file.string(), printable(side.string(), 200)));
+        }
+        copies.emplace_back(side, relative);
+    }
+    return copies;
+}
+
+Result<void> copy_into(const fs::path& folder, const std::vector<std::pair<fs::path, fs::path>>& copies) {
+    for (const auto& [from, to] : copies) {
+        if (std::error_code none; fs::exists(folder / to, none)) {
+            return bad_input(
+                fmt::format("{}: this file is there already and is not replaced; choose an empty "
+                            "folder, or name the scan that lies in it",
+                            (folder / to).string()));
+        }
+    }
+    for (const auto& [from, to] : copies) {
+        std::error_code failed;
+        fs::create_directories((folder / to).parent_path(), failed);
+        fs::copy_file(from, folder / to, failed);
+        if (failed) {
+            return bad_input(fmt::format("{}: cannot be copied to {}: {}", from.string(),
+                                         (folder / to).string(), failed.message()));
+        }
+    }
+    return {};
+}
+
+constexpr std::string_view head = R"(# What frustumscreen-bake makes of this folder:
+#
+#     frustumscreen-bake THIS_FOLDER -o NAME.fspack
+#
+# A line that begins with # says nothing to the program. Take its # away to set what it shows.
+
+# The scan, beside this file.
+scan = {scan}
+# A picture of the colours, where the scan names one that is missing, or none.
+#texture = "skin.png"
+
+# This artifact's own name, which visitors never see. A pack with the same id replaces an older one: keep it.
+id = {id}
+#licence = "CC-BY-4.0"
+
+# The colours have their light in them, as in photogrammetry. Without this the artifact is lit as in a museum.
+#unlit = true
+# Texels along the longest edge of a face of the prop, 16 to 4096.
+#size = 512
+# "cube" if the exhibit's prop is a cube that visitors hold in the hand.
+#prop = "frustum"
+
+[placement]
+# The scan's axis that goes up: "x", "y", "z", "-x", "-y" or "-z"; without this {up}.
+#up = "{up}"
+# Degrees about the vertical, counter-clockwise seen from above. Without this the broadest side looks at the visitor.
+#turn_deg = 0
+# A factor on the largest size that fits into the prop; above 1 the prop cuts the artifact off.
+#scale = 1.0
+# Raised above the prop's bottom, in heights of the artifact.
+#lift = 0.0
+
+# One [[texts]] for each language; the first one is shown where a visitor's language is not among them.
+[[texts]]
+language = "en"
+title = {title}
+#period = "about 540 BC"
+#place = "Athens"
+#maker = "unknown potter"
+#credit = "Gift of ..."
+#text = "One or two sentences for the caption beside the prop."
+# What there is to see, for visitors who do not see it.
+#description = """
+#First sentence.
+#Second sentence."""
+
+#[[texts]]
+#language = "de"
+#title = "..."
+
+# Up to three places of the artifact with a word on each. A point is given in the scan's own coordinates, as every
+# viewer of scans shows them, on the surface or close to it.
+# This scan reaches from {low} to {high}.
+#[[hotspots]]
+#point = {middle}
+#labels = {{ en = "The handle", de = "Der Henkel" }}
+)";
+
+std::string words_of(const glm::dvec3& v) {
+    return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
+}
+
+} // namespace
+
+std::string new_artifact_text(const ScanFacts& scan, const std::string& title, const std::string& id) {
+    return fmt::format(head, fmt::arg("scan", toml_string(scan.file.filename().string())),
+                       fmt::arg("id", toml_string(id)), fmt::arg("up", scan.default_up),
+                       fmt::arg("title", toml_string(title)), fmt::arg("low", words_of(scan.low)),
+                       fmt::arg("high", words_of(scan.high)),
+                       fmt::arg("middle", words_of(0.5 * (scan.low + scan.high))));
+}
+
+Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
+    const fs::path file = folder / artifact_file_name;
+    const std::string name = scan.file.filename().string();
+    if (const auto fault = fault_of_text(name, TextShape::Line)) {
+        return bad_input(fmt::format("{}: the file's name {}", printable(scan.file.string(), 200), *fault));
+    }
+    std::error_code failed;
+    if (fs::exists(file, failed)) {
+        return bad_input(
+            fmt::format("{}: this file is there already; edit it, or choose another folder", file.string()));
+    }
+    if (!is_same_folder(folder, scan.file.parent_path())) {
+        const auto copies = copies_of(scan);
+        if (!copies) {
+            return tl::unexpected<Error>(copies.error());
+        }
+        fs::create_directories(folder, failed);
+        if (failed) {
+            return bad_input(
+                fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
+        }
+        if (const Result<void> copied = copy_into(folder, *copies); !copied) {
+            return tl::unexpected<Error>(copied.error());
+        }
+    }
+    const std::string title = scan.file.stem().string();
+    if (const Result<void> written =
+            write_file(file, as_bytes(new_artifact_text(scan, title, new_id(title))));
+        !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    return file;
+}
+
+} // namespace frustumscreen

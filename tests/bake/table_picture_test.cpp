@@ -1,0 +1,91 @@
+// The picture for the table: its frame, its outline and its colours, against shapes whose silhouette is known.
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/table_picture.h"
+#include "tests/bake/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace frustumscreen {
+namespace {
+
+Pack baked(SourceMesh mesh) {
+    BakeOptions options;
+    options.size = 32;
+    options.up = "z";
+    options.unlit = true;
+    Result<Pack> pack = bake(mesh, options);
+    EXPECT_TRUE(pack) << (pack ? "" : pack.error().message);
+    return *std::move(pack);
+}
+
+SourceMesh red_sphere() {
+    SourceMesh mesh = test::empty_mesh();
+    test::add_sphere(mesh, {0, 0, 0}, 1.0, 40);
+    mesh.materials[0].base_colour = {0.4F, 0.1F, 0.02F, 1.0F}; // linear
+    return mesh;
+}
+
+double covered(const Image8& picture) {
+    double sum = 0.0;
+    for (const glm::u8vec4& texel : picture.texels) {
+        sum += texel.a / 255.0;
+    }
+    return sum;
+}
+
+TEST(TablePicture, of_a_sphere_is_a_disc_that_fills_the_frame) {
+    const Image8 picture = baked(red_sphere()).table_picture;
+    EXPECT_EQ(std::max(picture.width, picture.height), table_picture_px);
+    EXPECT_GE(std::min(picture.width, picture.height), table_picture_px - 3);
+    const double disc = 0.25 * std::numbers::pi * (table_picture_px - 2) * (table_picture_px - 2);
+    EXPECT_NEAR(covered(picture) / disc, 1.0, 0.01);
+    for (int k = 0; k < picture.width; ++k) {
+        EXPECT_EQ(picture.at(k, 0).a, 0) << "an empty row all around";
+        EXPECT_EQ(picture.at(k, picture.height - 1).a, 0);
+    }
+}
+
+TEST(TablePicture, has_no_dark_fringe) {
+    const Image8 picture = baked(red_sphere()).table_picture;
+    const glm::u8vec4 middle = picture.at(picture.width / 2, picture.height / 2);
+    int edge = 0;
+    for (const glm::u8vec4& texel : picture.texels) { // empty ones too: a filter mixes them in
+        edge += texel.a > 0 && texel.a < 255 ? 1 : 0;
+        ASSERT_LE(std::abs(texel.r - middle.r), 2);
+        ASSERT_LE(std::abs(texel.g - middle.g), 2);
+    }
+    EXPECT_GT(edge, 300) << "the outline is smooth";
+    EXPECT_EQ(middle.r, 235) << "as bright as the exhibit shows it";
+    // The exposure is one factor of linear light for all channels: 0.1 / 0.4 of the code 235.
+    EXPECT_NEAR(middle.g, 255.0 * srgb_from_linear(0.25 * linear_from_srgb(235.0 / 255.0)), 2.0);
+}
+
+TEST(TablePicture, is_seen_from_one_side_and_from_above) {
+    SourceMesh mesh = test::empty_mesh();
+    test::add_box(mesh, {-1, -1, 0}, {1, 1, 2});
+    mesh.materials.resize(4);
+    const std::array<glm::vec4, 4> colours{glm::vec4(1, 1, 1, 1), {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        mesh.materials[k].base_colour = colours[k];
+    }
+    mesh.triangle_materials = {1, 1, 1, 1, 0, 0, 2, 2, 3, 3, 0, 0}; // +-x red, -y green, +z blue
+    const Image8 picture = baked(std::move(mesh)).table_picture;
+    std::array<int, 4> seen{};
+    for (const glm::u8vec4& texel : picture.texels) {
+        if (texel.a > 250) {
+            const bool red = texel.r > 150;
+            const bool green = texel.g > 150;
+            const bool blue = texel.b > 150;
+            seen.at(red && green && blue ? 0 : red ? 1 : green ? 2 : 3) += 1;
+        }
+    }
+    EXPECT_GT(seen[2], seen[1]) << "more of the front than of the side";
+    EXPECT_GT(seen[1], 5000) << "a side";
+    EXPECT_GT(seen[3], 5000) << "the top";
+    EXPECT_LT(seen[0], 300) << "nothing of the back";
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,64 @@
+// Files that are read piece by piece.
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/open_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <string>
+
+using namespace frustumscreen;
+namespace fs = std::filesystem;
+
+namespace {
+
+class OpenFileTest : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+        ASSERT_TRUE(write_file(folder / "digits", as_bytes("0123456789")));
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    [[nodiscard]] std::string refusal(const std::string& name, std::uint64_t limit = 100) const {
+        const Result<OpenFile> file = OpenFile::open(folder / name, limit);
+        return file ? std::string() : file.error().message;
+    }
+    fs::path folder;
+};
+
+} // namespace
+
+TEST_F(OpenFileTest, gives_any_piece_that_lies_inside) {
+    const Result<OpenFile> file = OpenFile::open(folder / "digits", 10);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->bytes(), 10U);
+    std::array<std::byte, 3> piece{};
+    EXPECT_TRUE(file->read(7, piece));
+    EXPECT_EQ(as_text(piece), "789");
+    EXPECT_TRUE(file->read(0, piece));
+    EXPECT_EQ(as_text(piece), "012");
+    EXPECT_FALSE(file->read(8, piece));
+    EXPECT_FALSE(file->read(1000, piece));
+    EXPECT_TRUE(file->read(10, {}));
+}
+
+TEST_F(OpenFileTest, that_shrinks_meanwhile_gives_nothing_of_what_is_gone) {
+    const Result<OpenFile> file = OpenFile::open(folder / "digits", 10);
+    ASSERT_TRUE(file);
+    fs::resize_file(folder / "digits", 4);
+    std::array<std::byte, 3> piece{};
+    EXPECT_FALSE(file->read(7, piece));
+    EXPECT_TRUE(file->read(1, piece));
+}
+
+TEST_F(OpenFileTest, says_why_it_cannot_be_had) {
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_NE(refusal("pipe").find("this is not a regular file"), std::string::npos)
+        << "and does not wait for it";
+    EXPECT_NE(refusal(".").find("this is not a regular file"), std::string::npos);
+    EXPECT_NE(refusal("nothing").find("there is no such file"), std::string::npos);
+    EXPECT_NE(refusal("digits", 9).find("10 bytes; at most 9 are allowed"), std::string::npos);
+}

@@ -1,0 +1,168 @@
+// What a curator writes into artifact.toml, and what is said of mistakes in it.
+#include "assets_baked/folder/artifact_file.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace frustumscreen;
+
+namespace {
+
+constexpr std::string_view whole = R"(
+scan = "vase.glb"
+texture = "pictures/skin.png"
+id = "vase-1"
+licence = "CC0-1.0"
+size = 256
+unlit = true
+prop = "cube"
+[placement]
+up = "-z"
+turn_deg = -30
+scale = 1.5
+lift = 0.25
+[[texts]]
+language = "el"
+title = "Αγγείο"
+period = "540 π.Χ."
+place = "Αθήνα"
+maker = "άγνωστος"
+credit = "Δωρεά"
+text = """
+Πρώτη γραμμή.
+Δεύτερη."""
+description = ""
+[[texts]]
+language = "en"
+[[hotspots]]
+point = [1, -2.5, 3e2]
+labels = { en = "The handle", el = "Η λαβή" }
+)";
+
+std::string refusal(const std::string& text) {
+    const Result<ArtifactFile> file = parse_artifact_file(text, "vase/artifact.toml");
+    return file ? std::string() : file.error().message;
+}
+
+} // namespace
+
+TEST(ArtifactFile, has_all_that_is_written) {
+    const Result<ArtifactFile> read = parse_artifact_file(whole, "vase/artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->scan, "vase/vase.glb");
+    EXPECT_EQ(read->texture, "vase/pictures/skin.png");
+    EXPECT_EQ(read->id, "vase-1");
+    EXPECT_EQ(read->licence, "CC0-1.0");
+    EXPECT_EQ(read->size, 256);
+    EXPECT_TRUE(read->unlit);
+    EXPECT_EQ(read->prop, "cube");
+    EXPECT_EQ(read->up, "-z");
+    EXPECT_EQ(read->turn_deg, -30.0);
+    EXPECT_EQ(read->scale, 1.5);
+    EXPECT_EQ(read->lift, 0.25);
+    ASSERT_EQ(read->texts.size(), 2U);
+    EXPECT_TRUE(read->texts[0] == (PackCaption{"el", "Αγγείο", "Πρώτη γραμμή.\nΔεύτερη.", "540 π.Χ.", "Αθήνα",
+                                               "άγνωστος", "Δωρεά", ""}));
+    EXPECT_EQ(read->texts[1].title, "Αγγείο") << "the first one's, where it is left out";
+    ASSERT_EQ(read->hotspots.size(), 1U);
+    EXPECT_EQ(read->hotspots[0].point_file, glm::dvec3(1, -2.5, 300));
+    EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"el", "Η λαβή"}, {"en", "The handle"}}));
+    EXPECT_EQ(read->hotspots[0].place, "vase/artifact.toml:28: hotspots[0].point");
+}
+
+TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
+    const Result<ArtifactFile> read = parse_artifact_file("scan = 'a.stl'", "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->scan, "a.stl");
+    EXPECT_TRUE(read->up.empty());
+    EXPECT_FALSE(read->turn_deg);
+    EXPECT_EQ(read->size, 512);
+    EXPECT_EQ(read->prop, "frustum");
+    EXPECT_EQ(refusal("unlit = true"),
+              "vase/artifact.toml: scan is missing; name the file of the scan in this folder");
+}
+
+TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
+    const std::string scan = "scan = \"a.stl\"\n";
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"license = \"CC0\"", ":2: license is not a known key; the nearest allowed key is licence"},
+        {"[placment]\nup = \"z\"", ":2: placment is not a known key; the nearest allowed key is placement"},
+        {"[placement]\nturn = 5",
+         ":3: placement.turn is not a known key; the nearest allowed key is placement.turn_deg"},
+        {"[[texts]]\nlanguage = \"en\"\ntitel = \"x\"",
+         ":4: texts[0].titel is not a known key; the nearest allowed key is texts[0].title"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabel = { en = \"x\" }", "hotspots[0].labels has no text"},
+        {"[placement]\nup = \"up\"", ":3: placement.up is the text \"up\"; allowed are \"x\""},
+        {"size = 5", ":2: size is 5; allowed are the whole numbers 16 to 4096"},
+        {"[placement]\nscale = nan", ":3: placement.scale is nan; allowed are 0.05 to 20"},
+        {"[placement]\nlift = inf", ":3: placement.lift is inf"},
+        {"prop = \"sphere\"", ":2: prop is the text \"sphere\"; allowed are \"frustum\", \"cube\""},
+        {"id = \"Vase 1\"", ":2: id is \"Vase 1\"; allowed are 1 to 64 of a-z"},
+        {"[[texts]]\ntitle = \"x\"", ":2: texts[0].language is missing"},
+        {"[[texts]]\nlanguage = \"english\"",
+         ":3: texts[0].language is for \"english\"; allowed are language tags"},
+        {"[[texts]]\nlanguage = \"en\"\n[[texts]]\nlanguage = \"en\"",
+         ":5: texts[1].language is \"en\" a second time"},
+        {"[[texts]]\nlanguage = \"en\"\ntitle = 5", ":4: texts[0].title is 5; allowed is a text in quotes"},
+        {"[[texts]]\nlanguage = \"en\"\ntitle = \"a\\u001b\"",
+         ":4: texts[0].title has the control character U+001B"},
+        {"[[texts]]\nlanguage = \"en\"\ntitle = \"a\\u202Eb\"", ":4: texts[0].title has U+202E"},
+        {"[[texts]]\nlanguage = \"en\"\ntitle = \"" + std::string(1001, 'x') + "\"", "has 1001 bytes"},
+        {"[[texts]]\nlanguage = \"en\"\ntext = \"" + std::string(4 << 20, 'x') + "\"", "has 4194304 bytes"},
+        {"[[texts]]\nlanguage = \"en\"\ntext = \"\"\"" + std::string(10000, '\n') + "\"\"\"",
+         "more than 1000 lines"},
+        {"[[hotspots]]\nlabels = { en = \"x\" }", ":2: hotspots[0].point is missing"},
+        {"[[hotspots]]\npoint = [0, 0]\nlabels = { en = \"x\" }", ":3: hotspots[0].point is a list of 2"},
+        {"[[hotspots]]\npoint = [0, nan, 0]\nlabels = { en = \"x\" }", ":3: hotspots[0].point[1] is nan"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = \"x\"", ":4: hotspots[0].labels is the text \"x\""},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = 5 }", ":4: hotspots[0].labels.en is 5"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { xx = \"x\" }", ":4: hotspots[0].labels is for \"xx\""},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"\" }", ":4: hotspots[0].labels in en is empty"},
+        {"texture = \"/etc/passwd\"",
+         ":2: texture is \"/etc/passwd\"; allowed is the name of a file in this folder"},
+        {"texture = \"a/../../b\"", ":2: texture is \"a/../../b\""},
+        {"hotspots = 5", ":2: hotspots is 5"},
+        {"[[texts]]\nlanguage = \"en\"\ntext = \"not closed", "is not TOML"},
+        {"title = \"\xED\xA0\x80\"", "is not TOML"},
+        {std::string(1, '\0'), "is not TOML"}};
+    for (const auto& [text, words] : wrong) {
+        const std::string message = refusal(scan + text);
+        EXPECT_EQ(message.find("vase/artifact.toml:"), 0U) << message;
+        EXPECT_NE(message.find(words), std::string::npos) << words << "\n" << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_LT(message.size(), 400U) << message;
+    }
+    std::string four;
+    for (int k = 0; k < 4; ++k) {
+        four += "[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"x\" }\n";
+    }
+    EXPECT_NE(refusal(scan + four).find("at most 3 tables"), std::string::npos) << refusal(scan + four);
+}
+
+TEST(ArtifactFile, sentences_may_have_many_dots_and_keys_may_not) {
+    std::string sentences;
+    for (int k = 0; k < 900; ++k) {
+        sentences += "... A \\\" and a # and \u2026 more ...... dots.\n";
+    }
+    EXPECT_EQ(refusal("scan = \"a.stl\" # v1.0\n[[texts]]\nlanguage = \"en\"\ntext = \"\"\"" + sentences +
+                      "\"\"\"\n"),
+              "");
+    std::string deep = "a";
+    for (int k = 0; k < 6000; ++k) {
+        deep += ".a";
+    }
+    EXPECT_NE(refusal(deep + " = 1").find("6000 dots"), std::string::npos);
+    EXPECT_NE(refusal("[x]\nb = \"it's\"\n" + deep + " = 'it\"s'").find("6000 dots"), std::string::npos);
+}
+
+TEST(ArtifactFile, of_a_folder_without_one_tells_how_to_start) {
+    const Result<ArtifactFile> none = read_artifact_file("/nowhere/vase");
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().message,
+              "/nowhere/vase: there is no artifact.toml in this folder; frustumscreen-bake --new "
+              "/nowhere/vase SCAN writes one to start from");
+}

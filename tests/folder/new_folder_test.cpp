@@ -1,0 +1,117 @@
+// A folder to start from: what lies in it, and what is never replaced.
+#include "assets_baked/folder/artifact_file.h"
+#include "assets_baked/folder/new_folder.h"
+#include "firmware_host/base/file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace frustumscreen;
+namespace fs = std::filesystem;
+
+namespace {
+
+class NewFolder : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        root = name;
+        put("in/scan.obj", "mtllib scan.mtl");
+        put("in/scan.mtl", "a material");
+        put("in/pictures/skin.png", "a picture");
+        scan = {root / "in/scan.obj",
+                {root / "in/scan.mtl", root / "in/pictures/skin.png", root / "in/missing.png"},
+                {-1, 0, 2},
+                {1, 5, 4},
+                'y'};
+    }
+    void TearDown() override { fs::remove_all(root); }
+    void put(const std::string& file, std::string_view text) const {
+        fs::create_directories((root / file).parent_path());
+        ASSERT_TRUE(write_file(root / file, as_bytes(text)));
+    }
+    [[nodiscard]] std::string text(const std::string& file) const {
+        const Result<Bytes> bytes = read_file(root / file);
+        return bytes ? std::string(as_text(*bytes)) : std::string();
+    }
+    fs::path root;
+    ScanFacts scan;
+};
+
+/// The lines that a curator would take the # away from.
+std::string with_every_hint(std::string text) {
+    for (std::size_t at = 0; (at = text.find("\n#", at)) != std::string::npos; ++at) {
+        if (text.compare(at, 3, "\n# ") != 0 && text.compare(at, 3, "\n#\n") != 0) {
+            text.erase(at + 1, 1);
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_F(NewFolder, holds_the_scan_its_files_and_a_file_that_is_read) {
+    const Result<fs::path> file = start_folder(root / "out/vase", scan);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(*file, root / "out/vase/artifact.toml");
+    EXPECT_EQ(text("out/vase/scan.obj"), "mtllib scan.mtl");
+    EXPECT_EQ(text("out/vase/scan.mtl"), "a material");
+    EXPECT_EQ(text("out/vase/pictures/skin.png"), "a picture");
+    const Result<ArtifactFile> read = read_artifact_file(root / "out/vase");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->scan, root / "out/vase/scan.obj");
+    EXPECT_EQ(read->id.substr(0, 5), "scan-");
+    ASSERT_EQ(read->texts.size(), 1U);
+    EXPECT_EQ(read->texts[0].title, "scan");
+    EXPECT_TRUE(read->hotspots.empty());
+    EXPECT_NE(text("out/vase/artifact.toml").find("reaches from [-1, 0, 2] to [1, 5, 4]"), std::string::npos);
+}
+
+TEST_F(NewFolder, every_hint_can_be_taken) {
+    const std::string text = with_every_hint(new_artifact_text(scan, "A \"small\" vase", "vase-1"));
+    const Result<ArtifactFile> read = parse_artifact_file(text, "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message << "\n" << text;
+    EXPECT_EQ(read->texture, "skin.png");
+    EXPECT_EQ(read->texts[0].title, "A \"small\" vase");
+    EXPECT_EQ(read->texts[0].description, "First sentence.\nSecond sentence.");
+    ASSERT_EQ(read->texts.size(), 2U);
+    ASSERT_EQ(read->hotspots.size(), 1U);
+    EXPECT_EQ(read->hotspots[0].point_file, glm::dvec3(0, 2.5, 3));
+    EXPECT_EQ(read->up, "y");
+    EXPECT_EQ(read->turn_deg, 0.0);
+    EXPECT_EQ(read->size, 512) << "hints have the values that hold without them";
+    EXPECT_EQ(read->scale, 1.0);
+    EXPECT_EQ(read->prop, "frustum");
+}
+
+TEST_F(NewFolder, replaces_nothing) {
+    ASSERT_TRUE(start_folder(root / "in", scan)) << "a scan that lies there stays";
+    const std::string before = text("in/artifact.toml");
+    const Result<fs::path> again = start_folder(root / "in", scan);
+    ASSERT_FALSE(again);
+    EXPECT_NE(again.error().message.find("this file is there already; edit it"), std::string::npos);
+    EXPECT_EQ(text("in/artifact.toml"), before);
+    put("other/pictures/skin.png", "another picture");
+    const Result<fs::path> other = start_folder(root / "other", scan);
+    ASSERT_FALSE(other);
+    EXPECT_NE(other.error().message.find("is not replaced"), std::string::npos) << other.error().message;
+    EXPECT_EQ(text("other/pictures/skin.png"), "another picture");
+    EXPECT_FALSE(fs::exists(root / "other/scan.obj"));
+}
+
+TEST_F(NewFolder, a_scan_whose_files_lie_elsewhere_is_refused) {
+    put("skin.png", "a picture");
+    scan.side_files.push_back(root / "in/../skin.png");
+    const Result<fs::path> file = start_folder(root / "out", scan);
+    ASSERT_FALSE(file);
+    EXPECT_NE(file.error().message.find("which lies outside its folder"), std::string::npos);
+    EXPECT_FALSE(fs::exists(root / "out"));
+}
+
+TEST_F(NewFolder, no_two_artifacts_get_one_id) {
+    ASSERT_TRUE(start_folder(root / "a", scan));
+    ASSERT_TRUE(start_folder(root / "b", scan));
+    EXPECT_NE(read_artifact_file(root / "a")->id, read_artifact_file(root / "b")->id);
+}
