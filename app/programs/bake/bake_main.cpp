@@ -5,6 +5,7 @@
 #include "app/pack/sha256.h"
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/captions_of.h"
+#include "app/programs/bake/words_command.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
@@ -184,6 +185,9 @@ Result<BakeResult> work(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
+    if (asks_for_words(argc, argv)) {
+        return words_command(argc, argv);
+    }
     Arguments arguments;
 
     CLI::App app("Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen.",
