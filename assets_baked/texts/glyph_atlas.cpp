@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
-#include FT_MODULE_H
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +26,128 @@ struct DrawnGlyph {
     DistanceAtlas distances;
 };
 
+/// Letters are drawn this much larger than they are stored.
+constexpr int oversampling = 8;
+
+int floor_div(int a, int b) {
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+/// A letter as pixels that are inside or outside; all around it is outside.
+class LetterMask {
+public:
+    explicit LetterMask(const FT_GlyphSlotRec_& slot)
+        : left_(slot.bitmap_left), top_(slot.bitmap_top),
+          inside_(static_cast<int>(slot.bitmap.width), static_cast<int>(slot.bitmap.rows)) {
+        for (int y = 0; y < inside_.height; ++y) {
+            for (int x = 0; x < inside_.width; ++x) {
+                inside_.at(x, y) =
+                    slot.bitmap.buffer[static_cast<std::ptrdiff_t>(y) * slot.bitmap.pitch + x] >= 128 ? 1 : 0;
+            }
+        }
+    }
+    [[nodiscard]] int left() const { return left_; }
+    [[nodiscard]] int top() const { return top_; }
+    [[nodiscard]] int right() const { return left_ + inside_.width; }
+    [[nodiscard]] int bottom() const { return top_ - inside_.height; }
+    /// x to the right and y down, from the mask's top left.
+    [[nodiscard]] bool inside(int x, int y) const {
+        return x >= 0 && y >= 0 && x < inside_.width && y < inside_.height && inside_.at(x, y) != 0;
+    }
+
+private:
+    int left_ = 0, top_ = 0;
+    Image<std::uint8_t> inside_;
+};
+
+/// Signed distances from the centres of pixels to the letter's edge, up to a reach. First along columns, then across them
+/// (Rosenfeld and Pfaltz, Sequential Operations in Digital Picture Processing, 1966; exact for squares of distances).
+class EdgeDistances {
+public:
+    EdgeDistances(const LetterMask& mask, int reach) : mask_(mask), reach_(reach) {
+        first_ = -reach;
+        width_ = mask.right() - mask.left() + 2 * reach;
+        height_ = mask.top() - mask.bottom() + 2 * reach;
+        along_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+        for (int x = 0; x < width_; ++x) {
+            scan(x, 0, 1);
+            scan(x, height_ - 1, -1);
+        }
+    }
+    /// More inside; x and y as in the mask, up to `reach` outside it.
+    [[nodiscard]] double at(int x, int y) const {
+        const bool inside = mask_.inside(x, y);
+        int nearest = reach_ * reach_;
+        for (int across = -reach_; across <= reach_; ++across) {
+            const int column = x + across - first_;
+            if (column < 0 || column >= width_) {
+                nearest = inside ? std::min(nearest, across * across) : nearest;
+                continue;
+            }
+            // The nearest pixel of the other kind in that column: it may be the one beside this pixel.
+            const int down = mask_.inside(x + across, y) != inside ? 0 : along(column, y - first_);
+            nearest = std::min(nearest, across * across + down * down);
+        }
+        const double distance =
+            std::sqrt(static_cast<double>(nearest)) - 0.5; // the edge lies between two pixels
+        return inside ? distance : -distance;
+    }
+
+private:
+    [[nodiscard]] int along(int column, int row) const {
+        return along_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(column)];
+    }
+    /// How far it is along the column to a pixel of the other kind, going one way.
+    void scan(int column, int row, int step) {
+        int far = reach_;
+        bool before = false;
+        for (bool begun = false; row >= 0 && row < height_; row += step, begun = true) {
+            const bool inside = mask_.inside(column + first_, row + first_);
+            far = begun && inside != before ? 1 : std::min(reach_, far + 1);
+            before = inside;
+            int& cell = along_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                               static_cast<std::size_t>(column)];
+            cell = cell == 0 ? far : std::min(cell, far);
+        }
+    }
+
+    const LetterMask& mask_;
+    int reach_ = 0, first_ = 0, width_ = 0, height_ = 0;
+    std::vector<int> along_;
+};
+
+std::uint8_t code_of(double distance_texels, int spread_texels) {
+    const double code = outline_code + distance_texels / spread_texels * outline_code;
+    return static_cast<std::uint8_t>(std::lround(std::clamp(code, 0.0, 255.0)));
+}
+
+/// The distances at the centres of the atlas's texels, whose grid begins at the pen.
+DrawnGlyph sampled(const LetterMask& mask, int spread_texels) {
+    const int reach = (spread_texels + 1) * oversampling;
+    const EdgeDistances edge(mask, reach);
+    const int left = floor_div(mask.left(), oversampling) - spread_texels;
+    const int right = -floor_div(-mask.right(), oversampling) + spread_texels;
+    const int top = -floor_div(-mask.top(), oversampling) + spread_texels;
+    const int bottom = floor_div(mask.bottom(), oversampling) - spread_texels;
+    DrawnGlyph drawn;
+    drawn.distances = DistanceAtlas(right - left, top - bottom);
+    for (int row = 0; row < drawn.distances.height; ++row) {
+        for (int column = 0; column < drawn.distances.width; ++column) {
+            // The centre of a texel is a corner of four pixels.
+            const int x = (left + column) * oversampling + oversampling / 2 - mask.left();
+            const int y = mask.top() - (top - row) * oversampling + oversampling / 2;
+            const double sum = edge.at(x - 1, y - 1) + edge.at(x, y - 1) + edge.at(x - 1, y) + edge.at(x, y);
+            drawn.distances.at(column, row) = code_of(sum / 4.0 / oversampling, spread_texels);
+        }
+    }
+    drawn.box.width = static_cast<std::uint16_t>(drawn.distances.width);
+    drawn.box.height = static_cast<std::uint16_t>(drawn.distances.height);
+    drawn.box.left = static_cast<std::int16_t>(left);
+    drawn.box.top = static_cast<std::int16_t>(top);
+    return drawn;
+}
+
 class GlyphPainter {
 public:
     static Result<GlyphPainter> open(const GlyphAtlasOptions& options) {
@@ -37,14 +158,7 @@ public:
         }
         painter.library_.reset(library);
         painter.texels_per_em_ = options.texels_per_em;
-        FT_Int spread = options.spread_texels;
-        FT_Bool overlaps =
-            1; // letters are drawn of strokes that lie over each other, in Devanagari above all
-        if (FT_Property_Set(library, "sdf", "spread", &spread) != 0 ||
-            FT_Property_Set(library, "sdf", "overlaps", &overlaps) != 0) {
-            return fail(ErrorKind::Internal,
-                        "typefaces: this FreeType draws no distances; 2.11 or newer does");
-        }
+        painter.spread_texels_ = options.spread_texels;
         return painter;
     }
 
@@ -55,26 +169,16 @@ public:
                 fmt::format("{}: glyph {} of this typeface cannot be read; install its package again",
                             from.file.string(), glyph));
         }
-        DrawnGlyph drawn;
         if (face->glyph->outline.n_contours == 0) {
-            return drawn;
+            return DrawnGlyph();
         }
-        if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_SDF) != 0) {
+        // FreeType 2.12 draws distances itself: wrongly where a letter's strokes overlap or lie inside each other, or a hundred
+        // times as slowly.
+        if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
             return bad_input(
                 fmt::format("{}: glyph {} of this typeface cannot be drawn", from.file.string(), glyph));
         }
-        const FT_Bitmap& bitmap = face->glyph->bitmap;
-        drawn.distances = DistanceAtlas(static_cast<int>(bitmap.width), static_cast<int>(bitmap.rows));
-        for (unsigned row = 0; row < bitmap.rows; ++row) {
-            std::copy_n(bitmap.buffer + static_cast<std::ptrdiff_t>(row) * bitmap.pitch, bitmap.width,
-                        drawn.distances.texels.begin() +
-                            static_cast<std::ptrdiff_t>(row) * drawn.distances.width);
-        }
-        drawn.box.width = static_cast<std::uint16_t>(bitmap.width);
-        drawn.box.height = static_cast<std::uint16_t>(bitmap.rows);
-        drawn.box.left = static_cast<std::int16_t>(face->glyph->bitmap_left);
-        drawn.box.top = static_cast<std::int16_t>(face->glyph->bitmap_top);
-        return drawn;
+        return sampled(LetterMask(*face->glyph), spread_texels_);
     }
 
 private:
@@ -85,7 +189,7 @@ private:
         }
         FT_Face face = nullptr;
         if (FT_New_Face(library_.get(), from.file.c_str(), from.index, &face) != 0 ||
-            FT_Set_Char_Size(face, 0, texels_per_em_ * 64, 72, 72) != 0) {
+            FT_Set_Char_Size(face, 0, texels_per_em_ * oversampling * 64, 72, 72) != 0) {
             return nullptr;
         }
         return faces_.emplace(from, face).first->second.get();
@@ -94,6 +198,7 @@ private:
     std::unique_ptr<FT_LibraryRec_, CloseLibrary> library_; ///< outlives the faces
     std::map<FontFace, std::unique_ptr<FT_FaceRec_, CloseFace>> faces_;
     int texels_per_em_ = 0;
+    int spread_texels_ = 0;
 };
 
 /// Gives every glyph a place: shelves, the tallest glyphs first.

@@ -2,7 +2,7 @@
 ///
 /// Threads  one caller.
 /// Errors   a typeface's file that FreeType cannot read; more glyphs than an atlas holds.
-/// Library  FreeType's renderer of signed distances, without hinting.
+/// Library  FreeType draws the letters, without hinting.
 #pragma once
 
 #include "app/pack/glyph_runs.h"
