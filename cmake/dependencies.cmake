@@ -43,7 +43,7 @@ else()
 endif()
 if(BUILD_TESTING)
     find_package(GTest REQUIRED)
-    pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz-ft) # shapes apart from Pango, to compare
+    pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz) # to compare Pango with
     if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # which do not get along with it
         pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
     endif()
