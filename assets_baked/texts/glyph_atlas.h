@@ -16,8 +16,8 @@
 namespace frustumscreen {
 
 struct GlyphAtlasOptions {
-    int texels_per_em = 40; ///< docs/measurements.md says what it is chosen by
-    int spread_texels = 4;
+    int texels_per_em = 48; ///< docs/measurements.md says what both are chosen by
+    int spread_texels = 2;
 };
 
 struct GlyphSheet {
