@@ -3,7 +3,9 @@
 #include "app/pack/words_file.h"
 #include "app/programs/bake/words_preview.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
 #include "assets_baked/texts/bake_words.h"
+#include "assets_baked/texts/speak_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
@@ -27,6 +29,7 @@ struct Arguments {
     std::filesystem::path output;
     std::filesystem::path preview;
     std::vector<std::string> languages;
+    std::string speech; ///< empty: espeak-ng
     bool strict = false;
 };
 
@@ -62,11 +65,29 @@ Result<void> write_outputs(const BakedWords& baked, const Arguments& arguments) 
     fmt::print("{}: {} words in {} languages, {} kB\n", arguments.output.string(),
                baked.languages.front().words.size(), baked.languages.size(), (bytes->size() + 999) / 1000);
     for (const LanguageWords& words : baked.languages) {
-        fmt::print("  {:<8}{:<14}{:>5} letters, {} x {} texels\n", words.language, words.name,
-                   words.runs.boxes.size(), words.runs.atlas_width, words.runs.atlas_height);
+        fmt::print("  {:<8}{:<14}{:>5} letters, {:>3} spoken\n", words.language, words.name,
+                   words.runs.boxes.size(), words.sounds.size());
     }
     if (!arguments.preview.empty()) {
         return write_file(arguments.preview, encode_png(words_preview(baked.languages)));
+    }
+    return {};
+}
+
+Result<void> speak(BakedWords& baked, const Arguments& arguments) {
+    ProgressLine progress("speaking: ");
+    SpeakOptions options{arguments.folder, std::nullopt, {}};
+    if (arguments.speech != "none") {
+        options.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);
+    }
+    options.progress = [&](std::string_view what, double done) { progress.show_share(what, done); };
+    const Result<std::vector<std::string>> silent = speak_words(baked.languages, options);
+    if (!silent) {
+        return tl::unexpected<Error>(silent.error());
+    }
+    progress.clear();
+    for (const std::string& sentence : *silent) {
+        say_line(program, sentence);
     }
     return {};
 }
@@ -88,12 +109,15 @@ Result<void> work(const Arguments& arguments) {
     if (!shaper) {
         return tl::unexpected<Error>(shaper.error());
     }
-    const Result<BakedWords> baked = bake_words(*collected, *shaper);
+    Result<BakedWords> baked = bake_words(*collected, *shaper);
     if (!baked) {
         return tl::unexpected<Error>(baked.error());
     }
     if (const Result<void> told = tell(baked->notes, arguments.strict); !told) {
         return told;
+    }
+    if (const Result<void> spoken = speak(*baked, arguments); !spoken) {
+        return spoken;
     }
     return write_outputs(*baked, arguments);
 }
@@ -117,6 +141,10 @@ int words_command(int argc, char** argv) {
                    "the house's language first, such as en,de (default: all built-in ones)")
         ->delimiter(',');
     app.add_option("--preview", arguments.preview, "also draw all texts into this PNG");
+    app.add_option(
+        "--speech", arguments.speech,
+        "program that takes text on standard input and writes WAV; {language} in it is replaced; none: "
+        "no voice (default: espeak-ng)");
     app.add_flag("--strict", arguments.strict,
                  "refuse words of which something would be lost; nothing is written");
     try {
