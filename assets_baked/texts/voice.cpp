@@ -34,10 +34,9 @@ bool has_letter(std::string_view text, char32_t first, char32_t last) {
     return false;
 }
 
-/// Hebrew and Arabic letters are consonants; marks are the vowels, which most texts leave out.
+/// Hebrew and Arabic letters are consonants; the vowels are marks, which texts leave out or have in part.
 bool lacks_vowels(std::string_view text) {
-    const bool hebrew = has_letter(text, 0x05D0, 0x05EA) && !has_letter(text, 0x05B0, 0x05BB);
-    return hebrew || has_letter(text, 0x0621, 0x064A);
+    return has_letter(text, 0x05D0, 0x05EA) || has_letter(text, 0x0621, 0x064A);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 /// standard output.
 ///
 /// Without another program espeak-ng speaks, where it knows all sounds: not what it would spell (Japanese kanji), and not
-/// scripts that leave vowels out (Hebrew and Arabic without points).
+/// scripts that leave vowels out (Hebrew, Arabic).
 ///
 /// Errors   one sentence: the program cannot be started, hangs, fails, or writes no recording.
 /// Threads  any; waits for the program.

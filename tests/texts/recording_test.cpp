@@ -96,7 +96,7 @@ TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
     header.claimed_bytes = 0xfffffff0U;
     const Bytes bomb = wav(header, Bytes(1000, std::byte{1}));
     EXPECT_EQ(refusal(bomb),
-              "the recording is cut off: 4294965736 bytes of its sound are missing; copy it again");
+              "the recording is cut off: 4294966280 bytes of its sound are missing; copy it again");
     const Result<Recording> stream = read_recording(bomb, RecordingSource::Stream);
     ASSERT_TRUE(stream) << "a program that writes into a pipe does not know the length before; "
                         << stream.error().message;
