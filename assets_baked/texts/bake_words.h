@@ -1,23 +1,17 @@
-/// Bakes the exhibit's own words: collected, shaped, and spoken where there is a voice.
+/// Bakes the exhibit's own words: collected (words.h) and set. speak_words.h gives them sounds.
 ///
-/// Errors   words.h, shape.h.
+/// Errors   set_texts.h; the language comes first.
 /// Threads  one caller.
 #pragma once
 
 #include "app/pack/words_file.h"
-#include "assets_baked/texts/glyph_atlas.h"
-#include "assets_baked/texts/shape.h"
+#include "assets_baked/texts/set_texts.h"
 #include "assets_baked/texts/words.h"
 
-#include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace frustumscreen {
-
-/// The widths that captions are broken for, in type sizes. At 24 pt they are 30, 15 and 7.6 cm.
-inline constexpr std::array<int, 3> caption_widths_em{36, 18, 9};
 
 struct BakedWords {
     std::vector<LanguageWords> languages;
@@ -25,6 +19,6 @@ struct BakedWords {
 };
 
 [[nodiscard]] Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected,
-                                            const Shaper& shaper, const GlyphAtlasOptions& options = {});
+                                            const Shaper& shaper);
 
 } // namespace frustumscreen

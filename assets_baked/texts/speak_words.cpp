@@ -1,5 +1,6 @@
 #include "assets_baked/texts/speak_words.h"
 
+#include "firmware_host/base/parallel.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -36,13 +37,14 @@ Result<std::optional<Speech>> recorded(const std::filesystem::path& folder, cons
 /// Why the voice cannot speak a language, by language; asked once for all words.
 class VoiceCheck {
 public:
-    VoiceCheck(const Voice& voice, const LanguageWords& words) {
+    VoiceCheck(const std::optional<Voice>& voice, const LanguageWords& words) {
         std::map<std::string, std::string> texts;
         for (const PlainWord& word : words.words) {
             texts[word.language] += word.text + "\n";
         }
         for (const auto& [language, text] : texts) {
-            why_silent_[language] = voice.why_silent(text, language);
+            why_silent_[language] =
+                voice ? voice->why_silent(text, language) : "there are no recordings and no voice";
         }
     }
     [[nodiscard]] const std::optional<std::string>& why_silent(const std::string& language) const {
@@ -53,40 +55,38 @@ private:
     std::map<std::string, std::optional<std::string>> why_silent_;
 };
 
+/// A recording, else what the voice says; nothing if neither can.
+Result<std::optional<Speech>> speech_of(const PlainWord& word, const LanguageWords& words,
+                                        const SpeakOptions& options, const VoiceCheck& check) {
+    Result<std::optional<Speech>> speech = recorded(options.recordings, words, word.key);
+    if (!speech || *speech || !options.voice || check.why_silent(word.language)) {
+        return speech;
+    }
+    Result<Speech> spoken = options.voice->speak(word.text, word.language);
+    if (!spoken) {
+        return at(fmt::format("{}: {}", words.language, word.key), spoken.error());
+    }
+    return std::optional<Speech>(*std::move(spoken));
+}
+
 /// Speaks one language; returns why some of its words are silent, or nothing.
-Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options, double begin,
-                                   double share) {
-    std::optional<VoiceCheck> check;
+Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options) {
+    const VoiceCheck check(options.voice, words);
+    std::vector<Result<std::optional<Speech>>> speeches(words.words.size(), std::optional<Speech>());
+    parallel_for(words.words.size(), 1, [&](std::size_t k, std::size_t) {
+        speeches[k] = speech_of(words.words[k], words, options, check);
+    });
     std::size_t silent = 0;
-    std::string why = "there are no recordings and no voice";
-    for (std::size_t k = 0; k < words.words.size(); ++k) {
-        const PlainWord& word = words.words[k];
-        if (options.progress) {
-            options.progress(words.language, begin + share * static_cast<double>(k) /
-                                                         static_cast<double>(words.words.size()));
+    std::string why;
+    for (std::size_t k = 0; k < speeches.size(); ++k) {
+        if (!speeches[k]) {
+            return tl::unexpected<Error>(speeches[k].error());
         }
-        Result<std::optional<Speech>> speech = recorded(options.recordings, words, word.key);
-        if (!speech) {
-            return tl::unexpected<Error>(speech.error());
-        }
-        if (!*speech && options.voice) {
-            if (!check) {
-                check.emplace(*options.voice, words);
-            }
-            if (const std::optional<std::string>& reason = check->why_silent(word.language)) {
-                why = *reason;
-            } else {
-                Result<Speech> spoken = options.voice->speak(word.text, word.language);
-                if (!spoken) {
-                    return at(fmt::format("{}: {}", words.language, word.key), spoken.error());
-                }
-                *speech = *std::move(spoken);
-            }
-        }
-        if (*speech) {
-            words.sounds.insert_or_assign(word.key, std::move((*speech)->opus));
+        if (*speeches[k]) {
+            words.sounds.insert_or_assign(words.words[k].key, std::move((*speeches[k])->opus));
         } else {
             ++silent;
+            why = check.why_silent(words.words[k].language).value_or("");
         }
     }
     return silent == 0 ? std::string()
@@ -99,10 +99,12 @@ Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& opt
 Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languages,
                                              const SpeakOptions& options) {
     std::vector<std::string> silent;
-    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(languages.size(), 1));
     for (std::size_t k = 0; k < languages.size(); ++k) {
-        Result<std::string> why =
-            speak_language(languages[k], options, static_cast<double>(k) * share, share);
+        if (options.progress) {
+            options.progress(languages[k].language,
+                             static_cast<double>(k) / static_cast<double>(languages.size()));
+        }
+        Result<std::string> why = speak_language(languages[k], options);
         if (!why) {
             return tl::unexpected<Error>(why.error());
         }

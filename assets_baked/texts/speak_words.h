@@ -3,7 +3,7 @@
 /// A recording is FOLDER/LANGUAGE/KEY.wav, .flac, .opus or .ogg. A language is spoken by the voice whole or not at all.
 ///
 /// Errors   one sentence: a recording that is bad; a voice that fails on the way.
-/// Threads  one caller.
+/// Threads  one caller; the words of a language are spoken on all cores, with the same result.
 #pragma once
 
 #include "app/pack/words_file.h"
