@@ -22,6 +22,7 @@ constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 20;
 /// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
 constexpr std::ptrdiff_t most_dots = 5000;
 constexpr std::size_t most_word_bytes = 1000;
+constexpr std::size_t most_named_keys = 5; ///< in one sentence
 
 constexpr auto keys = std::to_array<std::string_view>({
     "name",
@@ -184,10 +185,13 @@ CollectedWords collect(const std::string& language, const WrittenWords& own, con
         }
     }
     if (!missing.empty()) {
+        const std::size_t named = std::min(missing.size(), most_named_keys);
+        const std::string more =
+            missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
         collected.notes.push_back(fmt::format(
-            "the language '{}' has no text for {}; there the exhibit speaks '{}': write them into "
-            "{}.toml",
-            language, fmt::join(missing, ", "), house, language));
+            "the language '{}' has no text for {}{}; there the exhibit speaks '{}': write them into {}.toml",
+            language, fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+            more, house, language));
     }
     return collected;
 }

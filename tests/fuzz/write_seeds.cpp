@@ -1,4 +1,5 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
+#include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
 #include "firmware_host/tracker/packet_file.h"
 #include "tests/loaders/sample_models.h"
@@ -47,6 +48,10 @@ void texts(const Seeds& seeds) {
               "[projector]\nfx = 1900\nfy = 1910\ncx = 640\ncy = -20\n"
               "table_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]\n[prop]\nkind = "
               "\"cube\"\nbase_m = 0.1\n");
+    seeds.add(
+        "words", "small",
+        "name = \"X\"\nhelp = \"\303\234bung\"\n[advice]\nset_down = \"a\"\n[fault]\nrepairing = \"b\"\n");
+    seeds.add("words", "misspelt", "nam = 3\nadvice.set_down = \"\\u202e\"\n");
     seeds.add("settings", "replay",
               "tracker = { kind = \"replay\", poses = \"p.csv\", table_from_tracker = "
               "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1] }\n");
@@ -110,6 +115,10 @@ void packs(const Seeds& seeds) {
     mesh_only.textures[0] = Image8(40, 30, {10, 20, 30, 255}); // as WebP
     seeds.add("pack", "webp", as_text(samples::bytes_of(mesh_only)));
     seeds.add("manifest", "everything", samples::take_apart(pack).manifest.dump());
+    GlyphRuns runs{40, 4, 32, 36, {{0, 0, 30, 36, -3, 33}, {30, 0, 0, 0, 0, 0}}, {}};
+    runs.texts = {
+        {"name", TextDirection::RightToLeft, {{9216, 1290, 1395, {{1095, 2}}, {{0, 0, 260}, {1, -16, 0}}}}}};
+    seeds.add("glyph_runs", "example", as_text(encode_glyph_runs(runs)));
 }
 
 void pictures(const Seeds& seeds) {

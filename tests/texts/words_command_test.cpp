@@ -77,5 +77,10 @@ TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_EQ(run("frustumscreen-bake --words --languages de -o out.fswords --speech 'sh -c false'"), 1);
     EXPECT_NE(text("err.txt").find("sh: ends with status 1"), std::string::npos) << text("err.txt");
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
+    EXPECT_EQ(run("frustumscreen-bake --words --languages ../de -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("--languages: '../de' is no language"), std::string::npos)
+        << text("err.txt");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de,de -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("'de' is named twice"), std::string::npos) << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --words --languages de"), 2);
 }

@@ -193,6 +193,7 @@ int run(int argc, char** argv) {
     CLI::App app("Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen.",
                  "frustumscreen-bake");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.footer("frustumscreen-bake --words bakes the exhibit's own words instead; --words --help says more.");
     app.add_option("INPUT", arguments.input, "artifact file")->required();
     app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)")->required();
     app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");

@@ -4,10 +4,12 @@
 #include "app/programs/bake/words_preview.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/settings/language_tag.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/speak_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
+#include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <CLI/CLI.hpp>
@@ -50,6 +52,19 @@ Result<void> check_folder(const std::filesystem::path& folder) {
         return bad_input(fmt::format(
             "{}: this is no folder; name one with files such as de.toml, or none for the built-in words",
             folder.string()));
+    }
+    return {};
+}
+
+Result<void> check_languages(const std::vector<std::string>& languages) {
+    for (std::size_t k = 0; k < languages.size(); ++k) {
+        const std::string found = fmt::format("--languages: '{}'", printable(languages[k], 40));
+        if (!parse_language_tag(languages[k])) {
+            return bad_input(fmt::format("{} is no language; allowed are {}", found, allowed_language_tags));
+        }
+        if (std::count(languages.begin(), languages.end(), languages[k]) > 1) {
+            return bad_input(fmt::format("{} is named twice; write each language once", found));
+        }
     }
     return {};
 }
@@ -101,6 +116,9 @@ Result<void> work(const Arguments& arguments) {
     }
     const std::vector<std::string> languages =
         arguments.languages.empty() ? builtin_word_languages() : arguments.languages;
+    if (const Result<void> allowed = check_languages(languages); !allowed) {
+        return allowed;
+    }
     const Result<std::vector<CollectedWords>> collected = collect_words(arguments.folder, languages);
     if (!collected) {
         return tl::unexpected<Error>(collected.error());
