@@ -17,8 +17,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// The size that texts are shaped at: large enough that nothing is rounded that a projector could show.
-constexpr int shaping_px = 64;
+/// The size that texts are shaped at. Pango's units are 1/1024 of a pixel in 32 bits: the longest word that is allowed must not
+/// overflow them, and what is rounded, 1/8192 em, no projector shows.
+constexpr int shaping_px = 8;
 constexpr std::size_t most_named_letters = 10;
 
 struct Unref {
@@ -30,7 +31,7 @@ struct FreeDescription {
 template <typename Object> using Owned = std::unique_ptr<Object, Unref>;
 
 /// Pango's units at the shaping size to 1/1024 em.
-std::int32_t em_units_of(int pango_units) {
+std::int32_t em_units_of(std::int64_t pango_units) {
     static_assert(em_units == PANGO_SCALE);
     return static_cast<std::int32_t>(std::lround(static_cast<double>(pango_units) / shaping_px));
 }
@@ -54,7 +55,7 @@ public:
     explicit Collector(ShapedText& text) : text_(text) {}
 
     void add_line(PangoLayoutLine* line, std::int32_t x_units, ShapedSetting& setting) {
-        int pen = 0;
+        std::int64_t pen = 0;
         for (const GSList* each = line->runs; each != nullptr; each = each->next) {
             add_run(*static_cast<const PangoGlyphItem*>(each->data), x_units, pen, setting);
         }
@@ -62,7 +63,7 @@ public:
     [[nodiscard]] const std::set<char32_t>& missing() const { return missing_; }
 
 private:
-    void add_run(const PangoGlyphItem& run, std::int32_t x_units, int& pen, ShapedSetting& setting) {
+    void add_run(const PangoGlyphItem& run, std::int32_t x_units, std::int64_t& pen, ShapedSetting& setting) {
         const std::uint32_t face = number_of(face_of(run.item->analysis.font));
         for (int k = 0; k < run.glyphs->num_glyphs; ++k) {
             const PangoGlyphInfo& info = run.glyphs->glyphs[k];
@@ -139,6 +140,16 @@ Result<void> check_limits(const TextToShape& text) {
                                      glyph_limits::most_side / em_units));
 }
 
+/// A single word of so many letters takes Pango a second or two; the time grows with their square.
+Result<void> check_length(std::string_view text) {
+    const auto letters = static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+    return letters <= most_shaped_letters
+               ? Result<void>()
+               : bad_input(fmt::format("the text has {} letters; allowed are {}: shorten it", letters,
+                                       most_shaped_letters));
+}
+
 Result<void> check_size(const ShapedSetting& setting) {
     using namespace glyph_limits;
     if (setting.lines.size() > most_lines || setting.glyphs.size() > most_glyphs ||
@@ -194,8 +205,8 @@ Result<Shaper> Shaper::open() {
 }
 
 Result<ShapedText> Shaper::shape(const TextToShape& text) const {
-    for (const Result<void>& checked :
-         {check_shaped_text(text.text), check_limits(text), fonts_.check(text.language)}) {
+    for (const Result<void>& checked : {check_shaped_text(text.text), check_length(text.text),
+                                        check_limits(text), fonts_.check(text.language)}) {
         if (!checked) {
             return tl::unexpected<Error>(checked.error());
         }

@@ -21,6 +21,8 @@
 
 namespace frustumscreen {
 
+inline constexpr std::size_t most_shaped_letters = 5000;
+
 struct TextToShape {
     std::string text;
     std::string language; ///< BCP 47
