@@ -17,6 +17,8 @@ packages=(
     libembree-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev
     # pictures and letters
     libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core
+    # shaped texts and speech
+    libpango1.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
     # sound
@@ -33,6 +35,7 @@ for part; do
             packages+=(
                 libgtest-dev umockdev libumockdev-dev python3
                 systemd                           # its tools check the units
+                libharfbuzz-dev fonts-noto-core fonts-noto-cjk espeak-ng # texts in all languages, and a voice
                 python3-matplotlib                # the bench's plots
                 shellcheck clang-format pyflakes3 # how it is written
             )

@@ -6,6 +6,7 @@
 
 #include "app/exhibit/text_image.h"
 #include "app/image/image.h"
+#include "app/pack/glyph_runs.h"
 
 #include <glm/glm.hpp>
 
@@ -23,5 +24,12 @@ struct CaptionImage {
 [[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
                                         const std::string& text, double em_m, double width_m,
                                         double texels_per_m);
+
+/// The same of texts that were shaped at the bake: without a typeface, in any script. A paragraph that runs to the left is flush
+/// right. `title` and `text` are texts of `runs`, or null; each is set in the widest of its settings that fits `width_m`, else in
+/// the narrowest.
+[[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
+                                        const GlyphText* title, const GlyphText* text, double em_m,
+                                        double width_m, double texels_per_m);
 
 } // namespace frustumscreen

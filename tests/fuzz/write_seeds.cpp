@@ -1,4 +1,5 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
+#include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/folder/new_folder.h"
@@ -49,6 +50,10 @@ void texts(const Seeds& seeds) {
               "[projector]\nfx = 1900\nfy = 1910\ncx = 640\ncy = -20\n"
               "table_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]\n[prop]\nkind = "
               "\"cube\"\nbase_m = 0.1\n");
+    seeds.add(
+        "words", "small",
+        "name = \"X\"\nhelp = \"\303\234bung\"\n[advice]\nset_down = \"a\"\n[fault]\nrepairing = \"b\"\n");
+    seeds.add("words", "misspelt", "nam = 3\nadvice.set_down = \"\\u202e\"\n");
     seeds.add("settings", "replay",
               "tracker = { kind = \"replay\", poses = \"p.csv\", table_from_tracker = "
               "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1] }\n");
@@ -129,6 +134,13 @@ void folders(const Seeds& seeds) {
               "hotspots = [{ point = [1, 2.5, -3e2], labels = { en = 'x', 'pt-BR' = 'y' } }]\n");
 }
 
+void glyph_runs(const Seeds& seeds) {
+    GlyphRuns runs{40, 4, 32, 36, {{0, 0, 30, 36, -3, 33}, {30, 0, 0, 0, 0, 0}}, {}};
+    runs.texts = {
+        {"name", TextDirection::RightToLeft, {{9216, 1290, 1395, {{1095, 2}}, {{0, 0, 260}, {1, -16, 0}}}}}};
+    seeds.add("glyph_runs", "example", as_text(encode_glyph_runs(runs)));
+}
+
 void pictures(const Seeds& seeds) {
     const Image8 smooth = frustumscreen::testing::smooth_picture(8, 8);
     seeds.add("picture", "smooth.png", frustumscreen::testing::png_of(smooth));
@@ -184,6 +196,7 @@ int main(int count, char** arguments) {
     recordings(seeds);
     packs(seeds);
     folders(seeds);
+    glyph_runs(seeds);
     pictures(seeds);
     meshes(seeds);
     sounds(seeds);

@@ -5,6 +5,7 @@
 #include "app/pack/sha256.h"
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/bake_request.h"
+#include "app/programs/bake/words_command.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
@@ -259,12 +260,16 @@ void add_options(CLI::App& app, BakeArguments& arguments) {
 }
 
 int run(int argc, char** argv) {
+    if (asks_for_words(argc, argv)) {
+        return words_command(argc, argv);
+    }
     BakeArguments arguments;
     CLI::App app(
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.footer("frustumscreen-bake --words bakes the exhibit's own words instead; --words --help says more.");
     add_options(app, arguments);
     try {
         app.parse(argc, argv);

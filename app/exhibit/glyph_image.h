@@ -1,0 +1,27 @@
+/// Sets a shaped text (app/pack/glyph_runs.h) as a picture of its coverage, at any size.
+///
+/// Units    pixels; `em_px` is the type size. Coverage is linear light, 255 = white; row 0 at the text's top.
+/// Threads  pure; any. Once for each text and size, never in the frame: it allocates.
+/// Errors   none. What would have more than 16384 pixels a side, or 2^24 in all, comes out empty.
+/// Method   Each pixel is the mean of 4 x 4 samples of the distance to the outline, so that strokes thinner than a pixel keep
+///          their weight; glyphs that touch join without a seam, as samples take the larger one.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/pack/glyph_runs.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+struct GlyphImage {
+    Image<std::uint8_t> coverage;
+    int left_px = 0; ///< pixels to the left of the setting's box: letters may reach over its edges
+    int top_px = 0;  ///< pixels above it
+};
+
+/// `setting` is one of `runs`, and `atlas` is theirs.
+[[nodiscard]] GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas,
+                                     const GlyphSetting& setting, double em_px);
+
+} // namespace frustumscreen

@@ -1,0 +1,15 @@
+/// A picture of all words in all languages, as the kiosk sets them.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/pack/words_file.h"
+
+#include <span>
+
+namespace frustumscreen {
+
+[[nodiscard]] Image8 words_preview(std::span<const LanguageWords> languages);
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// The files of `words/`, built into the program. CMake makes them.
+///
+/// Threads  constants; any.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct BuiltinWords {
+    std::string_view language;
+    std::string_view toml;
+};
+
+[[nodiscard]] std::span<const BuiltinWords> builtin_words();
+
+} // namespace frustumscreen

@@ -1,0 +1,46 @@
+/// Gathers shaped texts into glyph runs with one atlas of distances.
+///
+/// Threads  one caller.
+/// Errors   a typeface's file that FreeType cannot read; more glyphs than an atlas holds.
+/// Library  FreeType draws the letters, without hinting.
+#pragma once
+
+#include "app/pack/glyph_runs.h"
+#include "assets_baked/texts/shape.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+struct GlyphAtlasOptions {
+    int texels_per_em = 48; ///< docs/measurements.md says what both are chosen by
+    int spread_texels = 2;
+};
+
+struct GlyphSheet {
+    GlyphRuns runs;
+    DistanceAtlas atlas;
+};
+
+class GlyphAtlasBuilder {
+public:
+    explicit GlyphAtlasBuilder(const GlyphAtlasOptions& options = {}) : options_(options) {}
+
+    /// `key`: one that no text has yet, of the letters that `is_text_key` allows.
+    void add(const std::string& key, const ShapedText& text);
+    /// Draws the glyphs. Call once, last.
+    [[nodiscard]] Result<GlyphSheet> finish();
+
+private:
+    [[nodiscard]] std::uint16_t number_of(const FontFace& face, std::uint32_t glyph);
+
+    GlyphAtlasOptions options_;
+    std::map<std::pair<FontFace, std::uint32_t>, std::size_t> numbers_;
+    std::vector<std::pair<FontFace, std::uint32_t>> glyphs_; ///< in order of number
+    std::vector<GlyphText> texts_;
+};
+
+} // namespace frustumscreen

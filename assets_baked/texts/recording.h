@@ -1,0 +1,30 @@
+/// Reads a recording of speech: WAV, FLAC or Ogg (Opus, Vorbis), from bytes.
+///
+/// Errors   one sentence: no recording of these kinds, cut off, too long, too many channels, a rate that no speech has, samples
+///          that are no numbers. Memory is bounded by `longest_recording_s`, whatever the file claims.
+/// Threads  pure; any.
+/// Library  libsndfile.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr int longest_recording_s = 180;
+inline constexpr std::size_t most_recording_bytes = std::size_t{128} << 20;
+
+struct Recording {
+    int rate_hz = 0;
+    std::vector<float> samples; ///< one channel, full scale is 1; two channels are averaged
+};
+
+/// What the bytes come out of: a file's length must be true; a stream's header is written before its length is known.
+enum class RecordingSource { File, Stream };
+
+[[nodiscard]] Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source);
+
+} // namespace frustumscreen

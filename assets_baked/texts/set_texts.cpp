@@ -1,0 +1,42 @@
+#include "assets_baked/texts/set_texts.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+std::vector<std::int32_t> caption_limits() {
+    std::vector<std::int32_t> limits;
+    for (const int width : caption_widths_em) {
+        limits.push_back(width * em_units);
+    }
+    return limits;
+}
+
+} // namespace
+
+Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shaper,
+                           const GlyphAtlasOptions& options) {
+    SetTexts set;
+    GlyphAtlasBuilder builder(options);
+    for (const TextToSet& text : texts) {
+        const Result<ShapedText> shaped =
+            shaper.shape({text.text, text.language, caption_limits(), text.bold});
+        if (!shaped) {
+            return at(text.key, shaped.error());
+        }
+        for (const std::string& note : shaped->notes) {
+            set.notes.push_back(fmt::format("{}: {}", text.key, note));
+        }
+        builder.add(text.key, *shaped);
+    }
+    Result<GlyphSheet> sheet = builder.finish();
+    if (!sheet) {
+        return tl::unexpected<Error>(sheet.error());
+    }
+    set.sheet = *std::move(sheet);
+    return set;
+}
+
+} // namespace frustumscreen

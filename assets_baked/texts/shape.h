@@ -1,0 +1,78 @@
+/// Shapes a text: lines broken by the language's rules, letters joined and stacked as its script asks, right-to-left order
+/// resolved, for several widths.
+///
+/// Units    1/1024 em (`em_units`), as in app/pack/glyph_runs.h. Line pitch is what the typefaces ask for.
+/// Errors   check_text.h; a language whose typeface is missing (fonts.h); a width out of range; more lines than a setting may
+///          have. What is lost, but can be shown without, is a note: a letter that no typeface has, a word wider than every
+///          width.
+/// Threads  one caller.
+/// Library  Pango with HarfBuzz, FriBidi and libthai.
+#pragma once
+
+#include "app/pack/glyph_runs.h"
+#include "assets_baked/texts/fonts.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr std::size_t most_shaped_letters = 5000;
+
+struct TextToShape {
+    std::string text;
+    std::string language; ///< BCP 47
+    std::vector<std::int32_t>
+        limits; ///< widths that the lines may have, at least one; a width that a word exceeds is left out
+    bool bold = false;
+};
+
+/// A file of outlines; collections have several faces.
+struct FontFace {
+    std::filesystem::path file;
+    int index = 0;
+    auto operator<=>(const FontFace&) const = default;
+};
+
+struct ShapedGlyph {
+    std::uint32_t face = 0;  ///< index into the text's faces
+    std::uint32_t glyph = 0; ///< the face's own number
+    std::int32_t x = 0;
+    std::int16_t up = 0;
+};
+
+struct ShapedSetting {
+    std::int32_t limit = 0, width = 0, height = 0;
+    std::vector<GlyphLine> lines;
+    std::vector<ShapedGlyph> glyphs;
+};
+
+struct ShapedText {
+    TextDirection direction = TextDirection::LeftToRight;
+    std::vector<FontFace> faces;
+    std::vector<ShapedSetting> settings;
+    std::vector<std::string> notes; ///< what is lost, a sentence each
+};
+
+class Shaper {
+public:
+    [[nodiscard]] static Result<Shaper> open();
+    Shaper(Shaper&&) noexcept;
+    Shaper& operator=(Shaper&&) noexcept;
+    ~Shaper();
+
+    [[nodiscard]] Result<ShapedText> shape(const TextToShape& text) const;
+    [[nodiscard]] const Fonts& fonts() const { return fonts_; }
+
+private:
+    struct Engine;
+    Shaper(Fonts fonts, std::unique_ptr<Engine> engine);
+    Fonts fonts_;
+    std::unique_ptr<Engine> engine_;
+};
+
+} // namespace frustumscreen

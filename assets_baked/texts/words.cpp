@@ -1,0 +1,269 @@
+#include "assets_baked/texts/words.h"
+
+#include "app/pack/glyph_runs.h"
+#include "assets_baked/texts/builtin_words.h"
+#include "assets_baked/texts/check_text.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 20;
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
+constexpr std::ptrdiff_t most_dots = 5000;
+constexpr std::size_t most_word_bytes = 1000;
+constexpr std::size_t most_named_keys = 5; ///< in one sentence
+
+constexpr auto keys = std::to_array<std::string_view>({
+    "name",
+    "attract_line",
+    "choose_by_sliding",
+    "help",
+    "advice.slide_left",
+    "advice.slide_left_a_little",
+    "advice.slide_right",
+    "advice.slide_right_a_little",
+    "advice.slide_nearer",
+    "advice.slide_nearer_a_little",
+    "advice.slide_farther",
+    "advice.slide_farther_a_little",
+    "advice.slide_back_to_light",
+    "advice.slide_back_to_light_a_little",
+    "advice.turn_counter_clockwise",
+    "advice.turn_counter_clockwise_a_little",
+    "advice.turn_clockwise",
+    "advice.turn_clockwise_a_little",
+    "advice.set_down",
+    "advice.stand_upright",
+    "advice.come_round_left",
+    "advice.come_round_right",
+    "advice.come_to_front",
+    "advice.lower",
+    "advice.raise",
+    "advice.uncover",
+    "advice.wait_tracker",
+    "advice.away_from_metal",
+    "advice.show_your_head",
+    "advice.done_well",
+    "pack.imported_take_stick_out",
+    "fault.no_projector",
+    "fault.no_artifact",
+    "fault.no_tracker",
+    "fault.repairing",
+});
+
+/// Letters that must be put in, left out or changed to make one word of the other (Levenshtein 1966).
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        row[k] = k;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t k = 0; k < b.size(); ++k) {
+            const std::size_t change = diagonal + (a[i] == b[k] ? 0 : 1);
+            diagonal = row[k + 1];
+            row[k + 1] = std::min({change, row[k] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string_view nearest_key(std::string_view found) {
+    const std::string_view part = found.substr(0, most_word_bytes);
+    return *std::min_element(keys.begin(), keys.end(), [&](std::string_view a, std::string_view b) {
+        return letters_apart(part, a) < letters_apart(part, b);
+    });
+}
+
+/// Reads one file; the first thing that is wrong is kept.
+class WordsReader {
+public:
+    WordsReader(const std::string& file, WrittenWords& words) : file_(file), words_(words) {}
+
+    void read(const toml::table& table, const std::string& prefix) {
+        for (const auto& [key, node] : table) {
+            const std::string name = prefix + std::string(key.str());
+            const bool is_group = std::any_of(keys.begin(), keys.end(), [&](std::string_view known) {
+                return prefix.empty() && known.starts_with(name + ".");
+            });
+            if (is_group && node.is_table()) {
+                read(*node.as_table(), name + ".");
+            } else {
+                read_word(name, node);
+            }
+        }
+    }
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+private:
+    void read_word(const std::string& name, const toml::node& node) {
+        const std::string shown = printable(name, 60);
+        if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
+            refuse(node,
+                   fmt::format("there is no word '{}'; the nearest one is {}", shown, nearest_key(name)));
+            return;
+        }
+        const auto* text = node.as_string();
+        if (text == nullptr) {
+            refuse(node, fmt::format("{} is no text; write it between quotation marks", shown));
+        } else if (text->get().empty() || text->get().size() > most_word_bytes) {
+            refuse(node,
+                   fmt::format(
+                       "{} has {} bytes; allowed are 1 to {}: leave the key out to use the built-in text",
+                       shown, text->get().size(), most_word_bytes));
+        } else if (const Result<void> checked = check_shaped_text(text->get()); !checked) {
+            refuse(node, fmt::format("{}: {}", shown, checked.error().message));
+        } else {
+            words_.emplace(name, text->get());
+        }
+    }
+    /// The keys of a table come in the order of the alphabet; a person reads from the top.
+    void refuse(const toml::node& node, const std::string& what) {
+        const auto line = node.source().begin.line;
+        if (!error_ || line < line_) {
+            line_ = line;
+            error_ = fmt::format("{}:{}: {}", file_, line, what);
+        }
+    }
+
+    const std::string& file_;
+    WrittenWords& words_;
+    std::optional<std::string> error_;
+    toml::source_index line_ = 0;
+};
+
+/// The built-in words and, over them, those of the folder.
+Result<WrittenWords> words_of(const std::filesystem::path& folder, const std::string& language) {
+    WrittenWords words;
+    for (const BuiltinWords& file : builtin_words()) {
+        if (file.language == language) {
+            Result<WrittenWords> read = parse_words(file.toml, fmt::format("words/{}.toml", language));
+            if (!read) {
+                return read;
+            }
+            words = *std::move(read);
+        }
+    }
+    const std::filesystem::path file = folder / (language + ".toml");
+    std::error_code ignored;
+    if (folder.empty() || !std::filesystem::exists(file, ignored)) {
+        return words;
+    }
+    const Result<Bytes> bytes = read_file(file, most_file_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    Result<WrittenWords> read = parse_words(as_text(*bytes), printable(file.string(), 4096));
+    if (!read) {
+        return read;
+    }
+    read->merge(words);
+    return read;
+}
+
+CollectedWords collect(const std::string& language, const WrittenWords& own, const std::string& house,
+                       const WrittenWords& fallback) {
+    CollectedWords collected{language, {}, {}};
+    std::vector<std::string> missing;
+    for (const std::string_view key : keys) {
+        if (const auto word = own.find(key); word != own.end()) {
+            collected.words.push_back({std::string(key), word->second, language});
+        } else if (const auto other = fallback.find(key); other != fallback.end()) {
+            collected.words.push_back({std::string(key), other->second, house});
+            missing.emplace_back(key);
+        }
+    }
+    if (!missing.empty()) {
+        const std::size_t named = std::min(missing.size(), most_named_keys);
+        const std::string more =
+            missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
+        collected.notes.push_back(fmt::format(
+            "the language '{}' has no text for {}{}; there the exhibit speaks '{}': write them into {}.toml",
+            language, fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+            more, house, language));
+    }
+    return collected;
+}
+
+} // namespace
+
+std::span<const std::string_view> word_keys() {
+    return keys;
+}
+
+std::vector<std::string> builtin_word_languages() {
+    std::vector<std::string> languages;
+    for (const BuiltinWords& file : builtin_words()) {
+        languages.emplace_back(file.language);
+    }
+    return languages;
+}
+
+Result<WrittenWords> parse_words(std::string_view toml, const std::string& file) {
+    if (toml.size() > most_file_bytes || std::count(toml.begin(), toml.end(), '.') > most_dots) {
+        return bad_input(fmt::format("{}: has {} bytes; allowed are {}, with {} dots", file, toml.size(),
+                                     most_file_bytes, most_dots));
+    }
+    try {
+        const toml::table root = toml::parse(toml);
+        WrittenWords words;
+        WordsReader reader(file, words);
+        reader.read(root, "");
+        if (reader.error()) {
+            return bad_input(*reader.error());
+        }
+        return words;
+    } catch (const toml::parse_error& error) {
+        return bad_input(fmt::format("{}:{}: is not TOML: {}", file, error.source().begin.line,
+                                     printable(error.description(), 200)));
+    }
+}
+
+Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& folder,
+                                                  std::span<const std::string> languages) {
+    if (languages.empty()) {
+        return bad_input("no language is named; name at least that of the house, such as en");
+    }
+    const std::string& house = languages.front();
+    const Result<WrittenWords> fallback = words_of(folder, house);
+    if (!fallback) {
+        return tl::unexpected<Error>(fallback.error());
+    }
+    for (const std::string_view key : keys) {
+        if (!fallback->contains(key)) {
+            return bad_input(fmt::format(
+                "the house's language '{}' has no text for {}; write it into {}.toml, or name another "
+                "language first (built in: {})",
+                printable(house, 40), key, printable(house, 40), fmt::join(builtin_word_languages(), ", ")));
+        }
+    }
+    std::vector<CollectedWords> collected;
+    for (const std::string& language : languages) {
+        const Result<WrittenWords> own = words_of(folder, language);
+        if (!own) {
+            return tl::unexpected<Error>(own.error());
+        }
+        if (own->find("name") == own->end()) {
+            return bad_input(fmt::format("there are no words in '{}'; write {}.toml with at least a line "
+                                         "name = \"...\", the language's "
+                                         "own name (built in: {})",
+                                         printable(language, 40), printable(language, 40),
+                                         fmt::join(builtin_word_languages(), ", ")));
+        }
+        collected.push_back(collect(language, *own, house, *fallback));
+    }
+    return collected;
+}
+
+} // namespace frustumscreen

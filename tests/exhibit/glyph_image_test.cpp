@@ -1,0 +1,132 @@
+// Glyph runs as pictures, of a letter whose area is known: a square of half an em.
+#include "app/exhibit/caption_image.h"
+#include "app/exhibit/captions.h"
+#include "app/exhibit/glyph_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+using namespace frustumscreen;
+
+namespace {
+
+constexpr int texels_per_em = 32;
+constexpr int spread = 4;
+constexpr int side = 16; ///< of the square, texels
+
+/// The square stands on the baseline, its left edge at the pen. Its distances are exact at the texels' centres.
+DistanceAtlas square() {
+    constexpr int box = side + 2 * spread;
+    DistanceAtlas atlas(box, box);
+    for (int y = 0; y < box; ++y) {
+        for (int x = 0; x < box; ++x) {
+            const double across = std::abs(x + 0.5 - box / 2.0) - side / 2.0;
+            const double down = std::abs(y + 0.5 - box / 2.0) - side / 2.0;
+            const double outside = std::hypot(std::max(across, 0.0), std::max(down, 0.0));
+            const double distance = -(outside > 0.0 ? outside : std::max(across, down));
+            atlas.at(x, y) = static_cast<std::uint8_t>(
+                std::clamp(outline_code + distance / spread * outline_code, 0.0, 255.0));
+        }
+    }
+    return atlas;
+}
+
+/// Squares at these pens, in one line of an em's height whose baseline is 3/4 em below the top.
+GlyphSetting line_of(const std::vector<std::int32_t>& pens, std::int32_t width) {
+    GlyphSetting setting{
+        width, width, em_units, {{em_units * 3 / 4, static_cast<std::uint32_t>(pens.size())}}, {}};
+    for (const std::int32_t pen : pens) {
+        setting.glyphs.push_back({0, 0, pen});
+    }
+    return setting;
+}
+
+GlyphRuns runs_with(const GlyphSetting& setting) {
+    constexpr std::uint16_t box = side + 2 * spread;
+    GlyphRuns runs{texels_per_em, spread, box, box, {{0, 0, box, box, -spread, side + spread}}, {}};
+    runs.texts = {{"text", TextDirection::LeftToRight, {setting}}};
+    return runs;
+}
+
+double light(const Image<std::uint8_t>& image) {
+    return std::accumulate(image.texels.begin(), image.texels.end(), 0.0) / 255.0;
+}
+
+} // namespace
+
+TEST(GlyphImage, a_letter_has_its_area_at_every_size) {
+    const GlyphSetting setting = line_of({em_units / 4}, em_units);
+    const GlyphRuns runs = runs_with(setting);
+    for (const double em_px : {7.0, 11.3, 20.0, 32.0, 60.0, 131.7}) {
+        const double area = em_px * em_px / 4.0;
+        const GlyphImage image = glyph_image(runs, square(), setting, em_px);
+        EXPECT_NEAR(light(image.coverage), area, 0.02 * area) << em_px;
+    }
+}
+
+TEST(GlyphImage, a_letter_lies_where_its_pen_is) {
+    const GlyphSetting setting = line_of({em_units / 4}, em_units);
+    const GlyphImage image = glyph_image(runs_with(setting), square(), setting, 64.0);
+    ASSERT_EQ(image.coverage.width, 64);
+    ASSERT_EQ(image.coverage.height, 64);
+    // From 16 to 48 across and down.
+    EXPECT_EQ(image.coverage.at(32, 32), 255);
+    EXPECT_EQ(image.coverage.at(17, 32), 255);
+    EXPECT_LT(image.coverage.at(14, 32), 10);
+    EXPECT_EQ(image.coverage.at(46, 32), 255);
+    EXPECT_LT(image.coverage.at(49, 32), 10);
+    EXPECT_EQ(image.coverage.at(32, 17), 255);
+    EXPECT_LT(image.coverage.at(32, 14), 10);
+    EXPECT_EQ(image.coverage.at(32, 46), 255);
+    EXPECT_LT(image.coverage.at(32, 49), 10);
+}
+
+TEST(GlyphImage, letters_that_touch_join_without_a_seam) {
+    const GlyphSetting setting = line_of({0, em_units / 2 - 8}, em_units);
+    const GlyphImage image = glyph_image(runs_with(setting), square(), setting, 60.0);
+    const int row = image.top_px + 30;
+    for (int x = 3; x < 56; ++x) {
+        EXPECT_EQ(image.coverage.at(image.left_px + x, row), 255) << x;
+    }
+}
+
+TEST(GlyphImage, a_letter_that_reaches_over_the_edge_is_whole) {
+    const GlyphSetting setting = line_of({-em_units / 4}, em_units / 8);
+    const GlyphImage image = glyph_image(runs_with(setting), square(), setting, 40.0);
+    EXPECT_EQ(image.left_px, 10);
+    EXPECT_NEAR(light(image.coverage), 400.0, 8.0);
+}
+
+TEST(GlyphImage, nothing_to_draw_is_a_dark_box_and_too_much_is_empty) {
+    const GlyphSetting blank{em_units, em_units, em_units, {{em_units, 0}}, {}};
+    const GlyphImage image = glyph_image(runs_with(blank), square(), blank, 10.0);
+    EXPECT_EQ(image.coverage.width, 10);
+    EXPECT_EQ(light(image.coverage), 0.0);
+    const GlyphSetting endless = line_of({0}, glyph_limits::most_side);
+    EXPECT_TRUE(glyph_image(runs_with(endless), square(), endless, 500.0).coverage.texels.empty());
+}
+
+TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they_begin) {
+    const GlyphSetting wide = line_of({0, em_units}, 2 * em_units);
+    const GlyphSetting narrow = line_of({0}, em_units / 2);
+    GlyphRuns runs = runs_with(wide);
+    runs.texts[0].settings.push_back(narrow);
+    const GlyphText title{"title", TextDirection::RightToLeft, {narrow}};
+    const double em_m = 2.0 * least_caption_em_m;
+    const double texels_per_m = 40.0 / em_m;
+    const CaptionImage both = make_caption(runs, square(), &title, &runs.texts[0], em_m, 0.3, texels_per_m);
+    // A title of 1.35 em to the right above a text of 40 pixels an em, with 0.3 em between them.
+    EXPECT_EQ(both.coverage.width, 80);
+    EXPECT_EQ(both.coverage.height, 54 + 12 + 40);
+    EXPECT_NEAR(both.size_m.x, 80.0 / texels_per_m, 1e-12);
+    EXPECT_EQ(both.coverage.at(80 - 14, 27), 255);
+    EXPECT_EQ(both.coverage.at(14, 27), 0);
+    EXPECT_EQ(both.coverage.at(10, 54 + 12 + 20), 204) << "the text is a little behind the title";
+    const CaptionImage less =
+        make_caption(runs, square(), nullptr, &runs.texts[0], em_m, 1.5 * em_m, texels_per_m);
+    EXPECT_EQ(less.coverage.width, 20) << "the setting that fits";
+    const CaptionImage none = make_caption(runs, square(), nullptr, nullptr, em_m, 0.3, texels_per_m);
+    EXPECT_EQ(none.coverage.texels.size(), 1U);
+}

@@ -1,0 +1,22 @@
+// A museum's own words: refused in one line, or each is a known key with a text that can be shaped.
+#include "assets_baked/texts/check_text.h"
+#include "assets_baked/texts/words.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <algorithm>
+
+using namespace frustumscreen;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto words = parse_words(fuzz::text_of(data, size), "words/xx.toml");
+    if (!words) {
+        fuzz::require_one_line(words.error().message);
+        return 0;
+    }
+    for (const auto& [key, text] : *words) {
+        fuzz::require(std::find(word_keys().begin(), word_keys().end(), key) != word_keys().end(),
+                      "a key is known", key);
+        fuzz::require(!text.empty() && check_shaped_text(text).has_value(), "a text can be shaped", text);
+    }
+    return 0;
+}

@@ -1,0 +1,199 @@
+// Recordings: what is refused, and how loud the speech is that comes out.
+#include "assets_baked/texts/level_speech.h"
+#include "tests/texts/wav_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace frustumscreen;
+using namespace frustumscreen::testing;
+
+namespace {
+
+std::string refusal(const Bytes& bytes) {
+    const Result<Recording> recording = read_recording(bytes, RecordingSource::File);
+    return recording ? std::string() : recording.error().message;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+Result<Speech> speech_of(const std::vector<double>& samples, std::uint32_t rate_hz = 48000) {
+    const Result<Recording> recording = read_recording(wav16(samples, rate_hz), RecordingSource::File);
+    EXPECT_TRUE(recording) << recording.error().message;
+    return level_speech(*recording);
+}
+
+std::vector<float> decoded(const Speech& speech) {
+    const Result<Recording> recording = read_recording(speech.opus, RecordingSource::File);
+    EXPECT_TRUE(recording) << recording.error().message;
+    EXPECT_EQ(recording->rate_hz, 48000);
+    return recording->samples;
+}
+
+/// Root mean square of the middle half, in dB below full scale.
+double middle_level_db(const std::vector<float>& samples) {
+    double squares = 0.0;
+    for (std::size_t k = samples.size() / 4; k < samples.size() * 3 / 4; ++k) {
+        squares += static_cast<double>(samples[k]) * static_cast<double>(samples[k]);
+    }
+    return 10.0 * std::log10(squares / (static_cast<double>(samples.size()) / 2.0));
+}
+
+} // namespace
+
+TEST(Recording, a_wav_file_comes_back_sample_by_sample) {
+    const std::vector<double> samples = sine(0.5, 0.2);
+    const Result<Recording> recording = read_recording(wav16(samples), RecordingSource::File);
+    ASSERT_TRUE(recording) << recording.error().message;
+    ASSERT_EQ(recording->samples.size(), samples.size());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        EXPECT_NEAR(recording->samples[k], samples[k], 1e-4);
+    }
+}
+
+TEST(Recording, two_channels_are_averaged) {
+    Bytes sound;
+    for (int k = 0; k < 100; ++k) {
+        append(sound, std::int16_t{16384});
+        append(sound, std::int16_t{-8192});
+    }
+    WavHeader header;
+    header.channels = 2;
+    const Result<Recording> recording = read_recording(wav(header, sound), RecordingSource::File);
+    ASSERT_TRUE(recording) << recording.error().message;
+    EXPECT_EQ(recording->samples, std::vector<float>(100, 0.125F));
+}
+
+TEST(Recording, what_is_none_is_refused_in_a_sentence) {
+    EXPECT_TRUE(contains(refusal({}), "this is no recording that can be read"));
+    const std::string text = "The white block is found.";
+    const std::span<const std::byte> as = as_bytes(text);
+    EXPECT_TRUE(contains(refusal({as.begin(), as.end()}), "this is no recording that can be read"));
+}
+
+TEST(Recording, rates_and_channels_that_no_speech_has_are_refused) {
+    const Bytes sound(19200, std::byte{1});
+    WavHeader header;
+    for (const std::uint32_t rate_hz : {0U, 1U, 4000U, 192000U, 0xffffffffU}) {
+        header.rate_hz = rate_hz;
+        EXPECT_FALSE(refusal(wav(header, sound)).empty()) << rate_hz;
+    }
+    header.rate_hz = 192000;
+    EXPECT_EQ(refusal(wav(header, sound)),
+              "the recording has 192000 samples a second; allowed are 8000 to 96000: convert it to 48000");
+    header.rate_hz = 48000;
+    header.channels = 32;
+    EXPECT_EQ(refusal(wav(header, sound)), "the recording has 32 channels; allowed are 1 and 2: mix it down");
+    header.channels = 0;
+    EXPECT_FALSE(refusal(wav(header, sound)).empty());
+}
+
+TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
+    WavHeader header;
+    header.claimed_bytes = 0xfffffff0U;
+    const Bytes bomb = wav(header, Bytes(1000, std::byte{1}));
+    EXPECT_EQ(refusal(bomb),
+              "the recording is cut off: 4294966280 bytes of its sound are missing; copy it again");
+    const Result<Recording> stream = read_recording(bomb, RecordingSource::Stream);
+    ASSERT_TRUE(stream) << "a program that writes into a pipe does not know the length before; "
+                        << stream.error().message;
+    EXPECT_EQ(stream->samples.size(), 500U);
+}
+
+TEST(Recording, without_sound_with_too_much_or_with_no_numbers_it_is_refused) {
+    EXPECT_EQ(refusal(wav({}, {})), "the recording has no sound at all; record it again");
+    WavHeader slow;
+    slow.rate_hz = 8000;
+    slow.bits = 8;
+    EXPECT_EQ(refusal(wav(slow, Bytes(8000 * 181, std::byte{1}))),
+              "the recording is longer than 180 s; allowed is that: shorten it");
+    WavHeader floating;
+    floating.format = 3;
+    floating.bits = 32;
+    Bytes sound;
+    append(sound, 0.5F);
+    append(sound, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(refusal(wav(floating, sound)),
+              "the recording has samples that are no numbers; save it again as 16 or 24 bit");
+}
+
+// ITU-R BS.1770-4, annex 1: a sine of 997 Hz at full scale in one channel has -3.01 LUFS, so one of -23 LUFS has an amplitude
+// of -19.99 dB and a root mean square of -23.0 dB.
+TEST(LevelSpeech, a_sine_of_any_level_comes_out_at_minus_23_lufs) {
+    for (const double amplitude : {0.003, 0.05, 0.9}) {
+        const Result<Speech> speech = speech_of(sine(amplitude, 3.0));
+        ASSERT_TRUE(speech) << speech.error().message;
+        EXPECT_NEAR(middle_level_db(decoded(*speech)), -23.0, 0.3) << amplitude;
+        EXPECT_NEAR(speech->loudness.lufs, -23.0, 0.3) << amplitude;
+    }
+}
+
+TEST(LevelSpeech, the_meter_reads_what_bs_1770_says_of_a_sine) {
+    std::vector<float> samples;
+    for (const double sample : sine(1.0, 5.0)) {
+        samples.push_back(static_cast<float>(sample));
+    }
+    EXPECT_NEAR(loudness_of(samples).lufs, -3.01, 0.05);
+    EXPECT_NEAR(loudness_of(samples).true_peak_db, 0.0, 0.05);
+}
+
+TEST(LevelSpeech, other_rates_keep_pitch_and_length) {
+    for (const std::uint32_t rate_hz : {8000U, 22050U, 44100U, 96000U}) {
+        const Result<Speech> speech = speech_of(sine(0.1, 2.0, 500.0, rate_hz), rate_hz);
+        ASSERT_TRUE(speech) << speech.error().message;
+        const std::vector<float> samples = decoded(*speech);
+        EXPECT_NEAR(static_cast<double>(samples.size()) / 48000.0, 2.0, 0.03) << rate_hz;
+        int crossings = 0;
+        for (std::size_t k = 24000; k < 72000; ++k) {
+            crossings += samples[k - 1] < 0.0F && samples[k] >= 0.0F ? 1 : 0;
+        }
+        EXPECT_NEAR(crossings, 500, 2) << rate_hz;
+    }
+}
+
+TEST(LevelSpeech, silence_before_and_after_is_trimmed) {
+    std::vector<double> samples(48000, 0.0);
+    const std::vector<double> tone = sine(0.2, 1.0);
+    samples.insert(samples.end(), tone.begin(), tone.end());
+    samples.resize(samples.size() + 96000, 0.0);
+    const Result<Speech> speech = speech_of(samples);
+    ASSERT_TRUE(speech) << speech.error().message;
+    EXPECT_NEAR(speech->seconds, 1.0 + 0.06 + 0.15, 0.03);
+}
+
+TEST(LevelSpeech, peaks_stay_below_minus_2_db) {
+    std::mt19937 random(7);
+    std::vector<double> clicks(96000, 0.0);
+    for (std::size_t k = 0; k < clicks.size(); k += 4800) {
+        for (std::size_t n = 0; n < 24; ++n) {
+            clicks[k + n] = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+        }
+    }
+    const Result<Speech> speech = speech_of(clicks);
+    ASSERT_TRUE(speech) << speech.error().message;
+    EXPECT_LE(speech->loudness.true_peak_db, -2.0);
+    EXPECT_LT(speech->loudness.lufs, -23.0) << "its peaks allow no more";
+    const std::vector<float> samples = decoded(*speech);
+    const float most = *std::max_element(samples.begin(), samples.end());
+    EXPECT_LE(20.0 * std::log10(static_cast<double>(most)), -2.0);
+}
+
+TEST(LevelSpeech, silence_and_a_sound_shorter_than_the_meters_block) {
+    const Result<Speech> silent = speech_of(std::vector<double>(48000, 0.00001));
+    ASSERT_FALSE(silent);
+    EXPECT_EQ(silent.error().message, "the recording is silent; record it again, louder");
+    const Result<Speech> brief = speech_of(sine(0.3, 0.2));
+    ASSERT_TRUE(brief) << brief.error().message;
+    EXPECT_NEAR(middle_level_db(decoded(*brief)), -23.0, 0.5);
+}
+
+TEST(LevelSpeech, the_same_recording_gives_the_same_bytes) {
+    const Result<Speech> one = speech_of(sine(0.3, 0.5));
+    const Result<Speech> other = speech_of(sine(0.3, 0.5));
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->opus, other->opus);
+    EXPECT_EQ(as_text(one->opus).substr(0, 4), "OggS");
+}

@@ -1,0 +1,182 @@
+// Voices: programs of somebody else, good and bad ones, and where espeak-ng may speak.
+#include "assets_baked/texts/speak_words.h"
+#include "assets_baked/texts/voice.h"
+#include "assets_baked/texts/words.h"
+#include "tests/texts/wav_bytes.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace frustumscreen;
+using namespace frustumscreen::testing;
+using namespace std::chrono_literals;
+
+namespace {
+
+class Voices : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+        ASSERT_TRUE(write_file(folder / "good.wav", wav16(sine(0.2, 0.5))));
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    /// A program of these shell commands, run in the test's folder.
+    [[nodiscard]] std::string program(const std::string& commands) const {
+        const std::filesystem::path file = folder / "voice.sh";
+        std::ofstream(file) << "#!/bin/sh\ncd '" << folder.string() << "'\n" << commands << "\n";
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+        return file.string();
+    }
+    [[nodiscard]] std::string refusal(const std::string& commands, ProgramLimits limits = {}) const {
+        const Result<Speech> speech = Voice(program(commands), limits).speak("A text.", "en");
+        return speech ? std::string() : speech.error().message;
+    }
+    [[nodiscard]] std::string text(const std::string& file) const {
+        const Result<Bytes> bytes = read_file(folder / file);
+        return bytes ? std::string(as_text(*bytes)) : std::string();
+    }
+
+    std::filesystem::path folder;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+bool has_espeak() {
+    return std::system("command -v espeak-ng >/dev/null") == 0;
+}
+
+} // namespace
+
+TEST_F(Voices, a_program_gets_the_text_and_the_language_and_its_wav_becomes_speech) {
+    const Voice voice(program("cat >heard.txt; echo \"$1 $2\" >arguments.txt; cat good.wav") +
+                      " --voice {language}");
+    const Result<Speech> speech = voice.speak("Größe: 回", "de-CH");
+    ASSERT_TRUE(speech) << speech.error().message;
+    EXPECT_EQ(text("heard.txt"), "Größe: 回");
+    EXPECT_EQ(text("arguments.txt"), "--voice de-CH\n");
+    EXPECT_NEAR(speech->seconds, 0.5, 0.2);
+}
+
+TEST_F(Voices, a_program_need_not_read_its_text) {
+    const Result<Speech> speech = Voice(program("cat good.wav")).speak(std::string(90000, 'a'), "en");
+    EXPECT_TRUE(speech) << speech.error().message;
+}
+
+TEST_F(Voices, one_that_hangs_is_ended) {
+    EXPECT_TRUE(contains(refusal("sleep 1000", {300ms, 1000}),
+                         "voice.sh: takes longer than 0.3 s for one text; it was ended"));
+    EXPECT_TRUE(contains(refusal("exec >&-; sleep 1000", {300ms, 1000}), "takes longer than 0.3 s"));
+}
+
+TEST_F(Voices, what_it_started_ends_with_it) {
+    const std::string message = refusal("sleep 1000 & echo $! >child.txt; wait", {500ms, 1000});
+    EXPECT_TRUE(contains(message, "takes longer")) << message;
+    const std::string child = text("child.txt");
+    ASSERT_FALSE(child.empty());
+    // Killed at once; until somebody collects it, it may stay in the table as a zombie.
+    const std::string state = "/proc/" + std::to_string(std::stoi(child)) + "/stat";
+    for (int tries = 0; tries < 1000; ++tries) {
+        std::ifstream stat(state);
+        std::string words;
+        std::getline(stat, words);
+        if (words.empty() || contains(words, ") Z ")) {
+            return;
+        }
+        ::usleep(10000);
+    }
+    FAIL() << "process " << child << " still runs";
+}
+
+TEST_F(Voices, one_that_writes_without_end_is_ended) {
+    EXPECT_TRUE(contains(refusal("cat /dev/zero", {30000ms, 100000}),
+                         "writes more than 100000 bytes for one text; it was ended"));
+}
+
+TEST_F(Voices, rubbish_nothing_and_silence_are_refused) {
+    EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this is no recording that can be read"));
+    EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this is no recording that can be read"));
+    ASSERT_TRUE(write_file(folder / "silent.wav", wav16(std::vector<double>(9600, 0.0))));
+    EXPECT_TRUE(contains(refusal("cat silent.wav"), "on 'A text.': the recording is silent"));
+}
+
+TEST_F(Voices, one_that_fails_is_quoted) {
+    const std::string message = refusal("echo 'no such voice' >&2; exit 3");
+    EXPECT_TRUE(contains(message, "voice.sh: ends with status 3: no such voice")) << message;
+    EXPECT_TRUE(contains(refusal("kill -SEGV $$"), "ends with signal 11"));
+    const Result<Speech> missing = Voice("/nowhere/voice").speak("A text.", "en");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(
+        missing.error().message,
+        "/nowhere/voice: cannot be started: No such file or directory; install it, or name another program");
+}
+
+TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_silent) {
+    std::filesystem::create_directories(folder / "de");
+    std::filesystem::copy(folder / "good.wav", folder / "de" / "help.wav");
+    std::vector<LanguageWords> languages(1);
+    languages[0].language = "de";
+    languages[0].words = {{"help", "Hilfe", "de"}, {"name", "Deutsch", "de"}};
+    const Result<std::vector<std::string>> silent = speak_words(languages, {folder, std::nullopt, {}});
+    ASSERT_TRUE(silent) << silent.error().message;
+    EXPECT_EQ(languages[0].sounds.size(), 1U);
+    EXPECT_TRUE(languages[0].sounds.contains("help"));
+    ASSERT_EQ(silent->size(), 1U);
+    EXPECT_EQ(
+        silent->front(),
+        "1 of 2 words in 'de' are silent, and shown all the same: there are no recordings and no voice");
+}
+
+TEST_F(Voices, a_bad_recording_is_named) {
+    std::filesystem::create_directories(folder / "de");
+    ASSERT_TRUE(write_file(folder / "de" / "help.wav", as_bytes("no sound")));
+    std::vector<LanguageWords> languages(1);
+    languages[0].language = "de";
+    languages[0].words = {{"help", "Hilfe", "de"}};
+    const Result<std::vector<std::string>> silent =
+        speak_words(languages, {folder, Voice(program("cat good.wav")), {}});
+    ASSERT_FALSE(silent);
+    EXPECT_TRUE(contains(silent.error().message, "de/help.wav: this is no recording that can be read"))
+        << silent.error().message;
+}
+
+TEST(Espeak, it_speaks_what_it_knows_all_sounds_of) {
+    if (!has_espeak()) {
+        GTEST_SKIP() << "espeak-ng is not installed";
+    }
+    const Voice espeak;
+    for (const std::string language : {"en", "de", "fr", "es", "it", "el", "hi", "zh", "ar", "he", "ja"}) {
+        const Result<std::vector<CollectedWords>> words =
+            collect_words({}, std::vector<std::string>{language});
+        ASSERT_TRUE(words) << words.error().message;
+        std::string all;
+        for (const Word& word : words->front().words) {
+            all += word.text + "\n";
+        }
+        const bool silent = language == "ar" || language == "he" || language == "ja";
+        EXPECT_EQ(espeak.why_silent(all, language).has_value(), silent)
+            << language << ": " << espeak.why_silent(all, language).value_or("");
+    }
+    EXPECT_TRUE(espeak.why_silent("שָׁלוֹם", "he")) << "it spells some of the points";
+    EXPECT_TRUE(espeak.why_silent("text", "tlh-XX-none")) << "there is no such voice";
+}
+
+TEST(Espeak, a_sentence_comes_out_as_speech) {
+    if (!has_espeak()) {
+        GTEST_SKIP() << "espeak-ng is not installed";
+    }
+    const Result<Speech> speech = Voice().speak("Well done! Now you see all of it.", "en");
+    ASSERT_TRUE(speech) << speech.error().message;
+    EXPECT_GT(speech->seconds, 1.0);
+    EXPECT_LT(speech->seconds, 5.0);
+    EXPECT_LE(speech->loudness.true_peak_db, -2.0);
+    EXPECT_LT(speech->opus.size(), 40000U);
+}

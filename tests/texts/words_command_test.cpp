@@ -1,0 +1,86 @@
+// frustumscreen-bake --words, as a person runs it.
+#include "app/pack/words_file.h"
+#include "assets_baked/texts/fonts.h"
+#include "tests/programs/program_folder.h"
+#include "tests/texts/wav_bytes.h"
+
+#include <fstream>
+
+using namespace frustumscreen;
+using namespace frustumscreen::testing;
+
+namespace {
+
+class WordsCommand : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        const Result<Fonts> fonts = Fonts::open();
+        ASSERT_TRUE(fonts) << fonts.error().message;
+        if (const Result<void> there = fonts->check("de"); !there) {
+            GTEST_SKIP() << there.error().message;
+        }
+    }
+    [[nodiscard]] Result<LanguageWords> baked(const std::string& language) const {
+        const Result<Bytes> bytes = read_file(folder / "out.fswords");
+        return bytes ? read_words(*bytes, language) : tl::unexpected<Error>(bytes.error());
+    }
+};
+
+} // namespace
+
+TEST_F(WordsCommand, the_built_in_words_are_baked_and_drawn) {
+    ASSERT_EQ(
+        run("frustumscreen-bake --words --languages de,fr -o out.fswords --preview words.png --speech none"),
+        0)
+        << text("err.txt");
+    const Result<LanguageWords> german = baked("de");
+    ASSERT_TRUE(german) << german.error().message;
+    EXPECT_EQ(german->name, "Deutsch");
+    EXPECT_NE(german->runs.find("advice.set_down"), nullptr);
+    EXPECT_TRUE(baked("fr"));
+    EXPECT_FALSE(baked("en"));
+    EXPECT_EQ(text("words.png").substr(1, 3), "PNG");
+    EXPECT_NE(text("err.txt").find("35 of 35 words in 'de' are silent"), std::string::npos);
+}
+
+TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
+    std::filesystem::create_directories(folder / "mine" / "nl");
+    std::ofstream(folder / "mine" / "nl.toml") << "name = \"Nederlands\"\nhelp = \"Verschuif het blok.\"\n";
+    ASSERT_TRUE(write_file(folder / "mine" / "nl" / "help.wav", wav16(sine(0.2, 0.4))));
+    ASSERT_TRUE(write_file(folder / "tone.wav", wav16(sine(0.2, 0.4))));
+    ASSERT_EQ(run("frustumscreen-bake --words mine --languages de,nl -o out.fswords --speech 'cat tone.wav'"),
+              0)
+        << text("err.txt");
+    const Result<LanguageWords> dutch = baked("nl");
+    ASSERT_TRUE(dutch) << dutch.error().message;
+    EXPECT_EQ(dutch->sounds.size(), dutch->words.size());
+    EXPECT_NE(text("err.txt").find("the language 'nl' has no text for"), std::string::npos);
+}
+
+TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
+    std::filesystem::create_directories(folder / "mine");
+    std::ofstream(folder / "mine" / "de.toml") << "help = \"\xf0\x9f\x98\x80\"\n";
+    EXPECT_EQ(run("frustumscreen-bake --words mine --languages de -o out.fswords --strict --speech none"), 1);
+    EXPECT_NE(text("err.txt").find("(U+1F600) in a text of the language 'de' is in no Noto typeface"),
+              std::string::npos)
+        << text("err.txt");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
+}
+
+TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
+    EXPECT_EQ(run("frustumscreen-bake --words nowhere -o out.fswords"), 1);
+    EXPECT_EQ(
+        text("err.txt"),
+        "frustumscreen-bake: nowhere: this is no folder; name one with files such as de.toml, or none for "
+        "the built-in words\n");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de -o out.fswords --speech 'sh -c false'"), 1);
+    EXPECT_NE(text("err.txt").find("sh: ends with status 1"), std::string::npos) << text("err.txt");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
+    EXPECT_EQ(run("frustumscreen-bake --words --languages ../de -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("--languages: '../de' is no language"), std::string::npos)
+        << text("err.txt");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de,de -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("'de' is named twice"), std::string::npos) << text("err.txt");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de"), 2);
+}

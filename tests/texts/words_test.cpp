@@ -1,0 +1,141 @@
+// The exhibit's own words: complete in every built-in language, and read with messages that lead to the line.
+#include "assets_baked/texts/bake_words.h"
+#include "assets_baked/texts/builtin_words.h"
+#include "assets_baked/texts/words.h"
+#include "firmware_host/base/file.h"
+#include "tests/texts/languages.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+using namespace frustumscreen;
+using frustumscreen::testing::Shaping;
+
+namespace {
+
+std::string refusal(std::string_view toml) {
+    const Result<WrittenWords> words = parse_words(toml, "words/xx.toml");
+    return words ? std::string() : words.error().message;
+}
+
+class WordsFolder : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    void write(const std::string& name, std::string_view text) const {
+        ASSERT_TRUE(write_file(folder / name, as_bytes(text)));
+    }
+    [[nodiscard]] Result<std::vector<CollectedWords>>
+    collect(const std::vector<std::string>& languages) const {
+        return collect_words(folder, languages);
+    }
+
+    std::filesystem::path folder;
+};
+
+const Word& word_of(const CollectedWords& words, std::string_view key) {
+    return *std::find_if(words.words.begin(), words.words.end(),
+                         [&](const Word& word) { return word.key == key; });
+}
+
+} // namespace
+
+TEST(BuiltinWords, eleven_languages_are_there) {
+    EXPECT_EQ(builtin_word_languages(),
+              (std::vector<std::string>{"ar", "de", "el", "en", "es", "fr", "he", "hi", "it", "ja", "zh"}));
+}
+
+TEST(BuiltinWords, every_language_has_every_word_and_no_other) {
+    for (const BuiltinWords& file : builtin_words()) {
+        const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
+        ASSERT_TRUE(words) << words.error().message;
+        for (const std::string_view key : word_keys()) {
+            EXPECT_TRUE(words->contains(key)) << file.language << ".toml lacks " << key;
+        }
+    }
+}
+
+TEST(BuiltinWords, no_two_words_of_a_language_say_the_same) {
+    for (const BuiltinWords& file : builtin_words()) {
+        const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
+        ASSERT_TRUE(words) << words.error().message;
+        std::map<std::string, std::string> key_of;
+        for (const auto& [key, text] : *words) {
+            const auto [other, first] = key_of.emplace(text, key);
+            EXPECT_TRUE(first) << file.language << ": " << key << " and " << other->second << " are both '"
+                               << text << "'";
+        }
+    }
+}
+
+TEST(ParseWords, messages_name_file_line_and_key) {
+    EXPECT_EQ(refusal("name = \"X\"\n[advice]\nslide_lefft = \"a\"\n"),
+              "words/xx.toml:3: there is no word 'advice.slide_lefft'; the nearest one is advice.slide_left");
+    EXPECT_EQ(refusal("name = \"X\"\nhelp = 3\n"),
+              "words/xx.toml:2: help is no text; write it between quotation marks");
+    EXPECT_EQ(refusal("help = \"\"\n"), "words/xx.toml:1: help has 0 bytes; allowed are 1 to 1000: leave the "
+                                        "key out to use the built-in text");
+    EXPECT_EQ(refusal("help = \"a\\tb\"\n"),
+              "words/xx.toml:1: help: line 1, letter 2: U+0009 is a control character; delete it, or "
+              "use a line break");
+    EXPECT_NE(refusal("help = \"a\nname").find("words/xx.toml:1: is not TOML"), std::string::npos);
+    EXPECT_NE(refusal(std::string(2U << 20, '#')), "");
+    EXPECT_NE(refusal(std::string(9000, '.')), "");
+}
+
+TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
+    write("de.toml", "attract_line = \"Kommen Sie näher.\"\n");
+    const auto collected = collect({"en", "de"});
+    ASSERT_TRUE(collected) << collected.error().message;
+    EXPECT_EQ(word_of((*collected)[1], "attract_line").text, "Kommen Sie näher.");
+    EXPECT_EQ(word_of((*collected)[1], "name").text, "Deutsch");
+    EXPECT_TRUE((*collected)[1].notes.empty());
+}
+
+TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so) {
+    write("nl.toml", "name = \"Nederlands\"\nhelp = \"Verschuif het blok.\"\n");
+    const auto collected = collect({"de", "nl"});
+    ASSERT_TRUE(collected) << collected.error().message;
+    const Word& word = word_of((*collected)[1], "advice.set_down");
+    EXPECT_EQ(word.text, "Bitte stellen Sie den Block auf den Tisch.");
+    EXPECT_EQ(word.language, "de");
+    EXPECT_EQ(word_of((*collected)[1], "help").language, "nl");
+    EXPECT_EQ((*collected)[1].words.size(), word_keys().size());
+    ASSERT_EQ((*collected)[1].notes.size(), 1U);
+    EXPECT_EQ(
+        (*collected)[1].notes[0],
+        "the language 'nl' has no text for attract_line, choose_by_sliding, advice.slide_left, "
+        "advice.slide_left_a_little, advice.slide_right and 28 more; there the exhibit speaks 'de': write "
+        "them into nl.toml");
+}
+
+TEST_F(WordsFolder, a_language_without_words_is_refused) {
+    const auto collected = collect({"en", "nl"});
+    ASSERT_FALSE(collected);
+    EXPECT_NE(collected.error().message.find("there are no words in 'nl'; write nl.toml"), std::string::npos);
+    const auto house = collect({"nl", "en"});
+    ASSERT_FALSE(house);
+    EXPECT_NE(house.error().message.find("the house's language 'nl' has no text for name"),
+              std::string::npos);
+}
+
+TEST_F(Shaping, every_built_in_word_is_set_whole_at_every_width) {
+    for (const std::string& language : builtin_word_languages()) {
+        if (!has(language)) {
+            continue;
+        }
+        const Result<std::vector<CollectedWords>> collected =
+            collect_words({}, std::vector<std::string>{language});
+        ASSERT_TRUE(collected) << collected.error().message;
+        const Result<BakedWords> baked = bake_words(*collected, *shaper);
+        ASSERT_TRUE(baked) << baked.error().message;
+        EXPECT_TRUE(baked->notes.empty()) << baked->notes[0];
+        for (const GlyphText& text : baked->languages[0].runs.texts) {
+            EXPECT_EQ(text.settings.size(), caption_widths_em.size()) << language << ": " << text.key;
+        }
+    }
+}
