@@ -290,7 +290,7 @@ Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m) {
 std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now, const TablePolygon& shadow,
                                      std::span<const glm::dvec2> room, int quarter_turns) {
     const Move& move = guidance.move;
-    if (guidance.stage == Stage::Quiet || move.action == Action::Wait || room.empty()) {
+    if (guidance.stage == GuidanceStage::Quiet || move.action == Action::Wait || room.empty()) {
         return std::nullopt;
     }
     const double since_s = to_seconds(now - guidance.since);

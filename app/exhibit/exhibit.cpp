@@ -122,7 +122,7 @@ void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& 
     const Guidance& guidance = guide_->step(now, guided, Sensing::Good, false);
     const std::optional<TablePolygon> shadow =
         hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m);
-    if (shadow && guidance.stage != Stage::Quiet) {
+    if (shadow && guidance.stage != GuidanceStage::Quiet) {
         presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
     }
 }

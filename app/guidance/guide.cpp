@@ -49,9 +49,9 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
         guidance_.steps = advice ? advice->steps : 1;
     }
     const double left = effort_left(guidance_.move);
-    if (guidance_.stage == Stage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
+    if (guidance_.stage == GuidanceStage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
         // Another advice begins as a picture, however far the one before had come.
-        guidance_.stage = Stage::Picture;
+        guidance_.stage = GuidanceStage::Picture;
         guidance_.since = now;
         stage_since_ = now;
         nearest_effort_ = left;
@@ -66,18 +66,18 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
 
 void Guide::raise_stage(MonotonicTime now, bool may_speak) {
     guidance_.speak = false;
-    if (guidance_.stage == Stage::Picture && now - stage_since_ >= until_text) {
-        guidance_.stage = Stage::Text;
+    if (guidance_.stage == GuidanceStage::Picture && now - stage_since_ >= until_text) {
+        guidance_.stage = GuidanceStage::Text;
         stage_since_ = now;
     }
     if (!may_speak) {
         return;
     }
-    const bool first = guidance_.stage == Stage::Text && now - stage_since_ >= until_voice;
-    const bool again = guidance_.stage == Stage::Voice && now - stage_since_ >= pause_;
+    const bool first = guidance_.stage == GuidanceStage::Text && now - stage_since_ >= until_voice;
+    const bool again = guidance_.stage == GuidanceStage::Voice && now - stage_since_ >= pause_;
     if ((first || again) && (!spoken_ || now - *spoken_ >= pause_)) {
         pause_ = spoken_ ? std::min(2 * pause_, longest_pause) : pause_;
-        guidance_.stage = Stage::Voice;
+        guidance_.stage = GuidanceStage::Voice;
         guidance_.speak = true;
         spoken_ = now;
         stage_since_ = now;

@@ -22,10 +22,10 @@ namespace frustumscreen {
 /// How well the tracker knows the prop and the visitor.
 enum class Sensing : std::uint8_t { Good, PropLost, HeadLost };
 
-enum class Stage : std::uint8_t { Quiet, Picture, Text, Voice };
+enum class GuidanceStage : std::uint8_t { Quiet, Picture, Text, Voice };
 
 struct Guidance {
-    Stage stage = Stage::Quiet;
+    GuidanceStage stage = GuidanceStage::Quiet;
     Move move; ///< of what is advised; Wait if only `sensing` says why
     int steps = 0;
     Sensing sensing = Sensing::Good;

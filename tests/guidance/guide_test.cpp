@@ -36,22 +36,22 @@ protected:
     Guide guide_{frustum_setup()};
     Nanoseconds time_{0};
     int spoken_ = 0;
-    std::set<Stage> stages_;
+    std::set<GuidanceStage> stages_;
 };
 
 TEST_F(GuideTest, IsQuietWhileEverythingIsLit) {
-    EXPECT_EQ(at(seconds(30), good).stage, Stage::Quiet);
-    EXPECT_EQ(stages_, std::set<Stage>{Stage::Quiet});
+    EXPECT_EQ(at(seconds(30), good).stage, GuidanceStage::Quiet);
+    EXPECT_EQ(stages_, std::set<GuidanceStage>{GuidanceStage::Quiet});
 }
 
 TEST_F(GuideTest, GoesFromPictureToTextToVoice) {
     at(seconds(1), good);
-    EXPECT_EQ(at(milliseconds(1380), right_of_the_beam).stage, Stage::Quiet);
-    EXPECT_EQ(at(milliseconds(1500), right_of_the_beam).stage, Stage::Picture);
-    EXPECT_EQ(at(milliseconds(2800), right_of_the_beam).stage, Stage::Picture);
-    EXPECT_EQ(at(milliseconds(3200), right_of_the_beam).stage, Stage::Text);
+    EXPECT_EQ(at(milliseconds(1380), right_of_the_beam).stage, GuidanceStage::Quiet);
+    EXPECT_EQ(at(milliseconds(1500), right_of_the_beam).stage, GuidanceStage::Picture);
+    EXPECT_EQ(at(milliseconds(2800), right_of_the_beam).stage, GuidanceStage::Picture);
+    EXPECT_EQ(at(milliseconds(3200), right_of_the_beam).stage, GuidanceStage::Text);
     EXPECT_EQ(spoken_, 0);
-    EXPECT_EQ(at(milliseconds(6600), right_of_the_beam).stage, Stage::Voice);
+    EXPECT_EQ(at(milliseconds(6600), right_of_the_beam).stage, GuidanceStage::Voice);
     EXPECT_EQ(spoken_, 1);
     EXPECT_EQ(
         words_key(guide_.step(MonotonicTime(milliseconds(6600)), right_of_the_beam, Sensing::Good, true)),
@@ -62,12 +62,12 @@ TEST_F(GuideTest, ForgetsWhatLastsAMoment) {
     at(seconds(1), good);
     at(milliseconds(1300), right_of_the_beam);
     at(seconds(5), good);
-    EXPECT_EQ(stages_, std::set<Stage>{Stage::Quiet});
+    EXPECT_EQ(stages_, std::set<GuidanceStage>{GuidanceStage::Quiet});
 }
 
 TEST_F(GuideTest, IsQuietAtOnceWhenTheVisitorHasManaged) {
     at(seconds(10), right_of_the_beam);
-    EXPECT_EQ(at(seconds(10), good).stage, Stage::Quiet);
+    EXPECT_EQ(at(seconds(10), good).stage, GuidanceStage::Quiet);
 }
 
 TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
@@ -81,7 +81,7 @@ TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
 TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
     at(seconds(60), right_of_the_beam, Sensing::Good, false);
     EXPECT_EQ(spoken_, 0);
-    EXPECT_EQ(stages_.count(Stage::Text), 1U); // but it shows
+    EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it shows
 }
 
 TEST_F(GuideTest, WaitsWhileItIsFollowed) {
@@ -89,13 +89,13 @@ TEST_F(GuideTest, WaitsWhileItIsFollowed) {
     for (int k = 0; k < 8; ++k) {
         at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
     }
-    EXPECT_EQ(stages_.count(Stage::Voice), 0U);
+    EXPECT_EQ(stages_.count(GuidanceStage::Voice), 0U);
 }
 
 TEST_F(GuideTest, SaysWhatIsMissing) {
     EXPECT_EQ(words_key(at(seconds(3), good, Sensing::PropLost)), "uncover");
     EXPECT_EQ(words_key(at(seconds(6), good, Sensing::HeadLost)), "show_your_head");
-    EXPECT_EQ(at(seconds(7), good).stage, Stage::Quiet);
+    EXPECT_EQ(at(seconds(7), good).stage, GuidanceStage::Quiet);
 }
 
 TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {
@@ -109,7 +109,7 @@ TEST(AdviceWords, AreInTheVisitorsDirections) {
     for (int side = 0; side < 4; ++side) {
         const glm::dquat turn = glm::angleAxis(0.5 * std::numbers::pi * side, glm::dvec3(0, 0, 1));
         Guidance guidance;
-        guidance.stage = Stage::Picture;
+        guidance.stage = GuidanceStage::Picture;
         guidance.situation.eye_m = turn * glm::dvec3(0.0, -0.6, 0.5);
         const auto key = [&](const glm::dvec3& way) {
             guidance.move = {Action::Slide, turn * way};
