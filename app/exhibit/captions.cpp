@@ -137,6 +137,14 @@ std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTra
     return hull_of(std::span(points).first(count));
 }
 
+TablePolygon hull_of(const TablePolygon& polygon, std::span<const glm::dvec2> points) {
+    std::array<glm::dvec2, 24> all{};
+    assert(polygon.count + points.size() <= all.size());
+    auto end = std::copy_n(polygon.points.begin(), polygon.count, all.begin());
+    end = std::copy(points.begin(), points.end(), end);
+    return hull_of(std::span(all.begin(), end));
+}
+
 double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     if (a.empty() || b.empty()) {
         return std::numeric_limits<double>::infinity();

@@ -51,6 +51,9 @@ struct TableRectangle {
 [[nodiscard]] std::optional<TablePolygon>
 hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop, const glm::dvec3& from_m);
 
+/// The smallest convex polygon around both.
+[[nodiscard]] TablePolygon hull_of(const TablePolygon& polygon, std::span<const glm::dvec2> points);
+
 /// Distance between two convex shapes; 0 if they touch or overlap.
 [[nodiscard]] double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b);
 

@@ -2,6 +2,7 @@
 
 #include "app/exhibit/languages.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
@@ -31,7 +32,11 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      placer_(place.picture_m) {}
+      advice_placer_(place.picture_m), placer_(place.picture_m) {
+    for (const AdviceLanguage& language : place_.words) {
+        word_languages_.push_back(language.language);
+    }
+}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
     if (staff_until_ && now >= *staff_until_) {
@@ -51,10 +56,14 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.artifact = shown.artifact;
     presentation.brightness = shown.brightness * stand.brightness;
     presentation.language = language_of(shown.artifact);
+    guide(now, situation, stand, !commands.empty(), presentation);
     presentation.caption = caption(now, shown, situation, stand);
+    if (presentation.caption && presentation.advice) {
+        // One text at a time, or the two would lie on each other.
+        presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
+    }
     presentation.zone_share =
         stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
-    guide(now, situation, stand, !commands.empty(), presentation);
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -112,19 +121,65 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
 }
 
+/// The sentence in the visitor's language, once it is more than a sign.
+std::optional<WordIndex> Exhibit::word_of(const Guidance& guidance) const {
+    if (place_.words.empty() || guidance.stage < GuidanceStage::Text) {
+        return std::nullopt;
+    }
+    const std::size_t language = caption_for(selection_.language(), word_languages_);
+    const std::vector<AdviceText>& texts = place_.words[language].texts;
+    const std::string_view key = words_key(guidance);
+    const auto found =
+        std::find_if(texts.begin(), texts.end(), [&](const AdviceText& text) { return text.key == key; });
+    return found != texts.end()
+               ? std::optional(WordIndex{language, static_cast<std::size_t>(found - texts.begin())})
+               : std::nullopt;
+}
+
+void Exhibit::place_advice(MonotonicTime now, const std::optional<WordIndex>& word,
+                           const TablePolygon& around, const Situation& situation,
+                           Presentation& presentation) {
+    if (word != advice_) {
+        advice_ = word;
+        advice_placer_.set_shapes(
+            word ? std::span<const glm::dvec2>(place_.words[word->language].texts[word->text].sizes_m)
+                 : std::span<const glm::dvec2>());
+    }
+    if (!word) {
+        return;
+    }
+    advice_placer_.update(now, around,
+                          hidden_by_prop(place_.prop, situation.table_from_prop, situation.eye_m),
+                          glm::dvec2(situation.table_from_prop.translation), side_.quarter_turns());
+    const CaptionPlace place = advice_placer_.at(now);
+    if (place.opacity > 0.0) {
+        presentation.advice = {*word, place.shape, place.rectangle, place.opacity};
+    }
+}
+
 void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
                     Presentation& presentation) {
     const bool there = presence_.update(now, situation, pressed);
-    if (!guide_ || !there || stand.attracts || !situation.prop_known) {
-        return;
+    const bool was_advised = std::exchange(advised_, false);
+    if (guide_ && there && !stand.attracts && situation.prop_known) {
+        const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
+        const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
+        const std::optional<TablePolygon> shadow =
+            hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m);
+        if (shadow && guidance.stage != GuidanceStage::Quiet) {
+            advised_ = true;
+            presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
+            const TablePolygon around =
+                presentation.sign ? hull_of(*shadow, presentation.sign->corners_m) : *shadow;
+            const std::optional<WordIndex> word = word_of(guidance);
+            place_advice(now, word, around, situation, presentation);
+            presentation.says = guidance.speak ? word : std::nullopt;
+        }
     }
-    const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
-    const Guidance& guidance = guide_->step(now, guided, Sensing::Good, false);
-    const std::optional<TablePolygon> shadow =
-        hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m);
-    if (shadow && guidance.stage != GuidanceStage::Quiet) {
-        presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
+    if (!advised_) {
+        place_advice(now, std::nullopt, {}, situation, presentation);
     }
+    presentation.falls_silent = was_advised && !advised_;
 }
 
 /// The language of the artifact's caption; without captions the chosen one.

@@ -44,6 +44,16 @@ struct CatalogueEntry {
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
+/// A sentence of the exhibit's own words.
+struct AdviceText {
+    std::string key;                 ///< as words_key gives it
+    std::vector<glm::dvec2> sizes_m; ///< as CatalogueEntry::caption_sizes_m
+};
+struct AdviceLanguage {
+    std::string language; ///< BCP 47
+    std::vector<AdviceText> texts;
+};
+
 /// The exhibit's place: prop, projector and table.
 struct ExhibitPlace {
     PropShape prop;
@@ -53,6 +63,7 @@ struct ExhibitPlace {
     glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
     std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
+    std::vector<AdviceLanguage> words;            ///< none: guidance has no words
 };
 
 struct PresentedCaption {
@@ -62,12 +73,28 @@ struct PresentedCaption {
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
 
+/// One of ExhibitPlace::words.
+struct WordIndex {
+    std::size_t language = 0;
+    std::size_t text = 0;
+    [[nodiscard]] bool operator==(const WordIndex&) const = default;
+};
+struct PresentedAdvice {
+    WordIndex word;
+    std::size_t shape = 0; ///< index into its sizes
+    TableRectangle rectangle;
+    double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
+};
+
 struct Presentation {
     std::size_t artifact = 0;  ///< index into the catalogue
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign; ///< what the visitor should do
+    std::optional<PlacedSign> sign;        ///< what the visitor should do
+    std::optional<PresentedAdvice> advice; ///< the same in words
+    std::optional<WordIndex> says;         ///< what begins to be spoken at this step
+    bool falls_silent = false;             ///< nothing more need be said
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -86,6 +113,8 @@ public:
     /// `commands`: those since the step before, in their order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
                                     const Situation& situation);
+    /// Whether something is being said: then nothing else begins to be.
+    void hear(bool speaking) { speaking_ = speaking; }
     /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { staff_until_.reset(); }
 
@@ -95,6 +124,10 @@ private:
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
+    [[nodiscard]] std::optional<WordIndex> word_of(const Guidance& guidance) const;
+    /// `around`: the shadow, and the sign beside it.
+    void place_advice(MonotonicTime now, const std::optional<WordIndex>& word, const TablePolygon& around,
+                      const Situation& situation, Presentation& presentation);
     void guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
                Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
@@ -104,8 +137,13 @@ private:
     Selection selection_;
     std::optional<Attract> attract_; ///< from the first step on
     std::optional<Guide> guide_;
-    Presence presence_; ///< guidance is for somebody who is there
-    VisitorSide side_;  ///< what lies on the table is turned to it
+    std::vector<std::string> word_languages_;
+    CaptionPlacer advice_placer_;
+    std::optional<WordIndex> advice_; ///< that the placer has
+    bool speaking_ = false;
+    bool advised_ = false; ///< at the step before
+    Presence presence_;    ///< guidance is for somebody who is there
+    VisitorSide side_;     ///< what lies on the table is turned to it
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.

@@ -21,6 +21,8 @@ namespace {
 /// Widths that a caption is wrapped to, in falling preference.
 constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 constexpr double warm_up_step_m = 0.01;
+/// Type size of what a visitor should do, in those of a caption.
+constexpr double advice_em = 1.5;
 
 template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
     Catalogue catalogue;
@@ -243,6 +245,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
+    show->load_words(settings, devices);
     if (settings.exhibit.captions && !loader.languages.empty() &&
         !has_language(loader.languages, settings.exhibit.language)) {
         const std::vector<std::string>& shown = show->artifacts_.front().languages;
@@ -313,6 +316,47 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
     return {};
 }
 
+void ArtifactShow::load_words(const Settings& settings, const DevicePlan& devices) {
+    if (!settings.exhibit.guidance || settings.exhibit.words.empty()) {
+        return;
+    }
+    AdviceWordsRequest request{settings.exhibit.words,
+                               {settings.exhibit.language},
+                               advice_em * settings.exhibit.caption_height_m,
+                               projector_.fx / table_from_projector_.translation.z,
+                               settings.sound.kind != SoundKind::None};
+    for (const Artifact& artifact : artifacts_) {
+        if (devices.language) {
+            request.languages.insert(request.languages.end(), artifact.languages.begin(),
+                                     artifact.languages.end());
+        }
+    }
+    Result<AdviceWords> words = load_advice_words(request, renderer_.store());
+    if (!words) {
+        notes_.push_back("guidance shows signs without words: " + words.error().message);
+        return;
+    }
+    words_ = std::move(*words);
+    notes_.insert(notes_.end(), words_.notes.begin(), words_.notes.end());
+}
+
+bool ArtifactShow::speaks() const {
+    return std::any_of(words_.words.begin(), words_.words.end(), [](const std::vector<AdviceWord>& language) {
+        return std::any_of(language.begin(), language.end(),
+                           [](const AdviceWord& word) { return word.prompt != nullptr; });
+    });
+}
+
+std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
+    if (!presentation.advice) {
+        return std::nullopt;
+    }
+    const PresentedAdvice& advice = *presentation.advice;
+    const AdviceWord& word = words_.words[advice.word.language][advice.word.text];
+    return TablePicture{picture_corners(on_pixels(advice.rectangle, projector_, table_from_projector_)),
+                        caption_brightness_ * advice.brightness, word.textures[advice.shape]};
+}
+
 std::span<const TablePicture> ArtifactShow::place_signs(const Presentation& presentation) {
     std::size_t count = 0;
     const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
@@ -328,6 +372,9 @@ std::span<const TablePicture> ArtifactShow::place_signs(const Presentation& pres
                        [](const glm::dvec2& corner) { return glm::dvec3(corner, 0.0); });
         picture.brightness = caption_brightness_ * sign.brightness;
         picture.texture = signs_.at(static_cast<std::size_t>(sign.sign));
+    }
+    if (const std::optional<TablePicture> advice = place_advice(presentation)) {
+        lines_.at(count++) = *advice;
     }
     return std::span(lines_).first(count);
 }
@@ -364,7 +411,7 @@ ShowUse ArtifactShow::use() const {
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    use.planned_gpu_bytes += planned_sign_bytes_;
+    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
@@ -408,7 +455,8 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
     return {artifacts.catalogue(),
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
              artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
-             settings.exhibit.guidance ? std::optional(guidance_setup(settings)) : std::nullopt},
+             settings.exhibit.guidance ? std::optional(guidance_setup(settings)) : std::nullopt,
+             artifacts.words()},
             settings.exhibit.language,
             now};
 }

@@ -11,6 +11,7 @@
 #include "app/scene/frame_plan.h"
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
+#include "app/show/advice_words.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
 #include "firmware_host/base/result.h"
@@ -61,6 +62,12 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(const Presentation& presentation) const override;
+    [[nodiscard]] SharedPrompt prompt(const WordIndex& word) const override {
+        return words_.words[word.language][word.text].prompt;
+    }
+    [[nodiscard]] bool speaks() const override;
+    /// The exhibit's own words that it has.
+    [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return words_.languages; }
 
     [[nodiscard]] ShowUse use() const;
     /// Sentences about what a person may not have meant.
@@ -92,6 +99,9 @@ private:
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
     [[nodiscard]] Result<void> upload_signs(const Settings& settings);
+    /// Without its words the exhibit shows signs alone, and a note says why.
+    void load_words(const Settings& settings, const DevicePlan& devices);
+    [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
     /// The frame around the prop's zone and the sign of the guidance; none if they are dark.
     [[nodiscard]] std::span<const TablePicture> place_signs(const Presentation& presentation);
     /// Nothing if none is shown.
@@ -112,6 +122,7 @@ private:
     TextureId white_ = TextureId::None;         ///< one texel: what the frame is drawn with
     std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
     std::uint64_t planned_sign_bytes_ = 0;
+    AdviceWords words_;
     std::array<TablePicture, most_lines> lines_{};
     std::size_t on_ = 0; ///< the artifact that is on
 };

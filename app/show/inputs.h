@@ -1,4 +1,4 @@
-/// What the live exhibit listens to: a tracker and a panel, whichever they are.
+/// What the live exhibit listens to and speaks through: a tracker, a panel, a sound, whichever they are.
 ///
 /// Threads  the render thread's; a device's own thread is behind its interface.
 #pragma once
@@ -6,6 +6,7 @@
 #include "app/tracking/registered_tracker.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/panel/panel.h"
+#include "firmware_host/sound/sound.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
 #include <memory>
@@ -17,6 +18,7 @@ struct Inputs {
     Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or nobody asked for it
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
     std::unique_ptr<Panel> panel;               ///< none: nothing is pressed
+    std::unique_ptr<Sound> sound;               ///< none: there is nothing to say
 };
 
 } // namespace frustumscreen

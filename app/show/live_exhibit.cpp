@@ -32,9 +32,30 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
 
 } // namespace
 
+Volume volume_of(const SoundSettings& settings) {
+    Volume volume{settings.gain_db, {}};
+    for (const SoundHour& hour : settings.hours) {
+        volume.hours.push_back({hour.from_h, hour.gain_db});
+    }
+    return volume;
+}
+
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     presentation_ = exhibit_.step(now, commands, on_table);
     follow_staff_mode();
+    speak();
+}
+
+/// What was said is left at the next pause once the visitor has managed.
+void LiveExhibit::speak() {
+    if (presentation_.falls_silent || presentation_.staff) {
+        wish_.leave();
+    }
+    if (presentation_.says && !presentation_.staff) {
+        if (SharedPrompt prompt = stage_->prompt(*presentation_.says)) {
+            wish_.say(std::move(prompt));
+        }
+    }
 }
 
 void LiveExhibit::follow_staff_mode() {
@@ -59,6 +80,7 @@ void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
         pattern_->set_lines(lines_of(status, driver_));
     }
+    wish_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }
 
 DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,

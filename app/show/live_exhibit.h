@@ -11,6 +11,7 @@
 #include "app/settings/settings.h"
 #include "app/show/pattern_show.h"
 #include "app/show/show.h"
+#include "firmware_host/sound/volume.h"
 
 #include <memory>
 #include <optional>
@@ -19,12 +20,14 @@
 
 namespace frustumscreen {
 
+[[nodiscard]] Volume volume_of(const SoundSettings& settings);
+
 class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
     LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver)
         : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)),
-          exhibit_(std::move(exhibit)) {}
+          exhibit_(std::move(exhibit)), volume_(volume_of(settings.sound)) {}
 
     void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
     void tell(const RunStatus& status) override;
@@ -32,15 +35,21 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override { return stage_->state(presentation_); }
+    [[nodiscard]] const SoundWish& wish() const override { return wish_; }
+    [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
+    void hear(const SoundReport& report) override { exhibit_.hear(report.number != 0); }
 
 private:
     void follow_staff_mode();
+    void speak();
 
     const Settings& settings_;
     std::unique_ptr<Stage> stage_;
     std::string driver_;
     Exhibit exhibit_;
-    Presentation presentation_;            ///< of the latest step
+    Presentation presentation_; ///< of the latest step
+    SoundWish wish_;
+    Volume volume_;
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
 };

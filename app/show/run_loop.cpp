@@ -90,6 +90,11 @@ private:
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
         show_.step(now, commands_, situation);
+        if (inputs_.sound) {
+            const SoundReport heard = inputs_.sound->poll(now, show_.wish());
+            show_.hear(heard);
+            result_.status.sound_underruns = heard.underruns;
+        }
         if (std::find(commands_.begin(), commands_.end(), Command::StaffMode) != commands_.end()) {
             renew_status(now);
             show_.tell(result_.status);
@@ -233,6 +238,8 @@ private:
         status.display = Sentence(display_.state());
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
+        status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
+        status.hour_of_day = local_hour();
         status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
     }
 

@@ -134,12 +134,19 @@ std::string status_json(const RunStatus& status) {
         {"tracker", status.tracker.view()},
         {"tracker_counts", json_of(status.tracker_counts)},
         {"panel", status.panel.view()},
+        {"sound", status.sound.view()},
+        {"sound_underruns", status.sound_underruns},
         {"recording", status.recording.view()},
         {"prop_known", status.prop_known},
         {"head_known", status.head_known},
         {"uptime_s", rounded(status.uptime_s)},
         {"resident_mib", rounded(status.resident_mib)}};
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+double local_hour() {
+    const std::tm local = fmt::localtime(std::time(nullptr));
+    return local.tm_hour + local.tm_min / 60.0 + local.tm_sec / 3600.0;
 }
 
 double resident_mib() {

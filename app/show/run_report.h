@@ -101,12 +101,17 @@ struct RunStatus {
     Sentence display; ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
     Sentence panel;
+    Sentence sound;
     Sentence recording;
+    std::uint64_t sound_underruns = 0; ///< how often the loudspeaker had nothing to play
+    double hour_of_day = 12.0;         ///< local time
     bool prop_known = false;
     bool head_known = false;
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);
+/// Of this machine's place, 0 to 24.
+[[nodiscard]] double local_hour();
 /// Sets the time, the boot and this process's memory at which the status is written.
 void stamp(RunStatus& status);
 

@@ -71,7 +71,7 @@ void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inp
     if (!watchdog_) {
         return;
     }
-    std::array<MonotonicTime, 3> promises{};
+    std::array<MonotonicTime, 4> promises{};
     std::size_t count = 0;
     const auto add = [&](const auto* device) {
         if (const std::optional<MonotonicTime> until =
@@ -83,6 +83,7 @@ void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inp
     add(&display);
     add(inputs.tracker.get());
     add(inputs.panel.get());
+    add(inputs.sound.get());
     const Health health = watchdog_->health(now, std::span(promises).first(count));
     note_health(health);
     if (watchdog_->feed(now, health)) {
@@ -114,6 +115,7 @@ void RunWatch::note(const RunStatus& status) {
     note_device("display", status.display, display_);
     note_device("tracker", status.tracker, tracker_);
     note_device("panel", status.panel, panel_);
+    note_device("sound", status.sound, sound_);
     note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };

@@ -60,7 +60,7 @@ private:
     bool shown_is_readable_ = false; ///< a code was read from what the projector shows
     Health health_ = Health::Well;
     std::optional<std::uint8_t> shown_code_;
-    Sentence display_, tracker_, panel_, recording_, artifact_, language_, level_;
+    Sentence display_, tracker_, panel_, sound_, recording_, artifact_, language_, level_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above
 };
 

@@ -10,6 +10,7 @@
 #include "app/show/run_report.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
+#include "firmware_host/sound/sound.h"
 
 #include <optional>
 #include <span>
@@ -35,6 +36,15 @@ public:
     /// Decides what `draw` draws next. `commands`: those since the step before, in their order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
                       const Situation& /*on_table*/) {}
+    /// What is to be heard.
+    [[nodiscard]] virtual const SoundWish& wish() const {
+        static const SoundWish silence;
+        return silence;
+    }
+    /// Whether it ever has something to say.
+    [[nodiscard]] virtual bool speaks() const { return false; }
+    /// What is heard.
+    virtual void hear(const SoundReport& /*report*/) {}
     /// Tells how the run is: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
     /// Draws the picture for `now` where it differs from the one on the display; allocates nothing after the
@@ -58,6 +68,10 @@ public:
     /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
+    /// Whether any word can be heard.
+    [[nodiscard]] virtual bool speaks() const { return false; }
+    /// None: it is silent.
+    [[nodiscard]] virtual SharedPrompt prompt(const WordIndex& /*word*/) const { return nullptr; }
 };
 
 } // namespace frustumscreen

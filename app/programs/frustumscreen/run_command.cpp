@@ -15,6 +15,8 @@
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
+#include "firmware_host/sound/silent_sound.h"
+#include "firmware_host/sound/wav_sound.h"
 #include "firmware_host/tracker/pose_file.h"
 
 #include <CLI/CLI.hpp>
@@ -177,6 +179,17 @@ Result<Inputs> open_inputs(const Request& request, const Settings& settings, con
     return inputs;
 }
 
+/// Without a screen there is no loudspeaker either: what would be heard is kept with the pictures.
+std::unique_ptr<Sound> open_sound(const Request& request, const Settings& settings, MonotonicTime start) {
+    if (!request.headless || settings.sound.kind == SoundKind::None) {
+        return make_sound(settings.sound);
+    }
+    if (request.out.empty()) {
+        return std::make_unique<SilentSound>(start);
+    }
+    return std::make_unique<WavSound>(start);
+}
+
 /// Shows the error on the table for the staff, since nobody reads a service's standard error.
 Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
                                           const Error& why) {
@@ -281,6 +294,9 @@ Result<void> run(const Request& request) {
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
+    if ((*show)->speaks()) {
+        inputs->sound = open_sound(request, **settings, start);
+    }
     LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = nanoseconds(request.seconds);
@@ -311,6 +327,11 @@ Result<void> run(const Request& request) {
         std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call of render
         if (Result<void> written = write_pictures(request.out, *result); !written) {
             return written;
+        }
+        if (const auto* heard = dynamic_cast<const WavSound*>(inputs->sound.get())) {
+            if (Result<void> written = heard->write(request.out / "sound.wav"); !written) {
+                return written;
+            }
         }
     }
     report(request, *result);

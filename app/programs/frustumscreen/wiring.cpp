@@ -9,6 +9,8 @@
 #include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/key_lines.h"
 #include "firmware_host/panel/scripted_panel.h"
+#include "firmware_host/sound/device_sound.h"
+#include "firmware_host/sound/pcm_device.h"
 #include "firmware_host/tracker/hidapi_transport.h"
 #include "firmware_host/tracker/joined_bus.h"
 #include "firmware_host/tracker/libusb_transport.h"
@@ -168,6 +170,13 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
                                           FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
     return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
+}
+
+std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
+    if (settings.kind == SoundKind::None) {
+        return nullptr;
+    }
+    return std::make_unique<DeviceSound>([device = settings.device] { return open_alsa(device); });
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,

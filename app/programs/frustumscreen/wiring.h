@@ -29,4 +29,7 @@ namespace frustumscreen {
                                          std::optional<Nanoseconds> press_every, MonotonicTime start,
                                          std::unique_ptr<PacketRecorder> recorder = nullptr);
 
+/// None: the settings switch it off.
+[[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
+
 } // namespace frustumscreen

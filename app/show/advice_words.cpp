@@ -1,0 +1,109 @@
+#include "app/show/advice_words.h"
+
+#include "app/exhibit/caption_image.h"
+#include "app/exhibit/languages.h"
+#include "app/pack/words_file.h"
+#include "app/scene/scene_plan.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/sound/opus_reader.h"
+#include "firmware_host/sound/pauses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view advice_prefix = "advice.";
+/// Widths that a sentence is wrapped to, in falling preference: narrower than a caption, as it lies beside a sign.
+constexpr std::array<double, 2> widths_m{0.24, 0.12};
+
+/// Each language of the file that is the nearest one to some language that is shown.
+std::set<std::string> nearest(const std::vector<WordsLanguage>& listed,
+                              const std::vector<std::string>& shown) {
+    std::vector<std::string> there;
+    std::transform(listed.begin(), listed.end(), std::back_inserter(there),
+                   [](const WordsLanguage& language) { return language.language; });
+    std::set<std::string> chosen;
+    for (const std::string& language : shown) {
+        chosen.insert(there[caption_for(language, there)]);
+    }
+    return chosen;
+}
+
+SharedPrompt prompt_of(const LanguageWords& words, const std::string& key, std::vector<std::string>& notes) {
+    const auto sound = words.sounds.find(key);
+    if (sound == words.sounds.end()) {
+        return nullptr;
+    }
+    Result<Prompt> prompt = read_opus(sound->second);
+    if (!prompt) {
+        notes.push_back(fmt::format("{} of {} is silent: {}", key, words.language, prompt.error().message));
+        return nullptr;
+    }
+    prompt->marks = find_pauses(prompt->samples);
+    return std::make_shared<const Prompt>(std::move(*prompt));
+}
+
+Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& request, GpuStore& store,
+                          AdviceWords& all) {
+    AdviceLanguage language{words.language, {}};
+    std::vector<AdviceWord> made;
+    for (const PlainWord& word : words.words) {
+        const GlyphText* const set = words.runs.find(word.key);
+        if (!word.key.starts_with(advice_prefix) || set == nullptr) {
+            continue;
+        }
+        AdviceText text{word.key.substr(advice_prefix.size()), {}};
+        AdviceWord one;
+        for (const double width_m : widths_m) {
+            const CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
+                                                    width_m, request.texels_per_m);
+            const Result<TextureId> texture = store.upload(image.coverage);
+            if (!texture) {
+                return tl::unexpected<Error>(texture.error());
+            }
+            all.planned_gpu_bytes += caption_gpu_bytes(image.coverage.width, image.coverage.height);
+            text.sizes_m.push_back(image.size_m);
+            one.textures.push_back(*texture);
+        }
+        if (request.spoken) {
+            one.prompt = prompt_of(words, word.key, all.notes);
+        }
+        language.texts.push_back(std::move(text));
+        made.push_back(std::move(one));
+    }
+    all.languages.push_back(std::move(language));
+    all.words.push_back(std::move(made));
+    return {};
+}
+
+} // namespace
+
+Result<AdviceWords> load_advice_words(const AdviceWordsRequest& request, GpuStore& store) {
+    const Result<Bytes> file = read_file(request.file);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const Result<std::vector<WordsLanguage>> listed = list_words(*file);
+    if (!listed) {
+        return at(request.file.string(), listed.error());
+    }
+    AdviceWords all;
+    for (const std::string& language : nearest(*listed, request.languages)) {
+        const Result<LanguageWords> words = read_words(*file, language);
+        if (!words) {
+            return at(request.file.string(), words.error());
+        }
+        if (Result<void> added = add_language(*words, request, store, all); !added) {
+            return tl::unexpected<Error>(added.error());
+        }
+    }
+    return all;
+}
+
+} // namespace frustumscreen
