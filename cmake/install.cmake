@@ -14,6 +14,7 @@ install(FILES systemd/frustumscreen.tmpfiles
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/kiosk.toml)
 file(READ ${CMAKE_SOURCE_DIR}/config/kiosk.toml kiosk_settings)
 string(REPLACE "../out/packs/" "/var/lib/frustumscreen/packs/" kiosk_settings "${kiosk_settings}")
+string(REPLACE "../out/words.fswords" "/var/lib/frustumscreen/words.fswords" kiosk_settings "${kiosk_settings}")
 file(WRITE ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml "${kiosk_settings}")
 install(CODE "
     # DESTDIR goes in front by itself.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bakes the two artifacts that the guest shows: few triangles, small images, in seconds.
+# Bakes the two artifacts that the guest shows and the words that it says: few triangles, small images, in seconds.
 #
 #   bake_packs.sh BIN FOLDER    BIN: where our programs are; a pack newer than they are stays
 set -euo pipefail
@@ -13,3 +13,7 @@ for name in amphora nautilus-cup; do
         rm "$folder/$name.glb"
     fi
 done
+words=$folder/words.fswords
+if [[ ! $words -nt $bin/frustumscreen-bake ]]; then
+    "$bin/frustumscreen-bake" --words --languages en -o "$words"
+fi

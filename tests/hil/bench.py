@@ -90,8 +90,8 @@ class Bench:
 
     def __init__(self, root, payload, build, packs, out):
         self.out = out
-        self._program = build / "bin" / "frustumscreen"
-        self._packs = packs
+        self.program = build / "bin" / "frustumscreen"
+        self.packs = packs
         self._rendered = {}
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
@@ -204,7 +204,7 @@ class Bench:
                     lines.append(",".join(str(value) for value in (1000 * number, station, *placed, 1)))
             (folder / "poses.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
             subprocess.run(
-                [self._program, "render", "--config", CONFIG, "--pack", self._packs / f"{artifact}.fspack",
+                [self.program, "render", "--config", CONFIG, "--pack", self.packs / f"{artifact}.fspack",
                  "--poses", folder / "poses.csv", "--out", folder / "out"], check=True, stdout=subprocess.DEVNULL)
             return [screen.read_png(folder / "out" / f"frame_{number:05}.png") for number in range(len(poses))]
 

@@ -27,6 +27,7 @@ packages=(
 modules=(
     virtio_pci virtio_blk virtio_console virtio_rng squashfs overlay
     bochs virtio-gpu
+    snd_hda_intel snd_hda_codec_generic
     xhci_pci usbhid hid_generic hid_cp2112 evdev i6300esb
 )
 initrd_modules=(virtio_pci virtio_blk squashfs overlay)

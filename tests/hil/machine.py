@@ -137,6 +137,8 @@ class Machine:
             "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
             "-device", f"virtio-gpu-pci,id=second,edid=on,xres={self.width},yres={self.height},addr={SECOND_SLOT:#x}",
             "-vnc", f"unix:{self.sockets}/second,display=second",
+            "-audiodev", f"wav,id=heard,path={self.heard},out.frequency=48000,out.channels=2",
+            "-device", "intel-hda", "-device", "hda-output,audiodev=heard",
             "-device", "qemu-xhci,id=usb",
         ]
         for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
@@ -167,6 +169,12 @@ class Machine:
                 continue
         agent._socket.settimeout(60.0)
         self._agent = agent
+
+    @property
+    def heard(self):
+        """What has come out of the sound card, 16-bit stereo at 48 kHz behind a header of 44 bytes; QEMU fills in its sizes at
+        its end."""
+        return self.logs / "heard.wav"
 
     def monitor(self, command, **arguments):
         return self._monitor.answer({"execute": command, "arguments": arguments})
