@@ -167,6 +167,15 @@ void pull_inside(std::span<const glm::dvec2> room, Sign sign, SignPose& pose) {
     }
 }
 
+/// The same for all of an arrow's way; then moves it along the way.
+void glide_inside(std::span<const glm::dvec2> room, const glm::dvec2& ahead, double phase, SignPose& pose) {
+    pose.origin_m += ahead * glide_m;
+    pull_inside(room, Sign::Arrow, pose);
+    pose.origin_m -= ahead * glide_m;
+    pull_inside(room, Sign::Arrow, pose);
+    pose.origin_m += ahead * (glide_m * phase);
+}
+
 bool clear_of(const TablePolygon& shadow, const std::array<glm::dvec2, 4>& corners) {
     std::array<glm::dvec2, 4> ordered = corners;
     const glm::dvec2 a = corners[1] - corners[0];
@@ -188,8 +197,7 @@ std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ah
     const double right = reach(shadow.corners(), prop, -aside) + gap_m + 0.5 * arrow_size_m.y;
     for (const glm::dvec2& place : {prop + ahead * front, prop + aside * left, prop - aside * right}) {
         SignPose pose{place, angle};
-        pull_inside(room, Sign::Arrow, pose);
-        pose.origin_m += ahead * (glide_m * phase);
+        glide_inside(room, ahead, phase, pose);
         if (clear_of(shadow, corners_of(Sign::Arrow, pose))) {
             return pose;
         }
@@ -302,8 +310,7 @@ std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now
     if (move.action == Action::ComeRound) {
         const glm::dvec2 ahead = way_round(guidance);
         pose = SignPose{glm::dvec2(guidance.situation.eye_m), std::atan2(ahead.y, ahead.x)};
-        pull_inside(room, sign, *pose);
-        pose->origin_m += ahead * (glide_m * phase);
+        glide_inside(room, ahead, phase, *pose);
         if (!clear_of(shadow, corners_of(sign, *pose))) {
             pose.reset();
         }

@@ -2,6 +2,7 @@
 
 #include "app/pack/pack_file.h"
 #include "app/settings/command.h"
+#include "app/settings/guided.h"
 
 #include <fmt/format.h>
 
@@ -222,7 +223,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
-    choose_shaders(request, request.live && (shows_zone_frame(settings) || settings.exhibit.guidance), plan);
+    choose_shaders(request, request.live && (shows_zone_frame(settings) || guides_visitors(settings)), plan);
     choose_faces(plan);
     return plan;
 }

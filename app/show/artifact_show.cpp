@@ -7,6 +7,7 @@
 #include "app/pack/prop_note.h"
 #include "app/render/read_back.h"
 #include "app/scene/exposure.h"
+#include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -300,7 +301,7 @@ ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, R
 }
 
 Result<void> ArtifactShow::upload_signs(const Settings& settings) {
-    if (!settings.exhibit.guidance) {
+    if (!guides_visitors(settings)) {
         return {};
     }
     const double texels_per_m = projector_.fx / table_from_projector_.translation.z;
@@ -317,7 +318,7 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
 }
 
 void ArtifactShow::load_words(const Settings& settings, const DevicePlan& devices) {
-    if (!settings.exhibit.guidance || settings.exhibit.words.empty()) {
+    if (!guides_visitors(settings) || settings.exhibit.words.empty()) {
         return;
     }
     AdviceWordsRequest request{settings.exhibit.words,
@@ -455,7 +456,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
     return {artifacts.catalogue(),
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
              artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
-             settings.exhibit.guidance ? std::optional(guidance_setup(settings)) : std::nullopt,
+             guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
              artifacts.words()},
             settings.exhibit.language,
             now};

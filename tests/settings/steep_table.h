@@ -11,6 +11,7 @@ namespace frustumscreen {
     settings.projector.table_from_projector.translation = {0.0, 0.0, 1.2};
     settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
     settings.exhibit.zone_frame = false;
+    settings.exhibit.guidance = false;
     return settings;
 }
 

@@ -177,7 +177,8 @@ private:
         if (!acts_at_s_) {
             const double shown_s =
                 std::max(now_s_, *lost_since_s_ + (adviser_ == Adviser::None ? 0.0 : patience_s));
-            acts_at_s_ = shown_s + seeded_.between(0.3, 1.5) + (seeded_.happens(overlooks) ? overlooks_for_s : 0.0);
+            acts_at_s_ =
+                shown_s + seeded_.between(0.3, 1.5) + (seeded_.happens(overlooks) ? overlooks_for_s : 0.0);
             return;
         }
         if (now_s_ < *acts_at_s_) {
