@@ -159,7 +159,7 @@ TEST_F(PackTexts, other_data_than_defined_are_refused) {
                  data(texts, [](Json& d) { d["languages"].erase(0); }));
     expect_fault("the section texts names other parts",
                  data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "texts/en/glyphs.bin"; }));
-    expect_fault("texts/fr/glyphs.bin: there is a picture", [&](Pack& pack) {
+    expect_fault("texts/en/atlas.webp: there is a picture of glyphs", [&](Pack& pack) {
         data(texts, [](Json& d) {
             d["languages"][2]["atlas"] = d["languages"][0]["atlas"];
             d["languages"][0]["atlas"] = "";

@@ -127,5 +127,8 @@ TEST_F(SetArtifactTexts, a_caption_that_is_too_high_for_a_table_is_said) {
     const SetArtifact high = set({{"en", "Jug", of_words(400)}});
     ASSERT_EQ(high.notes.size(), 1U);
     EXPECT_NE(high.notes.front().find("fits nowhere on a table"), std::string::npos) << high.notes.front();
-    EXPECT_EQ(high.languages.size(), 1U) << "it is set all the same";
+    ASSERT_EQ(high.languages.size(), 1U) << "it is set all the same";
+    const GlyphText* text = high.languages.front().runs.find("text");
+    ASSERT_NE(text, nullptr);
+    EXPECT_LT(text->settings.size(), 6U) << "but not for 0.075 m, where it would be three metres high";
 }
