@@ -11,38 +11,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// One letter, a block of 3 x 4 texels, in a title that is broken for one width.
-SetLanguage set_language(const std::string& language, TextDirection direction) {
-    SetLanguage set{language, {}, DistanceAtlas(5, 6, 255)};
-    set.runs.texels_per_em = 8;
-    set.runs.spread_texels = 1;
-    set.runs.atlas_width = 5;
-    set.runs.atlas_height = 6;
-    set.runs.boxes = {{1, 1, 3, 4, 0, 4}};
-    set.runs.texts = {{"title", direction, {{4096, 512, 1024, {{800, 1}}, {{0, 0, 64}}}}}};
-    return set;
-}
-
-Pack pack_with_words() {
-    Pack pack = samples::pack();
-    SetLanguage without_letters = set_language("fr", TextDirection::LeftToRight);
-    without_letters.atlas = {};
-    without_letters.runs.atlas_width = without_letters.runs.atlas_height = 0;
-    without_letters.runs.boxes = {{}};
-    put_sounds(pack, std::vector<SpokenLanguage>{
-                         {"en", {{"description", samples::some_bytes("OggS english")}}}, {"fr", {}}});
-    put_set_texts(pack, std::vector{set_language("en", TextDirection::LeftToRight),
-                                    set_language("pt-BR", TextDirection::RightToLeft), without_letters,
-                                    SetLanguage{"de", {}, {}}});
-    return pack;
-}
-
 class PackTexts : public testing::Test {
 protected:
     void write(const Pack& pack) { ASSERT_TRUE(write_file(file, samples::bytes_of(pack))); }
     /// One byte of a part is changed, so that it does not match its hash.
     void write_with_damage(const std::string& damaged_part) {
-        Bytes bytes = samples::bytes_of(pack_with_words());
+        Bytes bytes = samples::bytes_of(samples::pack_with_words());
         samples::Entries entries = samples::take_apart(bytes);
         entries.part(damaged_part)[0] ^= std::byte{1};
         ASSERT_TRUE(write_file(file, samples::put_together(entries)));
@@ -55,7 +29,7 @@ protected:
 };
 
 std::string fault_with(const std::function<void(Pack&)>& change) {
-    Pack pack = pack_with_words();
+    Pack pack = samples::pack_with_words();
     change(pack);
     const Result<void> checked = check_set_and_spoken(pack);
     return checked ? std::string() : checked.error().message;
@@ -79,7 +53,7 @@ std::function<void(Pack&)> data(std::size_t index, const std::function<void(Json
 } // namespace
 
 TEST_F(PackTexts, are_written_as_the_format_page_says) {
-    const samples::Entries entries = samples::take_apart(samples::bytes_of(pack_with_words()));
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack_with_words()));
     EXPECT_EQ(entries.manifest["sections"]["texts"].dump(),
               R"({"parts":["texts/en/glyphs.bin","texts/en/atlas.webp","texts/pt-br/glyphs.bin",)"
               R"("texts/pt-br/atlas.webp","texts/fr/glyphs.bin"],"data":{"languages":[)"
@@ -92,11 +66,11 @@ TEST_F(PackTexts, are_written_as_the_format_page_says) {
 }
 
 TEST_F(PackTexts, come_back_as_they_were) {
-    write(pack_with_words());
+    write(samples::pack_with_words());
     const Result<std::vector<SetLanguage>> read = load({"pt-BR", "fr", "it"});
     ASSERT_TRUE(read) << read.error().message;
     ASSERT_EQ(read->size(), 2U);
-    const SetLanguage portuguese = set_language("pt-BR", TextDirection::RightToLeft);
+    const SetLanguage portuguese = samples::set_language("pt-BR", TextDirection::RightToLeft);
     EXPECT_EQ((*read)[0].language, "pt-BR");
     EXPECT_EQ((*read)[0].runs, portuguese.runs);
     EXPECT_EQ((*read)[0].atlas.texels, portuguese.atlas.texels);
@@ -134,7 +108,7 @@ TEST_F(PackTexts, sounds_are_read_one_by_one) {
     EXPECT_EQ(as_text(*sound), "OggS english");
     EXPECT_TRUE(load_sound(file, "en", "title")->empty());
     EXPECT_TRUE(load_sound(file, "fr", "description")->empty());
-    EXPECT_EQ(*list_sounds(pack_with_words()), (std::vector<SpokenText>{{"en", "description"}}));
+    EXPECT_EQ(*list_sounds(samples::pack_with_words()), (std::vector<SpokenText>{{"en", "description"}}));
 }
 
 TEST_F(PackTexts, a_sound_that_is_no_recording_is_refused) {
