@@ -19,6 +19,7 @@ packages=(
     libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core
     # shaped texts and speech
     libpango1.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
+    fonts-noto-core espeak-ng # for every language but Chinese, Japanese and Korean; a voice
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
     # sound
@@ -35,7 +36,7 @@ for part; do
             packages+=(
                 libgtest-dev umockdev libumockdev-dev python3
                 systemd                           # its tools check the units
-                libharfbuzz-dev fonts-noto-core fonts-noto-cjk espeak-ng # texts in all languages, and a voice
+                libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 python3-matplotlib                # the bench's plots
                 shellcheck clang-format pyflakes3 # how it is written
             )

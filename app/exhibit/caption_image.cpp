@@ -10,7 +10,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double title_em = 1.35;
 constexpr double text_brightness = 0.8; ///< linear; a little behind the title
 
 constexpr double text_gap_em = 0.3; ///< between title and text
@@ -57,7 +56,7 @@ CaptionImage make_caption(const Typesetter& typesetter, const std::string& title
     const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
     std::vector<Paragraph> paragraphs;
     if (!title.empty()) {
-        paragraphs.push_back({title, title_em * em_px, true, 1.0, 0.0});
+        paragraphs.push_back({title, caption_title_em * em_px, true, 1.0, 0.0});
     }
     if (!text.empty()) {
         paragraphs.push_back({text, em_px, false, text_brightness, text_gap_em * em_px});
@@ -73,8 +72,9 @@ CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, con
     const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
     const double width_em = width_m * texels_per_m / em_px;
     std::vector<SetPart> parts;
-    if (const GlyphSetting* setting = fitting(title, width_em / title_em)) {
-        parts.push_back({glyph_image(runs, atlas, *setting, title_em * em_px), 1.0, title->direction});
+    if (const GlyphSetting* setting = fitting(title, width_em / caption_title_em)) {
+        parts.push_back(
+            {glyph_image(runs, atlas, *setting, caption_title_em * em_px), 1.0, title->direction});
     }
     if (const GlyphSetting* setting = fitting(text, width_em)) {
         parts.push_back({glyph_image(runs, atlas, *setting, em_px), text_brightness, text->direction});

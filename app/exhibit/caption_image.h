@@ -10,9 +10,15 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <string>
 
 namespace frustumscreen {
+
+/// Widths that a caption is wrapped to, in falling preference.
+inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
+/// A title's type size, in those of the text.
+inline constexpr double caption_title_em = 1.35;
 
 struct CaptionImage {
     Image<std::uint8_t> coverage;

@@ -53,7 +53,11 @@ void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& 
     }
 }
 
-/// Parts that are packed already, as sounds and pictures are, do not get smaller.
+/// Sounds and pictures are packed already and do not get smaller.
+Packing packing_of(const std::string& section_part) {
+    return section_part.ends_with(".bin") ? Packing::Deflated : Packing::Stored;
+}
+
 Result<void> add_section_parts(const Pack& pack, std::vector<Part>& parts) {
     for (const PackSection& section : pack.sections) {
         for (const std::string& name : section.parts) {
@@ -64,7 +68,7 @@ Result<void> add_section_parts(const Pack& pack, std::vector<Part>& parts) {
                                 "name of a part",
                                 section.name, printable(name, 40)));
             }
-            parts.push_back({name, bytes->second, Packing::Stored});
+            parts.push_back({name, bytes->second, packing_of(name)});
         }
     }
     return {};

@@ -1,6 +1,5 @@
 #include "app/show/artifact_show.h"
 
-#include "app/exhibit/caption_image.h"
 #include "app/exhibit/guidance_setup.h"
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
@@ -9,6 +8,7 @@
 #include "app/scene/exposure.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
+#include "app/show/caption_setter.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -19,8 +19,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// Widths that a caption is wrapped to, in falling preference.
-constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 constexpr double warm_up_step_m = 0.01;
 /// Type size of what a visitor should do, in those of a caption.
 constexpr double advice_em = 1.5;
@@ -100,8 +98,8 @@ struct ArtifactShow::Loader {
     const DevicePlan& devices;
     const ArtifactShowOptions& options;
     GpuStore& store;
-    std::optional<Typesetter> typesetter = {}; ///< opened for the first caption
-    std::vector<std::string> languages = {};   ///< of all captions of the packs loaded, shown or not
+    CaptionSetter captions = setter_for(settings);
+    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
     std::vector<std::string> notes = {};
 
     [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
@@ -135,9 +133,9 @@ struct ArtifactShow::Loader {
         const double exposure =
             exposure_of(first, (*pack)->box_size, (*pack)->textures[first.texture], plan.highlight_code);
         Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), exposure, {}, {}};
-        if (Result<void> set = set_captions(**pack, artifact); !set) {
+        if (Result<void> set = set_captions(file, **pack, artifact); !set) {
             release(artifact);
-            return at(file.string(), set.error());
+            return tl::unexpected<Error>(set.error());
         }
         return artifact;
     }
@@ -168,27 +166,33 @@ struct ArtifactShow::Loader {
         return request;
     }
 
-    [[nodiscard]] Result<void> set_captions(const Pack& pack, Artifact& artifact) {
-        const double texels_per_m =
-            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+    static CaptionSetter setter_for(const Settings& settings) {
+        const double height_m = settings.projector.table_from_projector.translation.z;
+        return {settings.exhibit.caption_height_m, settings.projector.pinhole.fx / height_m};
+    }
+
+    /// Reads the glyph runs of the languages that are needed, and no others. Messages begin with the file's name.
+    [[nodiscard]] Result<void> set_captions(const std::filesystem::path& file, const Pack& pack,
+                                            Artifact& artifact) {
         for (const std::size_t each : artifact.plan.captions) {
-            if (!typesetter) {
-                Result<Typesetter> opened = Typesetter::open();
-                if (!opened) {
-                    return tl::unexpected<Error>(opened.error());
-                }
-                typesetter = std::move(*opened);
+            artifact.languages.push_back(pack.captions[each].language);
+        }
+        const Result<std::vector<SetLanguage>> set = artifact.languages.empty()
+                                                         ? std::vector<SetLanguage>()
+                                                         : load_set_texts(file, artifact.languages);
+        if (!set) {
+            return tl::unexpected<Error>(set.error());
+        }
+        for (const std::size_t each : artifact.plan.captions) {
+            const Result<std::vector<CaptionImage>> images = captions.set(pack.captions[each], *set);
+            if (!images) {
+                return at(file.string(), images.error());
             }
-            const PackCaption& caption = pack.captions[each];
-            artifact.languages.push_back(caption.language);
             std::vector<CaptionPicture>& shapes = artifact.captions.emplace_back();
-            for (const double width_m : caption_widths_m) {
-                const CaptionImage image =
-                    make_caption(*typesetter, caption.title, caption.text, settings.exhibit.caption_height_m,
-                                 width_m, texels_per_m);
+            for (const CaptionImage& image : *images) {
                 const Result<TextureId> texture = store.upload(image.coverage);
                 if (!texture) {
-                    return tl::unexpected<Error>(texture.error());
+                    return at(file.string(), texture.error());
                 }
                 shapes.push_back(
                     {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});

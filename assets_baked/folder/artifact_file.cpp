@@ -79,7 +79,8 @@ bool check_language(TableReader& table, std::string_view key, const std::string&
     return true;
 }
 
-void read_caption(TableReader& table, PackCaption& caption, std::set<std::string>& languages) {
+void read_caption(TableReader& table, PackCaption& caption, std::set<std::string>& languages,
+                  ArtifactFile& file) {
     table.any_text("language", caption.language);
     if (caption.language.empty()) {
         table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
@@ -95,6 +96,13 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     read_text(table, "credit", caption.credit);
     read_text(table, "text", caption.text, TextShape::Lines);
     read_text(table, "description", caption.description, TextShape::Lines);
+    std::filesystem::path recording;
+    read_path(table, "recording", recording);
+    if (!recording.empty()) {
+        table.require(!caption.description.empty(), "recording",
+                      "has no description beside it; write its words there, for who does not hear them");
+        file.recordings.emplace(caption.language, std::move(recording));
+    }
 }
 
 void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
@@ -129,9 +137,9 @@ void read_all(TableReader& table, ArtifactFile& file) {
     read_word(table, "prop", file.prop, prop_words);
     table.table("placement", {}, [&](TableReader& inner) { read_placement(inner, file); });
     std::set<std::string> languages;
-    table.tables("texts", file.texts, pack_format::most_languages,
-                 [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages); },
-                 {});
+    table.tables(
+        "texts", file.texts, pack_format::most_languages,
+        [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages, file); }, {});
     table.tables("hotspots", file.hotspots, pack_format::most_hotspots, read_hotspot, {});
     for (PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;

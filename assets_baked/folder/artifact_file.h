@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@
 namespace frustumscreen {
 
 inline constexpr std::string_view artifact_file_name = "artifact.toml";
+/// Recordings that the file does not name: LANGUAGE/description.wav and the like in this folder of the folder.
+inline constexpr std::string_view recordings_folder_name = "recordings";
 
 struct ArtifactHotspot {
     std::string place; ///< file, line and key, for messages
@@ -41,6 +44,8 @@ struct ArtifactFile {
     double scale = 1.0;
     double lift = 0.0;
     std::vector<PackCaption> texts; ///< in the file's order; a title that is left out is the first one's
+    std::map<std::string, std::filesystem::path>
+        recordings; ///< of descriptions, by language; with the folder in front
     std::vector<ArtifactHotspot> hotspots;
 };
 

@@ -130,6 +130,9 @@ title = {title}
 #description = """
 #First sentence.
 #Second sentence."""
+# The same, spoken: WAV, FLAC, Opus or Vorbis. Without it, recordings/LANGUAGE/description.wav is looked for (.flac, .opus, .ogg),
+# and then a voice speaks.
+#recording = "description.wav"
 
 #[[texts]]
 #language = "de"

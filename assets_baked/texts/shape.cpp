@@ -246,7 +246,10 @@ Result<ShapedText> Shaper::shape(const TextToShape& text) const {
         }
         shaped.settings.push_back(set_lines(layout.get(), limit, shaped.direction, collector));
         if (const Result<void> sized = check_size(shaped.settings.back()); !sized) {
-            return tl::unexpected<Error>(sized.error());
+            if (limit == limits.front()) {
+                return tl::unexpected<Error>(sized.error());
+            }
+            shaped.settings.pop_back();
         }
     }
     note_missing(collector.missing(), text.language, shaped);

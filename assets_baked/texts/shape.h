@@ -27,7 +27,7 @@ struct TextToShape {
     std::string text;
     std::string language; ///< BCP 47
     std::vector<std::int32_t>
-        limits; ///< widths that the lines may have, at least one; a width that a word exceeds is left out
+        limits; ///< widths that the lines may have, at least one; one too narrow for a word or for so many lines is left out
     bool bold = false;
 };
 

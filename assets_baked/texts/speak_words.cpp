@@ -1,7 +1,7 @@
 #include "assets_baked/texts/speak_words.h"
 
+#include "assets_baked/texts/recorded_speech.h"
 #include "firmware_host/base/parallel.h"
-#include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -10,29 +10,6 @@
 namespace frustumscreen {
 
 namespace {
-
-Result<std::optional<Speech>> recorded(const std::filesystem::path& folder, const LanguageWords& words,
-                                       const std::string& key) {
-    for (const char* ending : {".wav", ".flac", ".opus", ".ogg"}) {
-        const std::filesystem::path file = folder / words.language / (key + ending);
-        std::error_code ignored;
-        if (folder.empty() || !std::filesystem::exists(file, ignored)) {
-            continue;
-        }
-        const Result<Bytes> bytes = read_file(file, most_recording_bytes);
-        if (!bytes) {
-            return tl::unexpected<Error>(bytes.error());
-        }
-        const Result<Recording> recording = read_recording(*bytes, RecordingSource::File);
-        Result<Speech> speech =
-            recording ? level_speech(*recording) : tl::unexpected<Error>(recording.error());
-        if (!speech) {
-            return at(printable(file.string(), 300), speech.error());
-        }
-        return std::optional<Speech>(*std::move(speech));
-    }
-    return std::optional<Speech>();
-}
 
 /// Why the voice cannot speak a language, by language; asked once for all words.
 class VoiceCheck {
@@ -58,9 +35,13 @@ private:
 /// A recording, else what the voice says; nothing if neither can.
 Result<std::optional<Speech>> speech_of(const PlainWord& word, const LanguageWords& words,
                                         const SpeakOptions& options, const VoiceCheck& check) {
-    Result<std::optional<Speech>> speech = recorded(options.recordings, words, word.key);
-    if (!speech || *speech || !options.voice || check.why_silent(word.language)) {
-        return speech;
+    if (const auto file = find_recording(options.recordings, words.language, word.key)) {
+        Result<Speech> recorded = read_speech(*file);
+        return recorded ? Result<std::optional<Speech>>(*std::move(recorded))
+                        : tl::unexpected<Error>(recorded.error());
+    }
+    if (!options.voice || check.why_silent(word.language)) {
+        return std::optional<Speech>();
     }
     Result<Speech> spoken = options.voice->speak(word.text, word.language);
     if (!spoken) {

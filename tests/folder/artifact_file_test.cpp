@@ -38,6 +38,8 @@ text = """
 description = ""
 [[texts]]
 language = "en"
+description = "A vase."
+recording = "speech/en.flac"
 [[hotspots]]
 point = [1, -2.5, 3e2]
 labels = { en = "The handle", el = "Η λαβή" }
@@ -57,6 +59,8 @@ TEST(ArtifactFile, has_all_that_is_written) {
     EXPECT_EQ(read->texture, "vase/pictures/skin.png");
     EXPECT_EQ(read->id, "vase-1");
     EXPECT_EQ(read->licence, "CC0-1.0");
+    EXPECT_EQ(read->recordings,
+              (std::map<std::string, std::filesystem::path>{{"en", "vase/speech/en.flac"}}));
     EXPECT_EQ(read->size, 256);
     EXPECT_TRUE(read->unlit);
     EXPECT_EQ(read->prop, "cube");
@@ -71,7 +75,7 @@ TEST(ArtifactFile, has_all_that_is_written) {
     ASSERT_EQ(read->hotspots.size(), 1U);
     EXPECT_EQ(read->hotspots[0].point_file, glm::dvec3(1, -2.5, 300));
     EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"el", "Η λαβή"}, {"en", "The handle"}}));
-    EXPECT_EQ(read->hotspots[0].place, "vase/artifact.toml:28: hotspots[0].point");
+    EXPECT_EQ(read->hotspots[0].place, "vase/artifact.toml:30: hotspots[0].point");
 }
 
 TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
@@ -125,6 +129,10 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
         {"texture = \"/etc/passwd\"",
          ":2: texture is \"/etc/passwd\"; allowed is the name of a file in this folder"},
         {"texture = \"a/../../b\"", ":2: texture is \"a/../../b\""},
+        {"[[texts]]\nlanguage = \"en\"\ndescription = \"x\"\nrecording = \"../a.wav\"",
+         ":5: texts[0].recording is \"../a.wav\"; allowed is the name of a file in this folder"},
+        {"[[texts]]\nlanguage = \"en\"\nrecording = \"a.wav\"",
+         ":4: texts[0].recording has no description beside it"},
         {"hotspots = 5", ":2: hotspots is 5"},
         {"[[texts]]\nlanguage = \"en\"\ntext = \"not closed", "is not TOML"},
         {"title = \"\xED\xA0\x80\"", "is not TOML"},

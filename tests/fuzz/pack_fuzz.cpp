@@ -2,6 +2,7 @@
 // the same pack. pack_mutator.cpp puts the hashes right, so that the fuzzer gets past them.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>
@@ -73,6 +74,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::require(parts.has_value(), "a pack's parts can be listed");
     require_usable(**pack);
     require_same_chosen(bytes, **pack);
+    const Result<void> set_and_spoken = check_set_and_spoken(**pack);
+    if (!set_and_spoken) {
+        fuzz::require_one_line(set_and_spoken.error().message);
+    }
+    fuzz::require(!set_and_spoken || list_sounds(**pack).has_value(),
+                  "sounds that are checked can be listed");
     const auto written = write_pack(**pack);
     fuzz::require(written.has_value(), "what was read can be written",
                   written ? std::string() : written.error().message);

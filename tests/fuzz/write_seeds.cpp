@@ -119,6 +119,7 @@ void packs(const Seeds& seeds) {
     seeds.add("manifest", "everything", samples::take_apart(pack).manifest.dump());
     const Bytes full = samples::bytes_of(samples::full_pack());
     seeds.add("pack", "sections", as_text(full));
+    seeds.add("pack", "words", as_text(samples::bytes_of(samples::pack_with_words())));
     seeds.add("manifest", "sections", samples::take_apart(full).manifest.dump());
 }
 

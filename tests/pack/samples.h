@@ -4,6 +4,7 @@
 
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
 #include "app/pack/sha256.h"
 #include "app/pack/zip_archive.h"
 
@@ -134,7 +135,7 @@ inline Bytes some_bytes(std::string_view text) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// With every section that is defined, and two that no reader of today knows.
+/// With every section that the description has members for, one that no reader of today knows, and sounds.
 inline Pack full_pack() {
     Pack pack = samples::pack();
     pack.id = "museum-1234.a";
@@ -151,14 +152,43 @@ inline Pack full_pack() {
                                  "a"}}},
                      {{-0.5, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {{"en", "The foot"}}}};
     pack.table_picture = texture(31, 17, 3, false);
-    pack.sections = {{"glyphs", R"({"size":12.5})", {"glyphs/runs.bin", "glyphs/atlas.png"}},
-                     {"sounds",
-                      R"({"texts":[{"language":"en","part":"sounds/en/0.opus"}]})",
-                      {"sounds/en/0.opus", "sounds/pt-br/0.opus"}}};
+    pack.sections = {
+        {"glyphs", R"({"size":12.5})", {"glyphs/runs.bin", "glyphs/atlas.png"}},
+        {"sounds",
+         R"({"languages":[{"language":"en","sounds":[{"key":"description","part":"sounds/en/0.opus"}]},)"
+         R"({"language":"pt-BR","sounds":[{"key":"description","part":"sounds/pt-br/0.opus"}]}]})",
+         {"sounds/en/0.opus", "sounds/pt-br/0.opus"}}};
     pack.section_parts = {{"glyphs/runs.bin", some_bytes("runs")},
                           {"glyphs/atlas.png", some_bytes("no picture; nobody looks")},
                           {"sounds/en/0.opus", some_bytes("OggS english")},
                           {"sounds/pt-br/0.opus", some_bytes("OggS portuguese")}};
+    return pack;
+}
+
+/// One letter, a block of 3 x 4 texels, in a title that is broken for one width.
+inline SetLanguage set_language(const std::string& language, TextDirection direction) {
+    SetLanguage set{language, {}, DistanceAtlas(5, 6, 255)};
+    set.runs.texels_per_em = 8;
+    set.runs.spread_texels = 1;
+    set.runs.atlas_width = 5;
+    set.runs.atlas_height = 6;
+    set.runs.boxes = {{1, 1, 3, 4, 0, 4}};
+    set.runs.texts = {{"title", direction, {{4096, 512, 1024, {{800, 1}}, {{0, 0, 64}}}}}};
+    return set;
+}
+
+/// Texts in three languages, one of them without letters, and a sound.
+inline Pack pack_with_words() {
+    Pack pack = samples::pack();
+    SetLanguage without_letters = set_language("fr", TextDirection::LeftToRight);
+    without_letters.atlas = {};
+    without_letters.runs.atlas_width = without_letters.runs.atlas_height = 0;
+    without_letters.runs.boxes = {{}};
+    put_sounds(
+        pack, std::vector<SpokenLanguage>{{"en", {{"description", some_bytes("OggS english")}}}, {"fr", {}}});
+    put_set_texts(pack, std::vector{set_language("en", TextDirection::LeftToRight),
+                                    set_language("pt-BR", TextDirection::RightToLeft), without_letters,
+                                    SetLanguage{"de", {}, {}}});
     return pack;
 }
 

@@ -2,7 +2,9 @@
 
 #include "app/image/image.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
 #include "tests/programs/program_folder.h"
+#include "tests/texts/wav_bytes.h"
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -111,6 +113,48 @@ TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
     EXPECT_EQ(text("err.txt"), "");
     EXPECT_TRUE(load_pack(folder / "strict.fspack"));
     EXPECT_EQ(bake_to("skin.png", "--force --texture skin.png"), 1) << "the picture is an input";
+}
+
+TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
+    fs::create_directories(folder / "vase");
+    for (const char* file : {"scan.obj", "scan.mtl", "skin.png", "normals.png"}) {
+        fs::copy_file(folder / file, folder / "vase" / file);
+    }
+    put("vase/artifact.toml", "scan = \"scan.obj\"\nsize = 32\n"
+                              "[[texts]]\nlanguage = \"en\"\ntitle = \"Vase\"\ndescription = \"A vase.\"\n"
+                              "[[texts]]\nlanguage = \"he\"\ntitle = \"\u05db\u05d3\"\n"
+                              "description = \"\u05db\u05d3 \u05dc\u05d1\u05df\"\n");
+    ASSERT_TRUE(write_file(folder / "tone.wav", testing::wav16(testing::sine(0.2, 0.5))));
+    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack --strict --json --speech 'cat tone.wav'"), 0)
+        << text("err.txt");
+    EXPECT_EQ(nlohmann::json::parse(text("out.txt"))["spoken"], nlohmann::json({"en", "he"}));
+    const std::vector<std::string> both{"he", "en"};
+    const Result<std::vector<SetLanguage>> set = load_set_texts(folder / "vase.fspack", both);
+    ASSERT_TRUE(set) << set.error().message;
+    ASSERT_EQ(set->size(), 2U);
+    EXPECT_EQ((*set)[1].runs.find("title")->direction, TextDirection::RightToLeft);
+    EXPECT_NE((*set)[1].runs.find("description"), nullptr);
+    EXPECT_FALSE(load_sound(folder / "vase.fspack", "he", "description")->empty());
+    EXPECT_EQ(run("frustumscreen-pack verify vase.fspack"), 0) << text("err.txt");
+
+    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt"); // with the usual voice
+    EXPECT_NE(text("out.txt").find("silent  the description in 'he' is silent, and shown all the same"),
+              std::string::npos)
+        << text("out.txt");
+    ASSERT_EQ(run("frustumscreen-pack explain vase.fspack"), 0);
+    EXPECT_NE(text("out.txt").find("silent: the description is shown and nobody speaks it"),
+              std::string::npos);
+}
+
+TEST_F(BakeCommand, ATextThatCannotBeSetIsSaidOrRefused) {
+    const std::string caption = " --language en --caption 'en=A vase \xf0\x9f\x98\x80.'";
+    ASSERT_EQ(bake_to("scan.fspack", caption), 0) << text("err.txt");
+    EXPECT_NE(text("err.txt").find("lost: texts in 'en': text: the letter"), std::string::npos)
+        << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-pack explain --json scan.fspack"), 0);
+    EXPECT_EQ(nlohmann::json::parse(text("out.txt"))["captions"][0]["text"], "A vase \xf0\x9f\x98\x80.");
+    EXPECT_EQ(bake_to("strict.fspack", "--strict" + caption), 1);
+    EXPECT_FALSE(fs::exists(folder / "strict.fspack"));
 }
 
 TEST_F(BakeCommand, ClearsAwayWhatAKilledRunLeft) {

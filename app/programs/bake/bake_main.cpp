@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/pack/sha256.h"
+#include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/bake_request.h"
 #include "app/programs/bake/words_command.h"
@@ -74,7 +75,7 @@ Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& reque
     return {};
 }
 
-/// Reads the file and says what is lost of it.
+/// Reads the file; its notes say what is lost of it.
 Result<SourceMesh> load(const BakeRequest& request) {
     Result<SourceMesh> mesh = load_mesh(request.scan, {request.texture});
     if (!mesh) {
@@ -89,10 +90,24 @@ Result<SourceMesh> load(const BakeRequest& request) {
              "the relief: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
-    if (const Result<void> told = tell(mesh->notes, request); !told) {
+    return mesh;
+}
+
+/// What takes seconds comes before what takes minutes, so that what is wrong with it is said at once.
+Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOptions& options,
+                                    std::vector<SourceNote>& notes) {
+    options.progress("texts and speech", 0.0);
+    Result<ArtifactWords> words = words_of(request);
+    if (!words) {
+        return words;
+    }
+    for (const std::string& lost : words->lost) {
+        notes.push_back({SourceNote::Kind::Lost, lost});
+    }
+    if (const Result<void> told = tell(notes, request); !told) {
         return tl::unexpected<Error>(told.error());
     }
-    return mesh;
+    return words;
 }
 
 Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
@@ -105,6 +120,11 @@ Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
     result.file = request.output;
     result.prop = options.prop;
     result.notes = mesh->notes;
+    Result<ArtifactWords> words = set_and_speak(request, options, result.notes);
+    if (!words) {
+        return tl::unexpected<Error>(words.error());
+    }
+    result.silent = std::move(words->silent);
     result.up = options.up.empty() ? std::string(1, mesh->default_up) : options.up;
     result.up_given = !options.up.empty();
     result.turn_given = request.turn_deg.has_value();
@@ -118,6 +138,8 @@ Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
     if (const Result<void> described = describe(*pack, request); !described) {
         return tl::unexpected<Error>(described.error());
     }
+    put_sounds(*pack, words->spoken);
+    put_set_texts(*pack, words->set);
     result.pack = *std::move(pack);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
@@ -251,6 +273,10 @@ void add_options(CLI::App& app, BakeArguments& arguments) {
                    "picture of the colours, where the file names one that is missing, or none");
     app.add_flag("--strict", arguments.strict,
                  "refuse a file of which something would be lost; nothing is written");
+    app.add_option(
+        "--speech", arguments.speech,
+        "program that speaks descriptions without a recording: it takes text on standard input and "
+        "writes WAV; {language} in it is replaced; none: no voice (default: espeak-ng)");
     app.add_flag("--json", arguments.json, "the report for programs");
     app.add_option("--title", arguments.title,
                    "title in every language (default: the folder's, else the file's name)");

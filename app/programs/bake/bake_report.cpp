@@ -1,6 +1,7 @@
 #include "app/programs/bake/bake_report.h"
 
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
 #include "assets_baked/bake/box_frame.h"
 #include "firmware_host/base/words_of_time.h"
 
@@ -106,6 +107,30 @@ std::string notes_text(const BakeResult& result, SourceNote::Kind kind, const ch
     return text;
 }
 
+/// The languages in which there are sounds.
+std::vector<std::string> spoken_in(const Pack& pack) {
+    std::vector<std::string> languages;
+    for (const SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
+        if (std::find(languages.begin(), languages.end(), spoken.language) == languages.end()) {
+            languages.push_back(spoken.language);
+        }
+    }
+    return languages;
+}
+
+/// Nothing where there is nothing to speak.
+std::string speech_text(const BakeResult& result) {
+    const std::vector<std::string> languages = spoken_in(result.pack);
+    std::string text;
+    if (!languages.empty()) {
+        text += fmt::format("  {:<8}the description in {}\n", "spoken", fmt::join(languages, ", "));
+    }
+    for (const std::string& sentence : result.silent) {
+        text += fmt::format("  {:<8}{}\n", "silent", sentence);
+    }
+    return text;
+}
+
 std::vector<std::string> texts_of(const BakeResult& result, SourceNote::Kind kind) {
     std::vector<std::string> texts;
     for (const SourceNote& note : result.notes) {
@@ -128,7 +153,7 @@ std::string report_text(const BakeResult& result) {
                        size.y, size.z, result.pack.prop_kind,
                        result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
-           (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
+           speech_text(result) + (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
            notes_text(result, SourceNote::Kind::Guessed, "guessed");
 }
 
@@ -158,6 +183,8 @@ Json report_json(const BakeResult& result) {
             {"scale", result.pack.scale},
             {"levels", levels},
             {"default_level", result.pack.default_level},
+            {"spoken", spoken_in(result.pack)},
+            {"silent", result.silent},
             {"lost", texts_of(result, SourceNote::Kind::Lost)},
             {"guessed", texts_of(result, SourceNote::Kind::Guessed)}};
 }

@@ -29,13 +29,15 @@ struct BakeResult {
     double turn_deg = 0.0;
     bool turn_given = false; ///< else it was chosen
     std::vector<SourceNote> notes;
+    std::vector<std::string> silent; ///< descriptions that nobody hears, and why
     double seconds = 0.0;
 };
 
 /// Ends with a line break.
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
-/// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, lost: [], guessed: []}
+/// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
+/// guessed: []}
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen

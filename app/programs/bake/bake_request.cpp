@@ -61,6 +61,17 @@ BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file)
     return options;
 }
 
+SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file, bool is_folder) {
+    SpeechSources sources{file.recordings, {}, std::nullopt};
+    if (is_folder) {
+        sources.folder = arguments.input / recordings_folder_name;
+    }
+    if (arguments.speech != "none") {
+        sources.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);
+    }
+    return sources;
+}
+
 } // namespace
 
 Result<BakeRequest> request_of(const BakeArguments& arguments) {
@@ -80,8 +91,12 @@ Result<BakeRequest> request_of(const BakeArguments& arguments) {
     request.scan = file->scan;
     request.output = arguments.output;
     request.inputs = {file->scan};
-    if (file->scan != arguments.input) {
+    const bool is_folder = file->scan != arguments.input;
+    if (is_folder) {
         request.inputs.push_back(arguments.input / artifact_file_name);
+    }
+    for (const auto& [language, recording] : file->recordings) {
+        request.inputs.push_back(recording);
     }
     request.force = arguments.force;
     request.strict = arguments.strict;
@@ -91,6 +106,7 @@ Result<BakeRequest> request_of(const BakeArguments& arguments) {
     request.id = file->id;
     request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
     request.captions = *captions;
+    request.speech = speech_of(arguments, *file, is_folder);
     return request;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
+#include "assets_baked/texts/speak_artifact.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -35,6 +36,7 @@ struct BakeArguments {
     std::string licence;
     std::vector<std::string> languages;
     std::vector<std::string> captions; ///< LANGUAGE=TEXT
+    std::string speech;                ///< empty: espeak-ng; "none": no voice
 };
 
 struct BakeRequest {
@@ -49,6 +51,7 @@ struct BakeRequest {
     std::string id;
     std::string licence;
     std::vector<PackCaption> captions; ///< at least one
+    SpeechSources speech;
 };
 
 [[nodiscard]] Result<BakeRequest> request_of(const BakeArguments& arguments);

@@ -1,5 +1,6 @@
 /// frustumscreen-pack: verifies, lists, explains and draws packs.
 #include "app/pack/pack_sections.h"
+#include "app/pack/pack_texts.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
@@ -36,12 +37,23 @@ void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(2));
 }
 
+/// And with it what the description only passes on.
+Result<VerifiedPack> load_whole(const std::string& file) {
+    Result<VerifiedPack> pack = load_pack(file);
+    if (pack) {
+        if (const Result<void> good = check_set_and_spoken(**pack); !good) {
+            return at(file, good.error());
+        }
+    }
+    return pack;
+}
+
 /// Checks every pack, also after one that is not sound.
 int verify(const Request& request) {
     int status = 0;
     auto report = nlohmann::ordered_json::array();
     for (const std::string& file : request.packs) {
-        const Result<VerifiedPack> pack = load_pack(file);
+        const Result<VerifiedPack> pack = load_whole(file);
         if (!pack) {
             status = complain(pack.error());
             report.push_back({{"file", file}, {"sound", false}, {"reason", pack.error().message}});

@@ -1,5 +1,6 @@
 #include "app/programs/pack/pack_report.h"
 
+#include "app/pack/pack_texts.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,17 @@ std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& c
                                                              {"description", caption.description}};
     std::erase_if(details, [](const auto& detail) { return detail.second.empty(); });
     return details;
+}
+
+/// The keys of the texts that are spoken in a language.
+std::vector<std::string> spoken_keys(const Pack& pack, const std::string& language) {
+    std::vector<std::string> keys;
+    for (SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
+        if (spoken.language == language) {
+            keys.push_back(std::move(spoken.key));
+        }
+    }
+    return keys;
 }
 
 double mm_per_box(const Pack& pack, const PropSettings& prop) {
@@ -74,6 +86,7 @@ Json captions_json(const Pack& pack) {
         for (const auto& [name, text] : details_of(caption)) {
             made[name] = text;
         }
+        made["spoken"] = spoken_keys(pack, caption.language);
         captions.push_back(std::move(made));
     }
     return captions;
@@ -180,9 +193,16 @@ std::string title_line(const OpenedPack& opened) {
                        in_units(opened.file_bytes));
 }
 
+bool is_passed_over(const PackSection& section) {
+    return section.name != "texts" && section.name != "sounds";
+}
+
 std::string sections_text(const Pack& pack) {
     std::string text;
     for (const PackSection& section : pack.sections) {
+        if (!is_passed_over(section)) {
+            continue;
+        }
         text += fmt::format("  section {}: passed over by this version, {} parts\n", section.name,
                             section.parts.size());
     }
@@ -203,6 +223,16 @@ std::string hotspots_text(const Pack& pack, double mm) {
     return text;
 }
 
+/// What is heard in a caption's language; nothing where there is nothing to hear.
+std::string speech_text(const Pack& pack, const PackCaption& caption) {
+    const std::vector<std::string> keys = spoken_keys(pack, caption.language);
+    if (!keys.empty()) {
+        return fmt::format("          spoken: {}\n", fmt::join(keys, ", "));
+    }
+    return caption.description.empty() ? ""
+                                       : "          silent: the description is shown and nobody speaks it\n";
+}
+
 std::string description_text(const Pack& pack, double mm) {
     std::string text;
     for (const PackCaption& caption : pack.captions) {
@@ -211,6 +241,7 @@ std::string description_text(const Pack& pack, double mm) {
         for (const auto& [name, detail] : details_of(caption)) {
             text += fmt::format("          {}: {}\n", name, printable(detail, 200));
         }
+        text += speech_text(pack, caption);
     }
     text += hotspots_text(pack, mm);
     if (!pack.table_picture.texels.empty()) {

@@ -27,7 +27,7 @@ struct OpenedPack {
 
 /// {file, bytes, signed, id, title, languages, levels with errors in mm on this prop, default_level, parts}
 [[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
-/// list_json and {format_version, captions with their details, hotspots, table_picture, sections, provenance, prop_kind,
+/// list_json and {format_version, captions with their details and the keys of what is spoken, hotspots, table_picture, sections, provenance, prop_kind,
 /// unlit, relief_size, box_size, textures, relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16
 /// numbers, column-major}.
 [[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);

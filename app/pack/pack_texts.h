@@ -1,0 +1,59 @@
+/// The texts of an artifact beside the plain ones of its manifest: set as glyph runs (the section `texts`) and spoken (the section
+/// `sounds`), in parts of their own for each language.
+///
+/// Keys     `title`, `text`, `period`, `place`, `maker`, `credit`, `description`; `label.0` ... of the hotspots in their order. A
+///          text that is empty, or that could not be set, is not there.
+/// Errors   one line: data that FORMAT.md does not allow; a part that is not what it should be. Messages of `load_...` begin with
+///          the file's name. A pack without the sections is no error.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/glyph_runs.h"
+#include "app/pack/pack.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct SetLanguage {
+    std::string language; ///< BCP 47
+    GlyphRuns runs;
+    DistanceAtlas atlas;
+};
+
+struct SpokenLanguage {
+    std::string language;                ///< BCP 47
+    std::map<std::string, Bytes> sounds; ///< Ogg Opus by key
+};
+
+/// Each once for a pack; a language without texts or sounds is left out.
+void put_sounds(Pack& pack, std::span<const SpokenLanguage> languages);
+void put_set_texts(Pack& pack, std::span<const SetLanguage> languages);
+
+/// Those of `languages` that the pack has; no part of the others is read.
+[[nodiscard]] Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& file,
+                                                              std::span<const std::string> languages);
+
+struct SpokenText {
+    std::string language;
+    std::string key;
+    bool operator==(const SpokenText&) const = default;
+};
+/// What there are sounds of.
+[[nodiscard]] Result<std::vector<SpokenText>> list_sounds(const PackDescription& pack);
+
+/// Ogg Opus, of which nothing is decoded here; no bytes if the text is silent. Nothing else is read but the manifest.
+[[nodiscard]] Result<Bytes> load_sound(const std::filesystem::path& file, std::string_view language,
+                                       std::string_view key);
+
+/// Holds both sections against FORMAT.md; `pack` was read whole.
+[[nodiscard]] Result<void> check_set_and_spoken(const Pack& pack);
+
+} // namespace frustumscreen

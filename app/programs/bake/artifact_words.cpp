@@ -1,0 +1,63 @@
+#include "app/programs/bake/artifact_words.h"
+
+#include "app/exhibit/caption_image.h"
+#include "app/exhibit/captions.h"
+#include "app/settings/settings.h"
+#include "assets_baked/texts/set_artifact.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// On a table of half a metre the prop and its shadow leave about this much beside them.
+constexpr double most_caption_height_m = 0.25;
+
+/// The kiosk's widths at the usual type size and at the smallest.
+CaptionLimits caption_limits() {
+    CaptionLimits limits;
+    const double usual_em_m = ExhibitSettings{}.caption_height_m;
+    for (const double width_m : caption_widths_m) {
+        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+            const double units = em_units * width_m / em_m;
+            limits.text.push_back(static_cast<std::int32_t>(std::floor(units)));
+            limits.title.push_back(static_cast<std::int32_t>(std::floor(units / caption_title_em)));
+        }
+    }
+    limits.title_em = caption_title_em;
+    limits.most_height = static_cast<std::int32_t>(em_units * most_caption_height_m / usual_em_m);
+    return limits;
+}
+
+void set_texts(const BakeRequest& request, ArtifactWords& words) {
+    const Result<Shaper> shaper = Shaper::open();
+    if (!shaper) {
+        words.lost.push_back(shaper.error().message);
+        return;
+    }
+    std::vector<std::vector<PackLabel>> labels;
+    for (const GivenHotspot& hotspot : request.options.hotspots) {
+        labels.push_back(hotspot.labels);
+    }
+    SetArtifact set = set_artifact(request.captions, labels, caption_limits(), *shaper);
+    words.set = std::move(set.languages);
+    words.lost = std::move(set.notes);
+}
+
+} // namespace
+
+Result<ArtifactWords> words_of(const BakeRequest& request) {
+    ArtifactWords words;
+    set_texts(request, words);
+    Result<SpokenArtifact> spoken = speak_artifact(request.captions, request.speech);
+    if (!spoken) {
+        return tl::unexpected<Error>(spoken.error());
+    }
+    words.spoken = std::move(spoken->languages);
+    words.silent = std::move(spoken->silent);
+    words.lost.insert(words.lost.end(), spoken->notes.begin(), spoken->notes.end());
+    return words;
+}
+
+} // namespace frustumscreen

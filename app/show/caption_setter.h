@@ -1,0 +1,34 @@
+/// Sets a pack's captions as pictures: from the glyph runs that the bake made, in any script; without them in the kiosk's own
+/// typeface.
+///
+/// Threads  one caller, never in a frame.
+/// Errors   no typeface where one is needed.
+#pragma once
+
+#include "app/exhibit/caption_image.h"
+#include "app/pack/pack.h"
+#include "app/pack/pack_texts.h"
+#include "firmware_host/base/result.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+class CaptionSetter {
+public:
+    CaptionSetter(double em_m, double texels_per_m) : em_m_(em_m), texels_per_m_(texels_per_m) {}
+
+    /// One for each of `caption_widths_m`. `set`: the pack's own, which need not hold the caption's language.
+    [[nodiscard]] Result<std::vector<CaptionImage>> set(const PackCaption& caption,
+                                                        std::span<const SetLanguage> set);
+
+private:
+    double em_m_;
+    double texels_per_m_;
+    std::optional<Typesetter> typesetter_; ///< opened for the first caption without glyph runs
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,151 @@
+#include "assets_baked/texts/set_artifact.h"
+
+#include "assets_baked/texts/glyph_atlas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+struct KeyedText {
+    std::string key;
+    std::string text;
+    bool is_title = false;
+};
+
+std::vector<KeyedText> texts_of(const PackCaption& caption, std::span<const std::vector<PackLabel>> labels) {
+    std::vector<KeyedText> texts{{"title", caption.title, true},
+                                 {"text", caption.text},
+                                 {"period", caption.period},
+                                 {"place", caption.place},
+                                 {"maker", caption.maker},
+                                 {"credit", caption.credit},
+                                 {"description", caption.description}};
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+        for (const PackLabel& label : labels[k]) {
+            if (label.language == caption.language) {
+                texts.push_back({fmt::format("label.{}", k), label.text});
+            }
+        }
+    }
+    std::erase_if(texts, [](const KeyedText& each) { return each.text.empty(); });
+    return texts;
+}
+
+/// Widths that break a text alike are one: the narrowest of them stays.
+void join_equal(std::vector<ShapedSetting>& settings) {
+    const auto is_alike = [](const ShapedSetting& a, const ShapedSetting& b) {
+        return a.width == b.width && a.height == b.height && a.glyphs.size() == b.glyphs.size();
+    };
+    for (std::size_t k = 0; k + 1 < settings.size();) {
+        if (is_alike(settings[k], settings[k + 1])) {
+            settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(k));
+        } else {
+            ++k;
+        }
+    }
+}
+
+/// The least height of all widths; 0 without the text.
+double least_height(const GlyphRuns& runs, std::string_view key) {
+    const GlyphText* text = runs.find(key);
+    if (text == nullptr || text->settings.empty()) {
+        return 0.0;
+    }
+    return std::min_element(text->settings.begin(), text->settings.end(),
+                            [](const GlyphSetting& a, const GlyphSetting& b) { return a.height < b.height; })
+        ->height;
+}
+
+class LanguageSetter {
+public:
+    LanguageSetter(const PackCaption& caption, const CaptionLimits& limits, const Shaper& shaper,
+                   std::vector<std::string>& notes)
+        : caption_(caption), limits_(limits), shaper_(shaper), notes_(notes) {}
+
+    void add(const KeyedText& text) {
+        Result<ShapedText> shaped = shaper_.shape(
+            {text.text, caption_.language, text.is_title ? limits_.title : limits_.text, text.is_title});
+        if (!shaped) {
+            note(fmt::format("{}: {}", text.key, shaped.error().message));
+            return;
+        }
+        for (const std::string& lost : shaped->notes) {
+            note(fmt::format("{}: {}", text.key, lost));
+        }
+        join_equal(shaped->settings);
+        builder_.add(text.key, *shaped);
+    }
+
+    /// Nothing if the letters do not fit an atlas.
+    [[nodiscard]] std::optional<SetLanguage> finish() {
+        Result<GlyphSheet> sheet = builder_.finish();
+        if (!sheet) {
+            note(sheet.error().message);
+            return std::nullopt;
+        }
+        check_height(sheet->runs);
+        return SetLanguage{caption_.language, std::move(sheet->runs), std::move(sheet->atlas)};
+    }
+
+private:
+    void check_height(const GlyphRuns& runs) {
+        const double text = least_height(runs, "text");
+        const double height = limits_.title_em * least_height(runs, "title") + text;
+        if (height > limits_.most_height && text > 0.0) {
+            const double share = std::max(0.1, (limits_.most_height - height + text) / text);
+            note(fmt::format(
+                "text: the caption is {:.0f} times its type size high where it is widest, and fits "
+                "nowhere on a table beside the prop; allowed are {:.0f}: shorten the text to "
+                "about {} letters",
+                height / em_units, static_cast<double>(limits_.most_height) / em_units,
+                static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
+        }
+    }
+    static std::size_t letters_of(std::string_view text) {
+        return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+            return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+        }));
+    }
+    void note(const std::string& what) {
+        notes_.push_back(fmt::format("texts in '{}': {}", caption_.language, what));
+    }
+
+    const PackCaption& caption_;
+    const CaptionLimits& limits_;
+    const Shaper& shaper_;
+    std::vector<std::string>& notes_;
+    GlyphAtlasBuilder builder_;
+};
+
+} // namespace
+
+SetArtifact set_artifact(std::span<const PackCaption> captions,
+                         std::span<const std::vector<PackLabel>> labels, const CaptionLimits& limits,
+                         const Shaper& shaper) {
+    SetArtifact set;
+    for (const PackCaption& caption : captions) {
+        const std::vector<KeyedText> texts = texts_of(caption, labels);
+        if (texts.empty()) {
+            continue;
+        }
+        if (const Result<void> there = shaper.fonts().check(caption.language); !there) {
+            set.notes.push_back(fmt::format("texts in '{}': {}", caption.language, there.error().message));
+            continue;
+        }
+        LanguageSetter setter(caption, limits, shaper, set.notes);
+        for (const KeyedText& text : texts) {
+            setter.add(text);
+        }
+        if (std::optional<SetLanguage> language = setter.finish()) {
+            set.languages.push_back(*std::move(language));
+        }
+    }
+    return set;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,41 @@
+/// Sets the texts of an artifact in all their languages: captions, details and the labels of hotspots, by the keys of
+/// app/pack/pack_texts.h.
+///
+/// What cannot be set is left out and told, a sentence each: a language whose typeface is missing, a text that is too long to be
+/// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are none of its business.
+///
+/// Threads  one caller.
+/// Errors   none: all of them are notes.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "app/pack/pack_texts.h"
+#include "assets_baked/texts/shape.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// Widths that lines may have, in 1/1024 of each text's own type size, and the height of title and text together in 1/1024 of the
+/// text's, above which a caption fits nowhere.
+struct CaptionLimits {
+    std::vector<std::int32_t> text;
+    std::vector<std::int32_t> title;
+    double title_em = 1.0; ///< its type size, in those of the text
+    std::int32_t most_height = 0;
+};
+
+struct SetArtifact {
+    std::vector<SetLanguage> languages;
+    std::vector<std::string> notes; ///< what is lost, a sentence each
+};
+
+/// `labels`: one list for each hotspot.
+[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions,
+                                       std::span<const std::vector<PackLabel>> labels,
+                                       const CaptionLimits& limits, const Shaper& shaper);
+
+} // namespace frustumscreen

@@ -1,0 +1,149 @@
+// The sections `texts` and `sounds`: what is written, read for one language alone, and refused.
+#include "app/pack/pack_sections.h"
+#include "app/pack/pack_texts.h"
+#include "tests/pack/samples.h"
+
+#include <filesystem>
+#include <functional>
+
+using namespace frustumscreen;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+class PackTexts : public testing::Test {
+protected:
+    void write(const Pack& pack) { ASSERT_TRUE(write_file(file, samples::bytes_of(pack))); }
+    /// One byte of a part is changed, so that it does not match its hash.
+    void write_with_damage(const std::string& damaged_part) {
+        Bytes bytes = samples::bytes_of(samples::pack_with_words());
+        samples::Entries entries = samples::take_apart(bytes);
+        entries.part(damaged_part)[0] ^= std::byte{1};
+        ASSERT_TRUE(write_file(file, samples::put_together(entries)));
+    }
+    void TearDown() override { std::filesystem::remove(file); }
+    [[nodiscard]] Result<std::vector<SetLanguage>> load(std::vector<std::string> languages) const {
+        return load_set_texts(file, languages);
+    }
+    const std::filesystem::path file = "words_of_pack.fspack";
+};
+
+std::string fault_with(const std::function<void(Pack&)>& change) {
+    Pack pack = samples::pack_with_words();
+    change(pack);
+    const Result<void> checked = check_set_and_spoken(pack);
+    return checked ? std::string() : checked.error().message;
+}
+
+void expect_fault(const char* words, const std::function<void(Pack&)>& change) {
+    const std::string message = fault_with(change);
+    EXPECT_TRUE(samples::is_one_line(message)) << words << ": " << message;
+    EXPECT_NE(message.find(words), std::string::npos) << words << ": " << message;
+}
+
+/// Changes the data of the section `index`: sounds first, then texts.
+std::function<void(Pack&)> data(std::size_t index, const std::function<void(Json&)>& change) {
+    return [=](Pack& pack) {
+        Json json = Json::parse(pack.sections.at(index).data);
+        change(json);
+        pack.sections[index].data = json.dump();
+    };
+}
+
+} // namespace
+
+TEST_F(PackTexts, are_written_as_the_format_page_says) {
+    const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack_with_words()));
+    EXPECT_EQ(entries.manifest["sections"]["texts"].dump(),
+              R"({"parts":["texts/en/glyphs.bin","texts/en/atlas.webp","texts/pt-br/glyphs.bin",)"
+              R"("texts/pt-br/atlas.webp","texts/fr/glyphs.bin"],"data":{"languages":[)"
+              R"({"atlas":"texts/en/atlas.webp","glyphs":"texts/en/glyphs.bin","language":"en"},)"
+              R"({"atlas":"texts/pt-br/atlas.webp","glyphs":"texts/pt-br/glyphs.bin","language":"pt-BR"},)"
+              R"({"atlas":"","glyphs":"texts/fr/glyphs.bin","language":"fr"}]}})");
+    EXPECT_EQ(entries.manifest["sections"]["sounds"].dump(),
+              R"({"parts":["sounds/en/description.opus"],"data":{"languages":[{"language":"en","sounds":)"
+              R"([{"key":"description","part":"sounds/en/description.opus"}]}]}})");
+}
+
+TEST_F(PackTexts, come_back_as_they_were) {
+    write(samples::pack_with_words());
+    const Result<std::vector<SetLanguage>> read = load({"pt-BR", "fr", "it"});
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->size(), 2U);
+    const SetLanguage portuguese = samples::set_language("pt-BR", TextDirection::RightToLeft);
+    EXPECT_EQ((*read)[0].language, "pt-BR");
+    EXPECT_EQ((*read)[0].runs, portuguese.runs);
+    EXPECT_EQ((*read)[0].atlas.texels, portuguese.atlas.texels);
+    EXPECT_EQ((*read)[1].language, "fr");
+    EXPECT_TRUE((*read)[1].atlas.texels.empty());
+    EXPECT_EQ(fault_with([](Pack&) {}), "");
+}
+
+TEST_F(PackTexts, of_one_language_are_read_without_the_others) {
+    write_with_damage("texts/en/glyphs.bin");
+    EXPECT_TRUE(load({"pt-BR"}));
+    const Result<std::vector<SetLanguage>> damaged = load({"en"});
+    ASSERT_FALSE(damaged);
+    EXPECT_TRUE(damaged.error().message.starts_with("words_of_pack.fspack: ")) << damaged.error().message;
+    EXPECT_NE(damaged.error().message.find("texts/en/glyphs.bin does not match its hash"), std::string::npos)
+        << damaged.error().message;
+}
+
+TEST_F(PackTexts, and_sounds_are_not_in_every_pack) {
+    write(samples::pack());
+    const Result<std::vector<SetLanguage>> none = load({"en"});
+    ASSERT_TRUE(none) << none.error().message;
+    EXPECT_TRUE(none->empty());
+    const Result<Bytes> silent = load_sound(file, "en", "description");
+    ASSERT_TRUE(silent) << silent.error().message;
+    EXPECT_TRUE(silent->empty());
+    EXPECT_TRUE(list_sounds(samples::pack())->empty());
+    EXPECT_TRUE(check_set_and_spoken(samples::pack()));
+}
+
+TEST_F(PackTexts, sounds_are_read_one_by_one) {
+    write_with_damage("texts/en/glyphs.bin"); // which nobody asks for
+    const Result<Bytes> sound = load_sound(file, "en", "description");
+    ASSERT_TRUE(sound) << sound.error().message;
+    EXPECT_EQ(as_text(*sound), "OggS english");
+    EXPECT_TRUE(load_sound(file, "en", "title")->empty());
+    EXPECT_TRUE(load_sound(file, "fr", "description")->empty());
+    EXPECT_EQ(*list_sounds(samples::pack_with_words()), (std::vector<SpokenText>{{"en", "description"}}));
+}
+
+TEST_F(PackTexts, a_sound_that_is_no_recording_is_refused) {
+    Pack pack = samples::pack();
+    put_sounds(pack, std::vector<SpokenLanguage>{{"en", {{"description", samples::some_bytes("RIFF")}}}});
+    write(pack);
+    EXPECT_FALSE(load_sound(file, "en", "description"));
+    EXPECT_FALSE(check_set_and_spoken(pack));
+}
+
+TEST_F(PackTexts, other_data_than_defined_are_refused) {
+    constexpr std::size_t sounds = 0;
+    constexpr std::size_t texts = 1;
+    expect_fault("sections.texts.data.size", data(texts, [](Json& d) { d["size"] = 1; }));
+    expect_fault("sections.texts.data.languages[0].atlas is missing",
+                 data(texts, [](Json& d) { d["languages"][0].erase("atlas"); }));
+    expect_fault("the section texts names 'en' twice",
+                 data(texts, [](Json& d) { d["languages"][1]["language"] = "en"; }));
+    expect_fault("the section texts names other parts",
+                 data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "levels/0.bin"; }));
+    expect_fault("the section texts names other parts",
+                 data(texts, [](Json& d) { d["languages"].erase(0); }));
+    expect_fault("the section texts names other parts",
+                 data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "texts/en/glyphs.bin"; }));
+    expect_fault("texts/en/atlas.webp: there is a picture of glyphs", [&](Pack& pack) {
+        data(texts, [](Json& d) {
+            d["languages"][2]["atlas"] = d["languages"][0]["atlas"];
+            d["languages"][0]["atlas"] = "";
+        })(pack);
+        pack.section_parts["texts/en/glyphs.bin"] = pack.section_parts["texts/fr/glyphs.bin"];
+    });
+    expect_fault("texts/en/glyphs.bin",
+                 [](Pack& pack) { pack.section_parts["texts/en/glyphs.bin"].resize(30); });
+    expect_fault("a key that is none",
+                 data(sounds, [](Json& d) { d["languages"][0]["sounds"][0]["key"] = "A key"; }));
+    expect_fault("the section sounds names other parts",
+                 data(sounds, [](Json& d) { d["languages"][0]["sounds"] = Json::array(); }));
+}

@@ -1,0 +1,61 @@
+// Captions from glyph runs where the pack has them, else in the kiosk's typeface.
+#include "app/show/caption_setter.h"
+
+#include <gtest/gtest.h>
+
+using namespace frustumscreen;
+
+namespace {
+
+constexpr double em_m = 0.010;
+constexpr double texels_per_m = 2000.0;
+
+/// One letter, a filled square as large as the type size, on one line.
+GlyphText letter(const std::string& key) {
+    return {
+        key, TextDirection::LeftToRight, {{4 * em_units, em_units, em_units, {{em_units, 1}}, {{0, 0, 0}}}}};
+}
+
+SetLanguage set_language(const std::string& language, std::vector<GlyphText> texts) {
+    SetLanguage set{language, {}, DistanceAtlas(12, 12, 255)};
+    set.runs.texels_per_em = 8;
+    set.runs.spread_texels = 1;
+    set.runs.atlas_width = set.runs.atlas_height = 12;
+    set.runs.boxes = {{2, 2, 8, 8, 0, 8}};
+    set.runs.texts = std::move(texts);
+    return set;
+}
+
+std::vector<CaptionImage> images_of(const std::vector<SetLanguage>& set, const PackCaption& caption) {
+    CaptionSetter setter(em_m, texels_per_m);
+    Result<std::vector<CaptionImage>> images = setter.set(caption, set);
+    EXPECT_TRUE(images) << images.error().message;
+    return images ? *std::move(images) : std::vector<CaptionImage>(caption_widths_m.size());
+}
+
+} // namespace
+
+TEST(CaptionSetter, takes_the_glyph_runs_of_the_captions_language) {
+    const std::vector set{set_language("ar", {letter("title"), letter("text")}),
+                          set_language("hi", {letter("title")})};
+    for (const CaptionImage& image : images_of(set, {"ar", "T", "t"})) {
+        EXPECT_NEAR(image.size_m.x, caption_title_em * em_m, 2.0 / texels_per_m);
+        EXPECT_EQ(image.coverage.at(image.coverage.width / 2, 5), 255) << "the title is a bright square";
+    }
+    const CaptionImage title = images_of(set, {"hi", "T", ""}).front();
+    EXPECT_NEAR(title.size_m.y, caption_title_em * em_m, 2.0 / texels_per_m);
+}
+
+TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
+    const PackCaption caption{"hi", "Title", "A text of several words."};
+    const std::vector<CaptionImage> plain = images_of({}, caption);
+    const std::vector<CaptionImage> other =
+        images_of({set_language("ar", {letter("title"), letter("text")})}, caption);
+    const std::vector<CaptionImage> half = images_of({set_language("hi", {letter("title")})}, caption);
+    ASSERT_EQ(plain.size(), caption_widths_m.size());
+    for (std::size_t k = 0; k < plain.size(); ++k) {
+        EXPECT_GT(plain[k].coverage.width, 1);
+        EXPECT_EQ(plain[k].coverage.texels, other[k].coverage.texels);
+        EXPECT_EQ(plain[k].coverage.texels, half[k].coverage.texels);
+    }
+}

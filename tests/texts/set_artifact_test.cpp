@@ -1,0 +1,134 @@
+// An artifact's texts in all languages: which are set, how wide, and what is said of those that cannot be.
+#include "app/exhibit/caption_image.h"
+#include "app/exhibit/captions.h"
+#include "assets_baked/texts/set_artifact.h"
+#include "tests/texts/languages.h"
+
+#include <algorithm>
+
+using namespace frustumscreen;
+using namespace frustumscreen::testing;
+
+namespace {
+
+constexpr double usual_em_m = 0.010;
+
+/// As the kiosk's captions are at two type sizes, in the units of set_artifact.
+CaptionLimits limits_for_captions() {
+    CaptionLimits limits;
+    for (const double width_m : caption_widths_m) {
+        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+            limits.text.push_back(static_cast<std::int32_t>(em_units * width_m / em_m));
+            limits.title.push_back(static_cast<std::int32_t>(em_units * width_m / em_m / caption_title_em));
+        }
+    }
+    limits.title_em = caption_title_em;
+    limits.most_height = 25 * em_units;
+    return limits;
+}
+
+class SetArtifactTexts : public Shaping {
+protected:
+    [[nodiscard]] SetArtifact set(const std::vector<PackCaption>& captions,
+                                  const std::vector<std::vector<PackLabel>>& labels = {}) const {
+        return set_artifact(captions, labels, limits_for_captions(), *shaper);
+    }
+};
+
+std::vector<std::string> keys_of(const SetLanguage& language) {
+    std::vector<std::string> keys;
+    for (const GlyphText& text : language.runs.texts) {
+        keys.push_back(text.key);
+    }
+    return keys;
+}
+
+bool has_note(const SetArtifact& set, std::string_view words) {
+    return std::any_of(set.notes.begin(), set.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+} // namespace
+
+TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
+    if (!has("de")) {
+        return;
+    }
+    const PackCaption german{"de", "Krug", "Ein Krug.", "um 1600", "Köln", "", "Schenkung", "Er ist hoch."};
+    const PackCaption english{"en", "Jug", ""};
+    const SetArtifact made = set({german, english}, {{{"en", "Handle"}}, {{"de", "Fuß"}, {"en", "Foot"}}});
+    EXPECT_TRUE(made.notes.empty()) << made.notes.front();
+    ASSERT_EQ(made.languages.size(), 2U);
+    EXPECT_EQ(keys_of(made.languages[0]), (std::vector<std::string>{"title", "text", "period", "place",
+                                                                    "credit", "description", "label.1"}));
+    EXPECT_EQ(keys_of(made.languages[1]), (std::vector<std::string>{"title", "label.0", "label.1"}));
+    EXPECT_EQ(made.languages[0].runs.find("title")->settings.size(), 1U) << "one line is one setting";
+}
+
+TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
+    for (const Sample& sample : samples) {
+        if (!has(sample.language)) {
+            continue;
+        }
+        std::string text = sample.text;
+        for (int k = 0; k < 2; ++k) {
+            text += std::string(" ") + sample.text;
+        }
+        const SetArtifact made = set({{sample.language, sample.text, text}});
+        ASSERT_EQ(made.languages.size(), 1U);
+        const SetLanguage& language = made.languages.front();
+        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+            double last_height_m = 0.0;
+            for (const double width_m : {0.30, 0.16}) { // words may be wider than 0.075 m
+                constexpr double texels_per_m = 2000.0;
+                const CaptionImage image =
+                    make_caption(language.runs, language.atlas, language.runs.find("title"),
+                                 language.runs.find("text"), em_m, width_m, texels_per_m);
+                EXPECT_LE(image.size_m.x, width_m + 0.1 * em_m) << sample.language;
+                EXPECT_GE(image.size_m.x, 0.75 * width_m) << sample.language << ": room is left unused";
+                EXPECT_GT(image.size_m.y, last_height_m) << sample.language;
+                last_height_m = image.size_m.y;
+            }
+        }
+    }
+}
+
+TEST_F(SetArtifactTexts, what_cannot_be_set_is_said_and_the_rest_is_set) {
+    if (!has("de")) {
+        return;
+    }
+    std::string long_text;
+    for (int k = 0; k < 1500; ++k) {
+        long_text += "Wort ";
+    }
+    PackCaption caption{"de", "Krug \xf0\x9f\x98\x80", "Kurz."};
+    caption.description = long_text;
+    const SetArtifact made = set({caption});
+    ASSERT_EQ(made.languages.size(), 1U);
+    EXPECT_EQ(keys_of(made.languages.front()), (std::vector<std::string>{"title", "text"}));
+    EXPECT_TRUE(has_note(made, "texts in 'de': title: the letter")) << made.notes.front();
+    EXPECT_TRUE(has_note(made, "texts in 'de': description: the text has 7500 letters; allowed are 5000"));
+    EXPECT_EQ(made.notes.size(), 2U);
+}
+
+TEST_F(SetArtifactTexts, a_caption_that_is_too_high_for_a_table_is_said) {
+    if (!has("en")) {
+        return;
+    }
+    const auto of_words = [](int count) {
+        std::string text;
+        for (int k = 0; k < count; ++k) {
+            text += "word ";
+        }
+        return text;
+    };
+    // Lines of 35 times the type size hold 14 words of 2.5, a table 17 such lines below a title.
+    EXPECT_TRUE(set({{"en", "Jug", of_words(150)}}).notes.empty());
+    const SetArtifact high = set({{"en", "Jug", of_words(400)}});
+    ASSERT_EQ(high.notes.size(), 1U);
+    EXPECT_NE(high.notes.front().find("fits nowhere on a table"), std::string::npos) << high.notes.front();
+    ASSERT_EQ(high.languages.size(), 1U) << "it is set all the same";
+    const GlyphText* text = high.languages.front().runs.find("text");
+    ASSERT_NE(text, nullptr);
+    EXPECT_LT(text->settings.size(), 6U) << "but not for 0.075 m, where it would be three metres high";
+}

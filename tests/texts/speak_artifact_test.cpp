@@ -1,0 +1,84 @@
+// The audio description: recordings before the voice, and what is silent.
+#include "assets_baked/texts/speak_artifact.h"
+#include "tests/programs/program_folder.h"
+#include "tests/texts/wav_bytes.h"
+
+using namespace frustumscreen;
+using namespace frustumscreen::testing;
+
+namespace {
+
+class SpeakArtifact : public ProgramFolder {
+protected:
+    /// A tone of so many seconds, by which a recording is known again.
+    std::filesystem::path tone(const std::string& file, double seconds) const {
+        std::filesystem::create_directories((folder / file).parent_path());
+        EXPECT_TRUE(write_file(folder / file, wav16(sine(0.2, seconds))));
+        return folder / file;
+    }
+    [[nodiscard]] static PackCaption caption(const std::string& language, const std::string& description) {
+        PackCaption made{language, "Jug", ""};
+        made.description = description;
+        return made;
+    }
+    /// Of what a player hears; the bake trims nothing of a tone.
+    [[nodiscard]] static double seconds_of(const Bytes& opus) {
+        const Result<Recording> recording = read_recording(opus, RecordingSource::File);
+        EXPECT_TRUE(recording);
+        return recording ? static_cast<double>(recording->samples.size()) / recording->rate_hz : 0.0;
+    }
+};
+
+} // namespace
+
+TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_the_voice) {
+    SpeechSources sources;
+    sources.recordings = {{"en", tone("mine.wav", 1.0)}};
+    tone("recordings/en/description.wav", 2.0);
+    tone("recordings/de/description.wav", 3.0);
+    sources.folder = folder / "recordings";
+    sources.voice = Voice("cat " + tone("voice.wav", 4.0).string());
+    const Result<SpokenArtifact> spoken = speak_artifact(
+        std::vector{caption("en", "A jug."), caption("de", "Ein Krug."), caption("fr", "Une cruche.")},
+        sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    ASSERT_EQ(spoken->languages.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double expected = std::array{1.0, 3.0, 4.0}.at(k);
+        EXPECT_NEAR(seconds_of(spoken->languages[k].sounds.at("description")), expected, 0.3) << k;
+    }
+    EXPECT_TRUE(spoken->silent.empty());
+    EXPECT_TRUE(spoken->notes.empty());
+}
+
+TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
+    SpeechSources sources;
+    sources.folder = folder / "recordings";
+    tone("recordings/de/description.wav", 1.0);
+    const Result<SpokenArtifact> spoken =
+        speak_artifact(std::vector{caption("en", "A jug."), caption("de", ""), caption("fr", "")}, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    EXPECT_TRUE(spoken->languages.empty());
+    EXPECT_EQ(spoken->silent,
+              (std::vector<std::string>{"the description in 'en' is silent, and shown all the "
+                                        "same: there is no recording and no voice"}));
+    ASSERT_EQ(spoken->notes.size(), 1U);
+    EXPECT_NE(spoken->notes.front().find("de/description.wav: nobody can read what is spoken here"),
+              std::string::npos)
+        << spoken->notes.front();
+}
+
+TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {
+    SpeechSources sources;
+    ASSERT_TRUE(write_file(folder / "noise.wav", as_bytes("this is no recording")));
+    sources.recordings = {{"en", folder / "noise.wav"}};
+    const std::vector captions{caption("en", "A jug.")};
+    const Result<SpokenArtifact> bad = speak_artifact(captions, sources);
+    ASSERT_FALSE(bad);
+    EXPECT_NE(bad.error().message.find("noise.wav: "), std::string::npos) << bad.error().message;
+    sources.recordings.clear();
+    sources.voice = Voice("false");
+    const Result<SpokenArtifact> mute = speak_artifact(captions, sources);
+    ASSERT_FALSE(mute);
+    EXPECT_TRUE(mute.error().message.starts_with("the description in 'en': ")) << mute.error().message;
+}
