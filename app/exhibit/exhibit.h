@@ -16,6 +16,7 @@
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/selection.h"
+#include "app/exhibit/table_browser.h"
 #include "app/exhibit/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
@@ -50,6 +51,7 @@ struct ExhibitPlace {
     ZoneFrame zone;                    ///< by default there is none
     glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
+    bool table_pictures = false;                  ///< the set's artifacts lie on the table, to choose from
 };
 
 struct PresentedCaption {
@@ -64,6 +66,7 @@ struct Presentation {
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
+    const PresentedTable* table = nullptr; ///< what lies there to choose from; valid until the next step
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -88,6 +91,7 @@ public:
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
+    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
@@ -98,6 +102,7 @@ private:
     Selection selection_;
     std::optional<Attract> attract_; ///< from the first step on
     VisitorSide side_;               ///< what lies on the table is turned to it
+    std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.
