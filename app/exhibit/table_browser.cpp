@@ -75,7 +75,7 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
     last_ = now;
     presented_.changing = faded.changing;
     for (std::size_t k = 0; k < presented_.count; ++k) {
-        PresentedPicture& picture = presented_.places[k];
+        PlacedPicture& picture = presented_.places[k];
         const double goal = picture.artifact == input.artifact ? 0.0 : 1.0;
         presence_[k] += std::clamp(goal - presence_[k], -step, step);
         presented_.changing = presented_.changing || presence_[k] != goal;

@@ -21,21 +21,19 @@
 
 namespace frustumscreen {
 
-struct PresentedPicture {
+struct PlacedPicture {
     std::optional<std::size_t> artifact; ///< index into the catalogue; nothing: it leads to the next page
     TablePlace place;
     double brightness = 0.0; ///< 0..1, a factor on linear light
 };
 
 struct PresentedTable {
-    std::array<PresentedPicture, most_table_places> places{};
+    std::array<PlacedPicture, most_table_places> places{};
     std::size_t count = 0;
     std::optional<std::size_t> ring; ///< index into `pictures()`: the prop rests on it
     double ring_full = 0.0;          ///< 0..1
     bool changing = false;           ///< a brightness changes by itself
-    [[nodiscard]] std::span<const PresentedPicture> pictures() const {
-        return std::span(places).first(count);
-    }
+    [[nodiscard]] std::span<const PlacedPicture> pictures() const { return std::span(places).first(count); }
 };
 
 class TableBrowser {

@@ -36,7 +36,7 @@ struct Table {
     }
     void put(const glm::dvec2& at) { situation.table_from_prop.translation = glm::dvec3(at, 0.0); }
     [[nodiscard]] glm::dvec2 place_of(std::size_t artifact) const {
-        for (const PresentedPicture& picture : shown.table->pictures()) {
+        for (const PlacedPicture& picture : shown.table->pictures()) {
             if (picture.artifact == artifact) {
                 return picture.place.picture.centre_m;
             }
@@ -46,7 +46,7 @@ struct Table {
     }
     [[nodiscard]] std::set<std::size_t> bright() const {
         std::set<std::size_t> artifacts;
-        for (const PresentedPicture& picture : shown.table->pictures()) {
+        for (const PlacedPicture& picture : shown.table->pictures()) {
             if (picture.artifact && picture.brightness >= 1.0) {
                 artifacts.insert(*picture.artifact);
             }
@@ -112,7 +112,7 @@ TEST(ExhibitTable, TheCaptionLiesBesideThePictures) {
         ASSERT_TRUE(table.shown.caption) << side;
         EXPECT_EQ(table.shown.caption->brightness, 1.0) << side;
         EXPECT_EQ(table.bright().size(), 9U) << side;
-        for (const PresentedPicture& picture : table.shown.table->pictures()) {
+        for (const PlacedPicture& picture : table.shown.table->pictures()) {
             EXPECT_EQ(picture.place.picture.quarter_turns, side);
             EXPECT_GE(clearance(table.shown.caption->rectangle.corners(), picture.place.whole().corners()),
                       0.008 - 1e-9)

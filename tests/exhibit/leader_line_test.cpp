@@ -143,7 +143,8 @@ TEST(Hotspots, AreSeenExactlyWhereARayCastReachesThem) {
     const Agreement agreement = compare(mesh, mesh, 1e-5, 3000);
     EXPECT_GT(agreement.seen, 400);
     EXPECT_GT(agreement.unseen, 1000);
-    EXPECT_LE(agreement.wrong, 15);
+    RecordProperty("wrong", agreement.wrong);
+    EXPECT_LE(agreement.wrong, 3);
     EXPECT_EQ(agreement.wrong_beyond_tolerance, 0);
 }
 
@@ -153,8 +154,10 @@ TEST(Hotspots, ACoarserLevelDecidesTheSameButWithinItsError) {
     // The coarser outline's spokes cut off up to r (1 - cos(pi / 32)) = 0.2 mm, its rings about as much.
     const Agreement agreement = compare(fine, coarse, 5e-4, 1500);
     EXPECT_GT(agreement.seen, 200);
-    EXPECT_LE(agreement.wrong, 1500 / 20);
-    EXPECT_LE(agreement.wrong_beyond_tolerance, 2);
+    RecordProperty("wrong_coarse", agreement.wrong);
+    RecordProperty("wrong_beyond_tolerance", agreement.wrong_beyond_tolerance);
+    EXPECT_LE(agreement.wrong, 30);
+    EXPECT_EQ(agreement.wrong_beyond_tolerance, 0);
 }
 
 TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {

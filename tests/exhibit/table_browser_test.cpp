@@ -43,15 +43,15 @@ struct Visitor {
     }
     [[nodiscard]] std::set<std::size_t> bright() const {
         std::set<std::size_t> artifacts;
-        for (const PresentedPicture& picture : browser.presented().pictures()) {
+        for (const PlacedPicture& picture : browser.presented().pictures()) {
             if (picture.artifact && picture.brightness >= 1.0) {
                 artifacts.insert(*picture.artifact);
             }
         }
         return artifacts;
     }
-    [[nodiscard]] const PresentedPicture& picture_of(std::optional<std::size_t> artifact) const {
-        for (const PresentedPicture& picture : browser.presented().pictures()) {
+    [[nodiscard]] const PlacedPicture& picture_of(std::optional<std::size_t> artifact) const {
+        for (const PlacedPicture& picture : browser.presented().pictures()) {
             if (picture.artifact == artifact) {
                 return picture;
             }
@@ -119,10 +119,10 @@ TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
     bool dark = false;
     for (int frame = 0; frame < 60; ++frame) {
         visitor.wait(1.0 / 60.0);
-        const std::span<const PresentedPicture> pictures = visitor.browser.presented().pictures();
+        const std::span<const PlacedPicture> pictures = visitor.browser.presented().pictures();
         dark = dark || std::all_of(pictures.begin(), pictures.end(),
-                                   [](const PresentedPicture& each) { return each.brightness < 0.02; });
-        for (const PresentedPicture& picture : pictures) {
+                                   [](const PlacedPicture& each) { return each.brightness < 0.02; });
+        for (const PlacedPicture& picture : pictures) {
             if (picture.brightness > 0.02) {
                 EXPECT_EQ(picture.place.picture.quarter_turns, dark ? 3 : 0);
             }
@@ -155,7 +155,7 @@ TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
         }
         visitor.wait(1.0 / 60.0);
         for (std::size_t k = 0; k < visitor.browser.presented().count; ++k) {
-            const PresentedPicture& picture = visitor.browser.presented().places[k];
+            const PlacedPicture& picture = visitor.browser.presented().places[k];
             const bool moved = picture.place.picture.centre_m != places[k];
             // Two eased fades of 250 ms at once, frames of 16.7 ms.
             EXPECT_LT(std::abs(picture.brightness - (moved ? 0.0 : before[k])), 2.0 * 1.5 / 15.0 + 0.01)
