@@ -1,5 +1,6 @@
 #include "app/exhibit/captions.h"
 
+#include "app/exhibit/visitor_side.h"
 #include "app/geometry/time_curves.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ constexpr double least_m = 0.02;        ///< no place is chosen closer than this
 constexpr double near_m = 0.015;        ///< closer than this, the caption goes elsewhere
 constexpr double dimming_m = 0.012;     ///< closer than this, it dims; it is gone at 0
 constexpr double grid_m = 0.01;
+constexpr double beside_m = 0.008; ///< between a caption and what else lies on the table
 constexpr Nanoseconds fade = std::chrono::milliseconds(250);
 constexpr Nanoseconds between_searches = std::chrono::milliseconds(200);
 
@@ -84,21 +86,7 @@ double least_distance_to_edges(std::span<const glm::dvec2> points, std::span<con
     return least;
 }
 
-/// By quarter turns, counter-clockwise; exact.
-glm::dvec2 turned(const glm::dvec2& point, int quarter_turns) {
-    switch (((quarter_turns % 4) + 4) % 4) {
-    case 1:
-        return {-point.y, point.x};
-    case 2:
-        return -point;
-    case 3:
-        return {point.y, -point.x};
-    default:
-        return point;
-    }
-}
-
-TablePolygon turned(TablePolygon polygon, int quarter_turns) {
+TablePolygon turned_polygon(TablePolygon polygon, int quarter_turns) {
     for (std::size_t k = 0; k < polygon.count; ++k) {
         polygon.points[k] = turned(polygon.points[k], quarter_turns);
     }
@@ -166,6 +154,22 @@ void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
     next_look_.reset();
 }
 
+void CaptionPlacer::set_obstacles(std::span<const TableRectangle> obstacles) {
+    assert(obstacles.size() <= most_obstacles);
+    obstacle_count_ = std::min(obstacles.size(), most_obstacles);
+    std::copy_n(obstacles.begin(), obstacle_count_, obstacles_.begin());
+}
+
+/// All lie along the axes.
+bool CaptionPlacer::on_obstacle(const TableRectangle& rectangle, std::span<const TableRectangle> obstacles) {
+    return std::any_of(obstacles.begin(), obstacles.end(), [&](const TableRectangle& obstacle) {
+        const bool crossed = (rectangle.quarter_turns - obstacle.quarter_turns) % 2 != 0;
+        const glm::dvec2 size = crossed ? glm::dvec2(obstacle.size_m.y, obstacle.size_m.x) : obstacle.size_m;
+        const glm::dvec2 off = turned(rectangle.centre_m - obstacle.centre_m, -rectangle.quarter_turns);
+        return glm::all(glm::lessThan(glm::abs(off), 0.5 * (rectangle.size_m + size) + beside_m));
+    });
+}
+
 bool CaptionPlacer::inside_room(const TableRectangle& rectangle) const {
     for (std::size_t k = 0; k < room_.size(); ++k) {
         const glm::dvec2 edge = glm::normalize(room_[(k + 1) % room_.size()] - room_[k]);
@@ -180,7 +184,8 @@ bool CaptionPlacer::inside_room(const TableRectangle& rectangle) const {
 
 std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& shadow,
                                                            const TablePolygon* hidden,
-                                                           const glm::dvec2& prop_m) const {
+                                                           const glm::dvec2& prop_m,
+                                                           std::span<const TableRectangle> obstacles) const {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     for (const glm::dvec2& corner : room_) {
@@ -204,7 +209,7 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
             const TableRectangle rectangle{first + 1e-9 + offset * grid_m, size};
             double cost =
                 glm::distance(rectangle.centre_m, wanted) + cost_of_later_shape * static_cast<double>(shape);
-            if (cost >= best_cost || !inside_room(rectangle)) {
+            if (cost >= best_cost || !inside_room(rectangle) || on_obstacle(rectangle, obstacles)) {
                 continue;
             }
             const double clear = clearance(rectangle.corners(), shadow.corners());
@@ -239,7 +244,8 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
         return;
     }
     const bool turns = place_ && place_->rectangle.quarter_turns != quarter_turns;
-    if (place_ && !leaves_ && (turns || clearance_m_ < near_m)) {
+    const std::span<const TableRectangle> obstacles = std::span(obstacles_).first(obstacle_count_);
+    if (place_ && !leaves_ && (turns || clearance_m_ < near_m || on_obstacle(place_->rectangle, obstacles))) {
         leaves_ = now;
     }
     const bool gone = !place_ || (leaves_ && now - *leaves_ >= fade);
@@ -247,9 +253,14 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
         return;
     }
     turn_to(quarter_turns);
-    const TablePolygon seen_hidden = hidden ? turned(*hidden, -quarter_turns) : TablePolygon{};
-    place_ = choose(turned(*shadow, -quarter_turns), hidden ? &seen_hidden : nullptr,
-                    turned(prop_m, -quarter_turns));
+    const TablePolygon seen_hidden = hidden ? turned_polygon(*hidden, -quarter_turns) : TablePolygon{};
+    std::array<TableRectangle, most_obstacles> seen_obstacles = obstacles_;
+    for (TableRectangle& obstacle : seen_obstacles) {
+        obstacle.centre_m = turned(obstacle.centre_m, -quarter_turns);
+        obstacle.quarter_turns -= quarter_turns;
+    }
+    place_ = choose(turned_polygon(*shadow, -quarter_turns), hidden ? &seen_hidden : nullptr,
+                    turned(prop_m, -quarter_turns), std::span(seen_obstacles).first(obstacle_count_));
     if (place_) {
         place_->rectangle.centre_m = turned(place_->rectangle.centre_m, quarter_turns);
         place_->rectangle.quarter_turns = quarter_turns;

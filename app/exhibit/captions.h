@@ -72,6 +72,10 @@ public:
     /// most four. It appears at the best place at the next update.
     void set_shapes(std::span<const glm::dvec2> sizes_m);
 
+    /// What else lies on the table; captions lie beside it. At most `most_obstacles`.
+    void set_obstacles(std::span<const TableRectangle> obstacles);
+    static constexpr std::size_t most_obstacles = 16;
+
     /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye. `quarter_turns`: the reader's side.
     void update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
                 const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m, int quarter_turns = 0);
@@ -85,14 +89,20 @@ private:
     void turn_to(int quarter_turns);
     /// All in the reader's frame: the table's, turned so that the reader stands at the front.
     [[nodiscard]] std::optional<Choice> choose(const TablePolygon& shadow, const TablePolygon* hidden,
-                                               const glm::dvec2& prop_m) const;
+                                               const glm::dvec2& prop_m,
+                                               std::span<const TableRectangle> obstacles) const;
     [[nodiscard]] bool inside_room(const TableRectangle& rectangle) const;
+    /// Both in the table's frame or both in the reader's.
+    [[nodiscard]] static bool on_obstacle(const TableRectangle& rectangle,
+                                          std::span<const TableRectangle> obstacles);
 
     std::vector<glm::dvec2> room_; ///< in the reader's frame
     int quarter_turns_ = 0;        ///< of that frame
     double border_m_;
     std::array<glm::dvec2, 4> sizes_{};
     std::size_t size_count_ = 0;
+    std::array<TableRectangle, most_obstacles> obstacles_{}; ///< in the table's frame
+    std::size_t obstacle_count_ = 0;
 
     std::optional<Choice> place_;
     MonotonicTime appears_;                  ///< when it begins to fade in

@@ -26,6 +26,20 @@ Selection make_selection(const Catalogue& catalogue, const std::string& language
     return {catalogue.size(), std::move(languages), first, now};
 }
 
+/// For each of the widths that captions are wrapped to, the size that holds them all.
+std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
+    std::vector<glm::dvec2> largest;
+    for (const CatalogueEntry& entry : catalogue) {
+        for (const std::vector<glm::dvec2>& sizes : entry.caption_sizes_m) {
+            largest.resize(std::max(largest.size(), sizes.size()), glm::dvec2(0.0));
+            for (std::size_t shape = 0; shape < sizes.size(); ++shape) {
+                largest[shape] = glm::max(largest[shape], sizes[shape]);
+            }
+        }
+    }
+    return largest;
+}
+
 } // namespace
 
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
@@ -33,8 +47,16 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       advice_placer_(place.picture_m), placer_(place.picture_m) {
-    for (const AdviceLanguage& language : place_.words) {
-        word_languages_.push_back(language.language);
+    for (const AdviceLanguage& words : place_.words) {
+        word_languages_.push_back(words.language);
+    }
+    if (place.table_pictures) {
+        table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
+                                  .picture_m = place.picture_m,
+                                  .prop = place.prop,
+                                  .lens_m = place.lens_m,
+                                  .home_m = place.attract_place_m,
+                                  .captions_m = sizes_of_all_captions(catalogue_)});
     }
 }
 
@@ -50,6 +72,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     }
     const Stand stand =
         attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
+    side_.update(situation.eye_m);
+    step_table(now, situation, stand);
     const Shown shown = selection_.at(now);
 
     Presentation presentation;
@@ -62,12 +86,15 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         // One text at a time, or the two would lie on each other.
         presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
     }
+    presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.zone_share =
         stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
-    presentation.settled = !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
+    const bool table_changes = table_ && table_->presented().changing;
+    presentation.settled =
+        !table_changes && !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
@@ -97,6 +124,23 @@ void Exhibit::take_chord(MonotonicTime now) {
     staff_until_ = staff_until_ ? std::nullopt : std::optional(now + staff_time);
 }
 
+/// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
+void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand) {
+    if (!table_) {
+        return;
+    }
+    TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
+                              hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m),
+                              std::nullopt};
+    if (situation.prop_known && !staff_until_) {
+        input.prop_m = standing_place(place_.prop, situation.table_from_prop);
+    }
+    if (const std::optional<std::size_t> chosen = table_->step(now, input)) {
+        selection_.choose(*chosen, now);
+    }
+    placer_.set_obstacles(table_->obstacles());
+}
+
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
                                                  const Situation& situation, const Stand& stand) {
     if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
@@ -112,7 +156,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     const RigidTransform& pose = stand.table_from_prop;
     placer_.update(now, hidden_by_prop(place_.prop, pose, place_.lens_m),
                    hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
-                   side_.update(situation.eye_m));
+                   side_.quarter_turns());
     const CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * (shown.caption_brightness * stand.brightness);
     if (brightness <= 0.0) {

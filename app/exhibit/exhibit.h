@@ -18,6 +18,7 @@
 #include "app/exhibit/captions.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
+#include "app/exhibit/table_browser.h"
 #include "app/exhibit/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
@@ -64,6 +65,7 @@ struct ExhibitPlace {
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
     std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
     std::vector<AdviceLanguage> words;            ///< none: guidance has no words
+    bool table_pictures = false;                  ///< the set's artifacts lie on the table, to choose from
 };
 
 struct PresentedCaption {
@@ -95,6 +97,7 @@ struct Presentation {
     std::optional<PresentedAdvice> advice; ///< the same in words
     std::optional<WordIndex> says;         ///< what begins to be spoken at this step
     bool falls_silent = false;             ///< nothing more need be said
+    const PresentedTable* table = nullptr; ///< what lies there to choose from; valid until the next step
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -121,6 +124,7 @@ public:
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
+    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
@@ -144,6 +148,7 @@ private:
     bool advised_ = false; ///< at the step before
     Presence presence_;    ///< guidance is for somebody who is there
     VisitorSide side_;     ///< what lies on the table is turned to it
+    std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.

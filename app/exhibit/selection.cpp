@@ -33,11 +33,16 @@ void Selection::take(Command command, MonotonicTime now) {
         change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
         return;
     }
-    // It begins together with a language change that has not begun yet, and after one that has.
-    const MonotonicTime begin =
-        language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
-    artifact_.change_to((artifact_.goal() + (command == Command::NextArtifact ? 1 : count_ - 1)) % count_,
-                        now, begin);
+    choose((artifact_.goal() + (command == Command::NextArtifact ? 1 : count_ - 1)) % count_, now);
+}
+
+/// It begins together with a language change that has not begun yet, and after one that has.
+void Selection::choose(std::size_t artifact, MonotonicTime now) {
+    if (artifact < count_ && artifact != artifact_.goal()) {
+        const MonotonicTime begin =
+            language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
+        artifact_.change_to(artifact, now, begin);
+    }
 }
 
 /// It begins together with an artifact's change that is not dark yet, and after one that fades in. Where both

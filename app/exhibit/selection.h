@@ -42,11 +42,15 @@ public:
 
     /// A command that is not accepted changes nothing.
     void take(Command command, MonotonicTime now);
+    /// Chooses one artifact; one that there is not changes nothing.
+    void choose(std::size_t artifact, MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
     /// Whether the command has something to change to.
     [[nodiscard]] bool accepts(Command command) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
+    /// The chosen artifact; it may not be visible yet.
+    [[nodiscard]] std::size_t artifact() const { return artifact_.goal(); }
     /// The chosen language; its caption may not be visible yet.
     [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
 

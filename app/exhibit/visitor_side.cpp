@@ -15,6 +15,19 @@ double degrees(double radians) {
 
 } // namespace
 
+glm::dvec2 turned(const glm::dvec2& point, int quarter_turns) {
+    switch (((quarter_turns % 4) + 4) % 4) {
+    case 1:
+        return {-point.y, point.x};
+    case 2:
+        return -point;
+    case 3:
+        return {point.y, -point.x};
+    default:
+        return point;
+    }
+}
+
 int VisitorSide::update(const glm::dvec3& eye_m) {
     if (!(std::hypot(eye_m.x, eye_m.y) >= leaning_m)) {
         return quarter_turns_;

@@ -11,6 +11,9 @@
 
 namespace frustumscreen {
 
+/// A point about the table's centre, turned by quarter turns counter-clockwise; exact.
+[[nodiscard]] glm::dvec2 turned(const glm::dvec2& point, int quarter_turns);
+
 class VisitorSide {
 public:
     /// A visitor must be so much nearer to another side, as seen from the table's middle, before that side counts: at a

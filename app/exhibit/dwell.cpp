@@ -1,0 +1,105 @@
+#include "app/exhibit/dwell.h"
+
+#include "app/exhibit/visitor_side.h"
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double lifted_m = 0.02;
+
+bool holds(const TableRectangle& rectangle, const glm::dvec2& at_m, double margin_m) {
+    const glm::dvec2 off = glm::abs(turned(at_m - rectangle.centre_m, -rectangle.quarter_turns));
+    return glm::all(glm::lessThanEqual(off, 0.5 * rectangle.size_m + margin_m));
+}
+
+std::optional<std::size_t> find(std::span<const TableRectangle> pictures, const glm::dvec2& at_m) {
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+        if (holds(pictures[k], at_m, 0.0)) {
+            return k;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<glm::dvec2> standing_place(const PropShape& prop, const RigidTransform& table_from_prop) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : prop.corners) {
+        lowest = std::min(lowest, table_from_prop.point(corner).z);
+    }
+    return lowest < lifted_m ? std::optional(glm::dvec2(table_from_prop.point(prop.middle))) : std::nullopt;
+}
+
+DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
+                         std::span<const TableRectangle> pictures) {
+    const bool followed = at_m && last_ && now - *last_ < longest_gap;
+    // On a picture's edge a trembling hand is now on it and now beside it.
+    const bool rests = followed && rest_ && rest_->place < pictures.size() &&
+                       holds(pictures[rest_->place], *at_m, leaving_m) &&
+                       glm::distance(*at_m, rest_->anchor_m) < resting_m;
+    if (!rests) {
+        stop(now);
+    }
+    last_ = at_m ? std::optional(now) : std::nullopt;
+    if (!at_m) {
+        return ring(now);
+    }
+    last_m_ = *at_m;
+    if (chosen_ && !holds(*chosen_, *at_m, leaving_m)) {
+        chosen_.reset();
+    }
+    if (!rest_ && !chosen_) {
+        if (const std::optional<std::size_t> place = find(pictures, *at_m)) {
+            rest_ = Rest{*place, now, *at_m};
+        }
+    }
+    if (rest_ && !rest_->settled && now - rest_->since >= settles) {
+        rest_->settled = true;
+        rest_->anchor_m = *at_m;
+        left_.reset();
+    }
+    DwellState state = ring(now);
+    if (rest_ && state.full >= 1.0) {
+        state.chosen = rest_->place;
+        chosen_ = pictures[rest_->place];
+        rest_.reset();
+    }
+    return state;
+}
+
+void Dwell::pictures_changed(std::span<const TableRectangle> pictures) {
+    rest_.reset();
+    left_.reset();
+    chosen_.reset();
+    if (const std::optional<std::size_t> on = last_ ? find(pictures, last_m_) : std::nullopt) {
+        chosen_ = pictures[*on];
+    }
+}
+
+double Dwell::Rest::full(MonotonicTime now) const {
+    return settled ? ramp(to_seconds(now - since - settles), to_seconds(fills)) : 0.0;
+}
+
+/// A ring that was filling empties from where it is.
+void Dwell::stop(MonotonicTime now) {
+    if (rest_ && rest_->settled) {
+        left_ = Left{rest_->place, now, rest_->full(now)};
+    }
+    rest_.reset();
+}
+
+DwellState Dwell::ring(MonotonicTime now) const {
+    if (rest_ && rest_->settled) {
+        return {rest_->place, rest_->full(now), std::nullopt};
+    }
+    const double full = left_ ? left_->full - to_seconds(now - left_->at) / to_seconds(empties) : 0.0;
+    return full > 0.0 ? DwellState{left_->place, full, std::nullopt} : DwellState{};
+}
+
+} // namespace frustumscreen

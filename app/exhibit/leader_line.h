@@ -1,0 +1,66 @@
+/// Hotspots: a point on the artifact's surface, a label beside the prop, and a thin line from the one to the other.
+///
+/// A hotspot is seen where the ray from the eye to it comes to the surface from outside, meets the artifact nowhere before,
+/// and enters the prop through a face that is lit. Rays are cast at one of the pack's coarser levels (triangle_tree.h): the
+/// end of the ray is lifted off the surface by a tolerance, which must not be less than that level's error.
+///
+/// The line lies on the table. It is a part of the straight line from where the eye sees the point (there the table is behind
+/// the prop) to the nearest place of the label: the part that neither the prop hides from the eye nor its shadow covers. So it
+/// seems to come out of the prop straight from the point, and follows softly as the prop turns. Where it would cross another
+/// picture it goes around with one bend; where that does not do either, there is none.
+///
+/// Frames   as said for each; metres.
+/// Threads  pure; any. Allocates nothing.
+#pragma once
+
+#include "app/exhibit/captions.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "app/geometry/triangle_tree.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+/// Prop frame.
+struct Hotspot {
+    glm::dvec3 point_m{0.0};
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit, outward
+};
+
+/// The artifact as rays meet it.
+struct Occluder {
+    const TriangleTree* triangles = nullptr; ///< in a frame of their own, for which:
+    glm::dmat4 triangles_from_prop{1.0};     ///< affine
+    double tolerance_m = 0.0;                ///< in the prop frame; at least the triangles' error
+};
+
+/// `eye_m`: prop frame. `lit_faces`: bit k is face k of the prop (FaceReader).
+[[nodiscard]] bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const PropShape& prop,
+                           std::uint32_t lit_faces, const Occluder& artifact);
+
+struct LeaderLine {
+    std::array<glm::dvec2, 3> points_m{}; ///< from the prop to the label, table frame
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const glm::dvec2> points() const { return std::span(points_m).first(count); }
+};
+
+struct LeaderLineNeeds {
+    glm::dvec3 point_m{0.0};            ///< the hotspot, table frame
+    glm::dvec3 eye_m{0.0};              ///< table frame
+    std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
+    std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
+    TableRectangle label;
+    std::span<const TableRectangle> pictures; ///< what it must not cross
+};
+
+/// Nothing where the eye is not above the prop, the label touches shadow or prop, or pictures leave no way.
+[[nodiscard]] std::optional<LeaderLine> leader_line(const LeaderLineNeeds& needs);
+
+} // namespace frustumscreen

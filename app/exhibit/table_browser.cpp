@@ -1,0 +1,99 @@
+#include "app/exhibit/table_browser.h"
+
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+TableBrowser::TableBrowser(const TableSetUp& set_up) {
+    for (int side = 0; side < 4; ++side) {
+        layouts_[static_cast<std::size_t>(side)] = lay_out_table(set_up, side);
+    }
+}
+
+std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& input) {
+    const auto side = static_cast<std::size_t>(input.quarter_turns);
+    const bool other_artifact = artifact_ != input.artifact;
+    if (other_artifact || side_ != side) {
+        turn_to_page_of(input.artifact, side);
+    }
+    if (!fade_) {
+        fade_.emplace(Arrangement{side, page_}.number(), each_way, now);
+        last_ = now;
+    } else if (fade_->goal() != Arrangement{side, page_}.number()) {
+        fade_->change_to(Arrangement{side, page_}.number(), now, now);
+    }
+    const Faded faded = fade_->at(now);
+    if (laid_out_ != faded.which) {
+        lay_out(Arrangement::of(faded.which), input.artifact);
+        laid_out_ = faded.which;
+        note_choosable(input.artifact);
+    } else if (other_artifact) {
+        note_choosable(input.artifact);
+    }
+    lighten(now, input, faded);
+
+    const DwellState dwell =
+        dwell_.update(now, input.prop_m, std::span(choosable_).first(faded.changing ? 0 : choosable_count_));
+    presented_.ring = dwell.place ? std::optional(choosable_places_[*dwell.place]) : std::nullopt;
+    presented_.ring_full = dwell.full;
+    if (!dwell.chosen) {
+        return std::nullopt;
+    }
+    const std::optional<std::size_t> chosen = presented_.places[choosable_places_[*dwell.chosen]].artifact;
+    if (!chosen) {
+        page_ = (page_ + 1) % layouts_[side].pages();
+    }
+    return chosen;
+}
+
+/// Sides may have room for different numbers, and so other pages.
+void TableBrowser::turn_to_page_of(std::size_t artifact, std::size_t side) {
+    page_ = layouts_[side].page_of(artifact);
+    artifact_ = artifact;
+    side_ = side;
+}
+
+void TableBrowser::lay_out(const Arrangement& arrangement, std::size_t artifact) {
+    const TableLayout& layout = layouts_[arrangement.side];
+    presented_.count = 0;
+    obstacle_count_ = 0;
+    for (std::size_t place = 0; place < layout.places.size(); ++place) {
+        obstacles_[obstacle_count_++] = layout.places[place].whole();
+        const std::optional<std::size_t> here = layout.artifact_at(arrangement.page, place);
+        if (here || layout.leads_on(place)) {
+            presence_[presented_.count] = here == artifact ? 0.0 : 1.0;
+            presented_.places[presented_.count++] = {here, layout.places[place], 0.0};
+        }
+    }
+}
+
+void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& faded) {
+    const double step = to_seconds(now - last_) / to_seconds(each_way);
+    last_ = now;
+    presented_.changing = faded.changing;
+    for (std::size_t k = 0; k < presented_.count; ++k) {
+        PlacedPicture& picture = presented_.places[k];
+        const double goal = picture.artifact == input.artifact ? 0.0 : 1.0;
+        presence_[k] += std::clamp(goal - presence_[k], -step, step);
+        presented_.changing = presented_.changing || presence_[k] != goal;
+        picture.brightness =
+            ease(presence_[k]) * faded.brightness * place_brightness(picture.place, input.shadow);
+    }
+}
+
+/// All but the empty place. What the prop is on now is not chosen before the prop has left it.
+void TableBrowser::note_choosable(std::size_t artifact) {
+    choosable_count_ = 0;
+    for (std::size_t k = 0; k < presented_.count; ++k) {
+        if (presented_.places[k].artifact != artifact) {
+            choosable_[choosable_count_] = presented_.places[k].place.picture;
+            choosable_places_[choosable_count_++] = k;
+        }
+    }
+    dwell_.pictures_changed(std::span(choosable_).first(choosable_count_));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,92 @@
+/// What lies on the table to choose from, and what is chosen there: layout, pages, fades and dwell in one place.
+///
+/// The artifact in the prop has an empty place; its picture fades out as it is chosen, and that of the one before fades in at
+/// its own place. When the reader goes to another side, or to another page, all fade out and in again. A page is turned by
+/// resting on the last place, or when an artifact of another page comes into the prop.
+///
+/// Frames   table T, metres.
+/// Time     `now` never goes back.
+/// Threads  values; one caller. The constructor lays out all four sides; `step` allocates nothing.
+/// Errors   none: a table without room shows nothing.
+#pragma once
+
+#include "app/exhibit/dwell.h"
+#include "app/exhibit/fade.h"
+#include "app/exhibit/table_layout.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+struct PlacedPicture {
+    std::optional<std::size_t> artifact; ///< index into the catalogue; nothing: it leads to the next page
+    TablePlace place;
+    double brightness = 0.0; ///< 0..1, a factor on linear light
+};
+
+struct PresentedTable {
+    std::array<PlacedPicture, most_table_places> places{};
+    std::size_t count = 0;
+    std::optional<std::size_t> ring; ///< index into `pictures()`: the prop rests on it
+    double ring_full = 0.0;          ///< 0..1
+    bool changing = false;           ///< a brightness changes by itself
+    [[nodiscard]] std::span<const PlacedPicture> pictures() const { return std::span(places).first(count); }
+};
+
+class TableBrowser {
+public:
+    static constexpr Nanoseconds each_way = std::chrono::milliseconds(250); ///< of a fade
+
+    explicit TableBrowser(const TableSetUp& set_up);
+
+    struct Input {
+        std::size_t artifact = 0;           ///< in the prop, or about to be
+        int quarter_turns = 0;              ///< the reader's side
+        std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
+        std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
+    };
+    /// Returns the artifact that was chosen by resting on its picture, in that step only.
+    [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
+    [[nodiscard]] const PresentedTable& presented() const { return presented_; }
+    /// What captions lie beside: the places of this side, empty ones too.
+    [[nodiscard]] std::span<const TableRectangle> obstacles() const {
+        return std::span(obstacles_).first(obstacle_count_);
+    }
+    [[nodiscard]] const TableLayout& layout(int quarter_turns) const {
+        return layouts_[static_cast<std::size_t>(quarter_turns)];
+    }
+
+private:
+    /// A side and a page of it, as one number for the fade.
+    struct Arrangement {
+        std::size_t side = 0;
+        std::size_t page = 0;
+        [[nodiscard]] std::size_t number() const { return 4 * page + side; }
+        [[nodiscard]] static Arrangement of(std::size_t number) { return {number % 4, number / 4}; }
+    };
+    void turn_to_page_of(std::size_t artifact, std::size_t side);
+    void lay_out(const Arrangement& arrangement, std::size_t artifact);
+    void lighten(MonotonicTime now, const Input& input, const Faded& faded);
+    void note_choosable(std::size_t artifact);
+
+    std::array<TableLayout, 4> layouts_;
+    std::size_t page_ = 0;
+    std::optional<std::size_t> artifact_; ///< for which `page_` and the choosable pictures are
+    std::size_t side_ = 0;
+    std::optional<Fade> fade_;            ///< from the first step on
+    std::optional<std::size_t> laid_out_; ///< the arrangement that lies there
+    MonotonicTime last_;
+    std::array<double, most_table_places> presence_{}; ///< 0: the place is empty
+    Dwell dwell_;
+    std::array<TableRectangle, most_table_places> choosable_{};
+    std::array<std::size_t, most_table_places> choosable_places_{};
+    std::size_t choosable_count_ = 0;
+    std::array<TableRectangle, most_table_places> obstacles_{};
+    std::size_t obstacle_count_ = 0;
+    PresentedTable presented_;
+};
+
+} // namespace frustumscreen

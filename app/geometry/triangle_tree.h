@@ -1,0 +1,49 @@
+/// Whether a segment meets any of a mesh's triangles: a tree of boxes, for a few rays in a frame.
+///
+/// Frames   that of the positions, any; a segment that is mapped with the mesh by an affine map meets the same triangles.
+/// Threads  immutable once built; any. `meets` allocates nothing; a tree of 20,000 triangles is asked in some microseconds.
+/// Errors   none: triangles without area, or thinner than single precision, and those that are not finite are left out.
+/// Method   boxes split at the median of the triangles' middles along the longest side, so the tree is balanced; slabs
+///          (Kay and Kajiya 1986), then Möller and Trumbore 1997, in 64 bits. Triangles are two-sided.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+class TriangleTree {
+public:
+    TriangleTree() = default;
+    /// `indices`: three for each triangle.
+    TriangleTree(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+
+    /// True if a triangle meets the segment between its ends.
+    [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const;
+    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+    /// Of the box around all triangles.
+    [[nodiscard]] double diagonal() const;
+
+private:
+    struct Triangle {
+        std::array<glm::vec3, 3> corners;
+    };
+    /// A leaf holds `count` triangles from `first` on. Else `count` is 0, its first child is the next node, and the other
+    /// one is `first`.
+    struct Node {
+        glm::vec3 low{0.0F}, high{0.0F};
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+    void build(std::size_t begin, std::size_t end);
+
+    float margin_ = 0.0F; ///< around boxes
+    std::vector<Triangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+} // namespace frustumscreen

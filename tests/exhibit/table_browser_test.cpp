@@ -1,0 +1,173 @@
+#include "app/exhibit/table_browser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+TableSetUp shipped(std::size_t artifacts) {
+    TableSetUp set_up;
+    set_up.artifacts = artifacts;
+    set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+    set_up.prop = make_frustum(shipped_frustum);
+    set_up.lens_m = {0.0, 0.0, 1.5};
+    return set_up;
+}
+
+struct Visitor {
+    TableSetUp set_up;
+    TableBrowser browser;
+    TableBrowser::Input input;
+    MonotonicTime now{};
+
+    explicit Visitor(std::size_t artifacts) : set_up(shipped(artifacts)), browser(set_up) { put({0.0, 0.0}); }
+    void put(const glm::dvec2& at) {
+        input.prop_m = at;
+        input.shadow = hidden_by_prop(set_up.prop, {{1, 0, 0, 0}, glm::dvec3(at, 0.0)}, set_up.lens_m);
+    }
+    /// What is chosen comes into the prop.
+    void wait(double seconds) {
+        for (double s = 0.0; s < seconds; s += 1.0 / 60.0) {
+            now += std::chrono::microseconds(16667);
+            if (const std::optional<std::size_t> chosen = browser.step(now, input)) {
+                input.artifact = *chosen;
+            }
+        }
+    }
+    [[nodiscard]] std::set<std::size_t> bright() const {
+        std::set<std::size_t> artifacts;
+        for (const PlacedPicture& picture : browser.presented().pictures()) {
+            if (picture.artifact && picture.brightness >= 1.0) {
+                artifacts.insert(*picture.artifact);
+            }
+        }
+        return artifacts;
+    }
+    [[nodiscard]] const PlacedPicture& picture_of(std::optional<std::size_t> artifact) const {
+        for (const PlacedPicture& picture : browser.presented().pictures()) {
+            if (picture.artifact == artifact) {
+                return picture;
+            }
+        }
+        ADD_FAILURE() << "it is not on this page";
+        return browser.presented().places[0];
+    }
+};
+
+TEST(TableBrowser, ShowsAllOthersAndWhatIsRestedOnComesIntoTheProp) {
+    Visitor visitor(6);
+    visitor.wait(0.6);
+    EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{1, 2, 3, 4, 5}));
+    const glm::dvec2 place_of_first = visitor.picture_of(0).place.picture.centre_m;
+    const glm::dvec2 place_of_fifth = visitor.picture_of(4).place.picture.centre_m;
+    visitor.put(place_of_fifth);
+    visitor.wait(1.0);
+    EXPECT_EQ(visitor.input.artifact, 0U);
+    ASSERT_TRUE(visitor.browser.presented().ring);
+    EXPECT_EQ(visitor.browser.presented().pictures()[*visitor.browser.presented().ring].artifact, 4U);
+    EXPECT_NEAR(visitor.browser.presented().ring_full, 0.8 / 1.5, 0.03);
+    visitor.wait(1.0);
+    EXPECT_EQ(visitor.input.artifact, 4U);
+    visitor.put({0.0, 0.0});
+    visitor.wait(1.0);
+    // Only one picture went and one came; all lie where they lay.
+    EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{0, 1, 2, 3, 5}));
+    EXPECT_EQ(visitor.picture_of(0).place.picture.centre_m, place_of_first);
+    // Its own place is empty: nothing is chosen there.
+    visitor.put(place_of_fifth);
+    visitor.wait(3.0);
+    EXPECT_EQ(visitor.input.artifact, 4U);
+    EXPECT_FALSE(visitor.browser.presented().ring);
+}
+
+TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
+    Visitor visitor(50);
+    visitor.wait(0.6);
+    const std::size_t pages = visitor.browser.layout(0).pages();
+    ASSERT_GT(pages, 3U);
+    std::set<std::size_t> seen = visitor.bright();
+    for (std::size_t page = 1; page < pages; ++page) {
+        visitor.put(visitor.picture_of(std::nullopt).place.picture.centre_m);
+        visitor.wait(4.0); // once: it must be left before it leads on again
+        visitor.put({0.0, 0.0});
+        visitor.wait(0.6);
+        const std::set<std::size_t> more = visitor.bright();
+        EXPECT_FALSE(more.empty());
+        seen.insert(more.begin(), more.end());
+        EXPECT_EQ(visitor.input.artifact, 0U);
+    }
+    EXPECT_EQ(seen.size(), 49U); // all but the one in the prop
+    visitor.input.artifact = 30; // a button
+    visitor.wait(1.0);
+    const std::size_t page = visitor.browser.layout(0).page_of(30);
+    for (const std::size_t artifact : visitor.bright()) {
+        EXPECT_EQ(visitor.browser.layout(0).page_of(artifact), page);
+    }
+}
+
+TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
+    Visitor visitor(8);
+    visitor.wait(0.6);
+    visitor.input.quarter_turns = 3;
+    bool dark = false;
+    for (int frame = 0; frame < 60; ++frame) {
+        visitor.wait(1.0 / 60.0);
+        const std::span<const PlacedPicture> pictures = visitor.browser.presented().pictures();
+        dark = dark || std::all_of(pictures.begin(), pictures.end(),
+                                   [](const PlacedPicture& each) { return each.brightness < 0.02; });
+        for (const PlacedPicture& picture : pictures) {
+            if (picture.brightness > 0.02) {
+                EXPECT_EQ(picture.place.picture.quarter_turns, dark ? 3 : 0);
+            }
+        }
+    }
+    EXPECT_EQ(visitor.bright().size(), 7U);
+    EXPECT_EQ(visitor.browser.obstacles().size(), visitor.browser.layout(3).places.size());
+}
+
+/// Whatever happens, no picture jumps: it dims at most as fast as its fade and the prop's shadow do.
+TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
+    std::mt19937_64 random(41);
+    Visitor visitor(30);
+    visitor.wait(0.6);
+    std::array<double, most_table_places> before{};
+    std::array<glm::dvec2, most_table_places> places{};
+    const auto note = [&] {
+        for (std::size_t k = 0; k < visitor.browser.presented().count; ++k) {
+            before[k] = visitor.browser.presented().places[k].brightness;
+            places[k] = visitor.browser.presented().places[k].place.picture.centre_m;
+        }
+    };
+    note();
+    for (int frame = 0; frame < 20'000; ++frame) {
+        if (random() % 40 == 0) {
+            visitor.input.artifact = random() % 30;
+        }
+        if (random() % 60 == 0) {
+            visitor.input.quarter_turns = static_cast<int>(random() % 4);
+        }
+        visitor.wait(1.0 / 60.0);
+        for (std::size_t k = 0; k < visitor.browser.presented().count; ++k) {
+            const PlacedPicture& picture = visitor.browser.presented().places[k];
+            const bool moved = picture.place.picture.centre_m != places[k];
+            // Two eased fades of 250 ms at once, frames of 16.7 ms.
+            EXPECT_LT(std::abs(picture.brightness - (moved ? 0.0 : before[k])), 2.0 * 1.5 / 15.0 + 0.01)
+                << frame;
+            EXPECT_TRUE(!moved || before[k] < 0.25) << frame;
+        }
+        note();
+        if (HasFailure()) {
+            break;
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,326 @@
+#include "app/exhibit/table_layout.h"
+#include "app/exhibit/visitor_side.h"
+#include "app/settings/lit_zone.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+namespace frustumscreen {
+namespace {
+
+using Random = std::mt19937_64;
+
+double between(Random& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+RigidTransform standing(const glm::dvec2& place, double yaw) {
+    return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(place, 0.0)};
+}
+
+/// Any table, prop and projector; the picture a little turned and narrower at one end, as measured ones are.
+TableSetUp some_set_up(Random& random) {
+    TableSetUp set_up;
+    set_up.artifacts = random() % 31;
+    const glm::dvec2 half(between(random, 0.15, 0.7), between(random, 0.12, 0.5));
+    const double roll = random() % 2 == 0 ? 0.0 : between(random, -0.03, 0.03);
+    const double narrower = random() % 2 == 0 ? 1.0 : between(random, 0.9, 1.0);
+    for (const glm::dvec2& corner :
+         {glm::dvec2(-narrower, -1), glm::dvec2(narrower, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+        const glm::dvec2 at = corner * half;
+        set_up.picture_m.emplace_back(at.x * std::cos(roll) - at.y * std::sin(roll),
+                                      at.x * std::sin(roll) + at.y * std::cos(roll));
+    }
+    if (random() % 4 == 0) {
+        set_up.prop = make_cube(between(random, 0.06, 0.2));
+    } else {
+        const double base = between(random, 0.08, 0.32);
+        set_up.prop = make_frustum({base, base * between(random, 0.2, 1.0), between(random, 0.05, 0.25)});
+    }
+    set_up.lens_m = {between(random, -0.2, 0.2), between(random, -0.3, 0.3), between(random, 0.7, 2.2)};
+    set_up.home_m = {between(random, -0.2, 0.2) * half.x, between(random, -0.2, 0.2) * half.y};
+    if (random() % 2 == 0) {
+        set_up.captions_m = {{0.30, between(random, 0.03, 0.08)}, {0.16, between(random, 0.06, 0.14)}};
+    }
+    return set_up;
+}
+
+double distance_inside(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point) {
+    double least = 1e9;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const glm::dvec2 along = glm::normalize(polygon[(k + 1) % polygon.size()] - polygon[k]);
+        const glm::dvec2 off = point - polygon[k];
+        least = std::min(least, along.x * off.y - along.y * off.x);
+    }
+    return least;
+}
+
+double distance_between(const TableRectangle& a, const TableRectangle& b) {
+    return clearance(a.corners(), b.corners());
+}
+
+void expect_apart_and_inside(const TableSetUp& set_up, const TableLayout& layout) {
+    for (std::size_t k = 0; k < layout.places.size(); ++k) {
+        const TablePlace& place = layout.places[k];
+        for (const TableRectangle& part : {place.picture, place.title}) {
+            for (const glm::dvec2& corner : part.corners()) {
+                EXPECT_GE(distance_inside(set_up.picture_m, corner), 0.008 - 1e-9);
+            }
+        }
+        EXPECT_GT(distance_between(place.picture, place.title), 0.003);
+        for (std::size_t other = 0; other < k; ++other) {
+            EXPECT_GE(distance_between(place.whole(), layout.places[other].whole()), 0.012 - 1e-9);
+        }
+        if (layout.caption) {
+            EXPECT_GE(distance_between(place.whole(), *layout.caption), 0.012 - 1e-8);
+        }
+    }
+}
+
+void expect_clear_of_home(const TableSetUp& set_up, const TableLayout& layout, Random& random) {
+    for (int k = 0; k < 12; ++k) {
+        const RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
+        const std::optional<TablePolygon> shadow = hidden_by_prop(set_up.prop, home, set_up.lens_m);
+        ASSERT_TRUE(shadow);
+        for (const TablePlace& place : layout.places) {
+            EXPECT_EQ(place_brightness(place, shadow), 1.0);
+            EXPECT_GE(clearance(place.picture.corners(), shadow->corners()), 0.015 - 1e-9);
+            EXPECT_GE(clearance(place.title.corners(), shadow->corners()), 0.015 - 1e-9);
+        }
+        if (layout.caption) {
+            EXPECT_GE(clearance(layout.caption->corners(), shadow->corners()), 0.02);
+        }
+    }
+}
+
+void expect_every_artifact_once(const TableLayout& layout) {
+    std::set<std::size_t> seen;
+    for (std::size_t page = 0; page < layout.pages(); ++page) {
+        std::size_t on_page = 0;
+        for (std::size_t place = 0; place < layout.places.size(); ++place) {
+            const std::optional<std::size_t> artifact = layout.artifact_at(page, place);
+            if (artifact) {
+                EXPECT_FALSE(layout.leads_on(place));
+                EXPECT_EQ(layout.page_of(*artifact), page);
+                EXPECT_TRUE(seen.insert(*artifact).second);
+                ++on_page;
+            }
+        }
+        EXPECT_GT(on_page, 0U);
+    }
+    EXPECT_EQ(seen.size(), layout.places.empty() ? 0U : layout.artifacts);
+    EXPECT_EQ(layout.has_more, layout.pages() > 1);
+}
+
+TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
+    Random random(14);
+    std::map<std::size_t, int> by_places;
+    int with_caption = 0;
+    for (int k = 0; k < 2400; ++k) {
+        const TableSetUp set_up = some_set_up(random);
+        const int side = static_cast<int>(random() % 4);
+        const TableLayout layout = lay_out_table(set_up, side);
+        ++by_places[layout.places.size()];
+        with_caption += layout.caption ? 1 : 0;
+        EXPECT_LE(layout.places.size(), most_table_places);
+        for (const TablePlace& place : layout.places) {
+            EXPECT_EQ(place.picture.quarter_turns, side);
+            EXPECT_EQ(place.title.quarter_turns, side);
+            EXPECT_EQ(place.picture.size_m.x, place.picture.size_m.y);
+            EXPECT_GE(place.picture.size_m.x, least_table_picture_m);
+            EXPECT_LE(place.picture.size_m.x, most_table_picture_m + 1e-12);
+            EXPECT_EQ(place.picture.size_m, layout.places.front().picture.size_m);
+            // The reader sees the title below the picture.
+            const glm::dvec2 down = turned(place.title.centre_m - place.picture.centre_m, -side);
+            EXPECT_LT(down.y, 0.0);
+            EXPECT_NEAR(down.x, 0.0, 1e-12);
+        }
+        expect_apart_and_inside(set_up, layout);
+        expect_clear_of_home(set_up, layout, random);
+        expect_every_artifact_once(layout);
+        if (HasFailure()) {
+            FAIL() << "set-up " << k;
+        }
+    }
+    // The test tests what it means to: tables of all kinds.
+    EXPECT_GT(by_places[0], 50);
+    EXPECT_LT(by_places[0], 800);
+    EXPECT_GT(by_places[12], 150);
+    EXPECT_GT(by_places.size(), 10U);
+    EXPECT_GT(with_caption, 500);
+}
+
+bool equal(const TableRectangle& a, const TableRectangle& b) {
+    return a.centre_m == b.centre_m && a.size_m == b.size_m && a.quarter_turns == b.quarter_turns;
+}
+
+TEST(TableLayout, IsTheSameWheneverItIsMade) {
+    Random random(15);
+    for (int k = 0; k < 200; ++k) {
+        const TableSetUp set_up = some_set_up(random);
+        const TableLayout once = lay_out_table(set_up, k % 4);
+        const TableLayout again = lay_out_table(set_up, k % 4);
+        ASSERT_EQ(once.places.size(), again.places.size());
+        EXPECT_EQ(once.has_more, again.has_more);
+        for (std::size_t place = 0; place < once.places.size(); ++place) {
+            EXPECT_TRUE(equal(once.places[place].picture, again.places[place].picture));
+            EXPECT_TRUE(equal(once.places[place].title, again.places[place].title));
+        }
+    }
+}
+
+/// A table that looks alike from two sides, or from four, is laid out alike for the readers there.
+TEST(TableLayout, ReadersOnOppositeSidesSeeTheSame) {
+    TableSetUp set_up;
+    set_up.artifacts = 9;
+    set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+    set_up.prop = make_frustum(shipped_frustum);
+    set_up.lens_m = {0.0, 0.0, 1.5};
+    for (const int side : {0, 1}) {
+        const TableLayout here = lay_out_table(set_up, side);
+        const TableLayout there = lay_out_table(set_up, side + 2);
+        ASSERT_EQ(here.places.size(), there.places.size());
+        ASSERT_EQ(here.places.size(), 9U);
+        for (std::size_t k = 0; k < here.places.size(); ++k) {
+            EXPECT_LT(glm::distance(here.places[k].picture.centre_m, -there.places[k].picture.centre_m),
+                      1e-9);
+        }
+    }
+}
+
+struct Expected {
+    const char* settings;
+    std::size_t artifacts;
+    std::size_t on_page; ///< seen from the front
+    double picture_m;    ///< at least
+};
+
+TEST(TableLayout, SaysHowManyFitOnTheTablesThatAreShipped) {
+    for (const Expected& expected :
+         {Expected{"kiosk", 2, 2, 0.095}, Expected{"kiosk", 6, 6, 0.09}, Expected{"kiosk", 12, 12, 0.07},
+          Expected{"kiosk", 50, 10, 0.07}, Expected{"cube", 3, 3, 0.09}, Expected{"cube", 12, 12, 0.06},
+          Expected{"near", 4, 4, 0.05}, Expected{"near", 12, 3, 0.05}}) {
+        const Result<CheckedSettings> settings =
+            load_settings(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR "/config") /
+                          (std::string(expected.settings) + ".toml"));
+        ASSERT_TRUE(settings) << settings.error().message;
+        TableSetUp set_up;
+        set_up.artifacts = expected.artifacts;
+        set_up.picture_m = picture_on_table(**settings, 0.0);
+        set_up.prop = make_prop((*settings)->prop);
+        set_up.lens_m = (*settings)->projector.table_from_projector.translation;
+        set_up.home_m = lit_rectangle(**settings).centre_m;
+        set_up.captions_m = {{0.30, 0.06}, {0.16, 0.10}, {0.075, 0.20}};
+        Random random(1);
+        for (int side = 0; side < 4; ++side) {
+            const TableLayout layout = lay_out_table(set_up, side);
+            ASSERT_FALSE(layout.places.empty());
+            EXPECT_GE(layout.artifacts_on_page(), std::min<std::size_t>(3, expected.artifacts));
+            if (side == 0) {
+                EXPECT_EQ(layout.artifacts_on_page(), expected.on_page) << expected.settings;
+                EXPECT_GE(layout.places.front().picture.size_m.x, expected.picture_m) << expected.settings;
+            }
+            expect_apart_and_inside(set_up, layout);
+            expect_clear_of_home(set_up, layout, random);
+            expect_every_artifact_once(layout);
+        }
+    }
+}
+
+TEST(TableLayout, ATableWithoutRoomHasNoPlaces) {
+    TableSetUp set_up;
+    set_up.artifacts = 5;
+    set_up.prop = make_frustum(shipped_frustum);
+    set_up.lens_m = {0.0, 0.0, 1.5};
+    EXPECT_TRUE(lay_out_table(set_up, 0).places.empty()); // no picture at all
+    set_up.picture_m = {{-0.17, -0.17}, {0.17, -0.17}, {0.17, 0.17}, {-0.17, 0.17}};
+    EXPECT_TRUE(lay_out_table(set_up, 0).places.empty());
+    EXPECT_EQ(lay_out_table(set_up, 0).pages(), 0U);
+    set_up.picture_m = {{-0.6, -0.5}, {0.6, -0.5}, {0.6, 0.5}, {-0.6, 0.5}};
+    EXPECT_EQ(lay_out_table(set_up, 0).places.size(), 5U);
+    set_up.lens_m.z = 0.1; // lower than the prop: its shadow has no end
+    EXPECT_TRUE(lay_out_table(set_up, 0).places.empty());
+    set_up.lens_m.z = 1.5;
+    set_up.artifacts = 1; // no other
+    EXPECT_TRUE(lay_out_table(set_up, 0).places.empty());
+}
+
+/// The area that is left for the caption is where it finds room.
+TEST(TableLayout, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
+    Random random(17);
+    int tried = 0;
+    for (int k = 0; k < 400; ++k) {
+        const TableSetUp set_up = some_set_up(random);
+        const int side = static_cast<int>(random() % 4);
+        const TableLayout layout = lay_out_table(set_up, side);
+        if (!layout.caption) {
+            continue;
+        }
+        ++tried;
+        CaptionPlacer placer(set_up.picture_m);
+        placer.set_shapes(set_up.captions_m);
+        std::vector<TableRectangle> obstacles;
+        for (const TablePlace& place : layout.places) {
+            obstacles.push_back(place.whole());
+        }
+        placer.set_obstacles(obstacles);
+        const RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
+        const std::optional<TablePolygon> shadow = hidden_by_prop(set_up.prop, home, set_up.lens_m);
+        for (const int ms : {0, 500}) {
+            placer.update(MonotonicTime{} + std::chrono::milliseconds(ms), shadow, std::nullopt,
+                          set_up.home_m, side);
+        }
+        const CaptionPlace caption = placer.at(MonotonicTime{} + std::chrono::milliseconds(500));
+        EXPECT_EQ(caption.opacity, 1.0) << k;
+        for (const TableRectangle& obstacle : obstacles) {
+            EXPECT_GE(distance_between(caption.rectangle, obstacle), 0.008 - 1e-9) << k;
+        }
+    }
+    EXPECT_GT(tried, 80);
+}
+
+/// The picture under the prop dims as the prop comes, without a jump, and the others stay.
+TEST(TableLayout, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
+    TableSetUp set_up;
+    set_up.artifacts = 12;
+    set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+    set_up.prop = make_frustum(shipped_frustum);
+    set_up.lens_m = {0.0, 0.0, 1.5};
+    const TableLayout layout = lay_out_table(set_up, 0);
+    ASSERT_EQ(layout.places.size(), 12U);
+    Random random(16);
+    for (int stroke = 0; stroke < 40; ++stroke) {
+        const TablePlace& goal = layout.places[random() % layout.places.size()];
+        const double yaw = between(random, -3.2, 3.2);
+        std::vector<double> before(layout.places.size(), 1.0);
+        const int steps = 600;
+        for (int step = 0; step <= steps; ++step) {
+            const glm::dvec2 at = goal.picture.centre_m * (static_cast<double>(step) / steps);
+            const std::optional<TablePolygon> shadow =
+                hidden_by_prop(set_up.prop, standing(at, yaw), set_up.lens_m);
+            ASSERT_TRUE(shadow);
+            // The shadow moves with the prop; that of its top 1.5 / (1.5 - 0.155) times as far.
+            const double moved = 1.12 * glm::length(goal.picture.centre_m) / steps;
+            for (std::size_t k = 0; k < layout.places.size(); ++k) {
+                const double now = place_brightness(layout.places[k], shadow);
+                EXPECT_LE(std::abs(now - before[k]), 1.5 * moved / 0.012 + 1e-9);
+                const double clear = clearance(layout.places[k].whole().corners(), shadow->corners());
+                EXPECT_EQ(now >= 1.0, clear >= 0.012);
+                EXPECT_EQ(now <= 0.0, clear <= 0.0);
+                before[k] = now;
+            }
+        }
+        EXPECT_EQ(place_brightness(
+                      goal, hidden_by_prop(set_up.prop, standing(goal.picture.centre_m, yaw), set_up.lens_m)),
+                  0.0);
+    }
+    EXPECT_EQ(place_brightness(layout.places.front(), std::nullopt), 0.0);
+}
+
+} // namespace
+} // namespace frustumscreen
