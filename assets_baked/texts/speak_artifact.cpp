@@ -5,6 +5,10 @@
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -41,6 +45,29 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
                   : at(fmt::format("the description in '{}'", caption.language), speech.error());
 }
 
+/// A sentence for each reason, with the languages that have it.
+class Silences {
+public:
+    void add(const std::string& why, const std::string& language) {
+        const auto found =
+            std::find_if(all_.begin(), all_.end(), [&](const auto& each) { return each.first == why; });
+        std::vector<std::string>& languages =
+            found != all_.end() ? found->second : all_.emplace_back(why, std::vector<std::string>()).second;
+        languages.push_back(fmt::format("'{}'", language));
+    }
+    [[nodiscard]] std::vector<std::string> sentences() const {
+        std::vector<std::string> made;
+        for (const auto& [why, languages] : all_) {
+            made.push_back(fmt::format("the description in {} is silent, and shown all the same: {}",
+                                       fmt::join(languages, ", "), why));
+        }
+        return made;
+    }
+
+private:
+    std::vector<std::pair<std::string, std::vector<std::string>>> all_;
+};
+
 } // namespace
 
 Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, const SpeechSources& sources) {
@@ -51,6 +78,7 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
         }
     });
     SpokenArtifact spoken;
+    Silences silences;
     for (std::size_t k = 0; k < captions.size(); ++k) {
         const std::string& language = captions[k].language;
         if (!all[k]) {
@@ -66,11 +94,10 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
         } else if (all[k]->speech) {
             spoken.languages.push_back({language, {{key, std::move(all[k]->speech->opus)}}});
         } else {
-            spoken.silent.push_back(
-                fmt::format("the description in '{}' is silent, and shown all the same: {}", language,
-                            all[k]->why_silent));
+            silences.add(all[k]->why_silent, language);
         }
     }
+    spoken.silent = silences.sentences();
     return spoken;
 }
 

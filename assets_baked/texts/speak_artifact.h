@@ -28,7 +28,7 @@ struct SpeechSources {
 
 struct SpokenArtifact {
     std::vector<SpokenLanguage> languages;
-    std::vector<std::string> silent; ///< which descriptions, and why, a sentence each
+    std::vector<std::string> silent; ///< which descriptions, and why, a sentence for each reason
     std::vector<std::string> notes;  ///< which recordings are left out, a sentence each
 };
 

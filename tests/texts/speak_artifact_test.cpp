@@ -56,11 +56,13 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
     sources.folder = folder / "recordings";
     tone("recordings/de/description.wav", 1.0);
     const Result<SpokenArtifact> spoken =
-        speak_artifact(std::vector{caption("en", "A jug."), caption("de", ""), caption("fr", "")}, sources);
+        speak_artifact(std::vector{caption("en", "A jug."), caption("de", ""), caption("fr", ""),
+                                   caption("it", "Una brocca.")},
+                       sources);
     ASSERT_TRUE(spoken) << spoken.error().message;
     EXPECT_TRUE(spoken->languages.empty());
     EXPECT_EQ(spoken->silent,
-              (std::vector<std::string>{"the description in 'en' is silent, and shown all the "
+              (std::vector<std::string>{"the description in 'en', 'it' is silent, and shown all the "
                                         "same: there is no recording and no voice"}));
     ASSERT_EQ(spoken->notes.size(), 1U);
     EXPECT_NE(spoken->notes.front().find("de/description.wav: nobody can read what is spoken here"),
