@@ -25,6 +25,18 @@ double effort_left(const Move& move) {
     }
 }
 
+/// Far enough for another advice, or for another amount.
+bool has_moved(const GuidedSituation& now, const GuidedSituation& then) {
+    constexpr double moved_m = 0.004;
+    constexpr double turned_rad = 0.03;
+    constexpr double looked_around_m = 0.02;
+    const RigidTransform& a = now.table_from_prop;
+    const RigidTransform& b = then.table_from_prop;
+    const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
+    return glm::distance(a.translation, b.translation) > moved_m || 2.0 * std::acos(cosine) > turned_rad ||
+           glm::distance(now.eye_m, then.eye_m) > looked_around_m;
+}
+
 } // namespace
 
 /// A prop of the table that lies so that the visitor sees none of its faces shows nothing, though nothing is unlit.
@@ -101,7 +113,8 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
     if (now - *needed_since_ < patience) {
         return guidance_;
     }
-    if (!next_look_ || now >= *next_look_ || guidance_.sensing != sensing) {
+    const bool moved = has_moved(situation, guidance_.situation);
+    if (!next_look_ || (now >= *next_look_ && moved) || guidance_.sensing != sensing) {
         look(now, situation, sensing);
         next_look_ = now + looks_every;
     }

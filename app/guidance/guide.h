@@ -41,6 +41,7 @@ public:
     static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000); ///< from the text on
     static constexpr Nanoseconds first_pause = std::chrono::seconds(8);
     static constexpr Nanoseconds longest_pause = std::chrono::seconds(60);
+    /// At most; what rests needs no other look.
     static constexpr Nanoseconds looks_every = std::chrono::milliseconds(250);
 
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}

@@ -36,13 +36,13 @@ class Guidance(HilTest):
         cls.guided = cls.settings.replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
         machine = cls.bench.machine
         machine.write(SETTINGS, cls.guided + '\n[sound]\ndevice = "plughw:0,0"\n')
-        machine.check(f"systemctl restart --no-block {UNIT}")
+        machine.check(f"systemctl stop {UNIT}; systemctl start --no-block {UNIT}")
 
     @classmethod
     def tearDownClass(cls):
         machine = cls.bench.machine
         machine.write(SETTINGS, cls.settings)
-        machine.check(f"systemctl restart --no-block {UNIT}")
+        machine.check(f"systemctl stop {UNIT}; systemctl start --no-block {UNIT}")
 
     def expected(self):
         """The samples that the same program says on this machine for the same place of the prop."""
