@@ -209,8 +209,10 @@ void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& 
         const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
         const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
         const std::optional<TablePolygon> shadow =
-            hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m);
-        if (shadow && guidance.stage != GuidanceStage::Quiet) {
+            guidance.stage != GuidanceStage::Quiet
+                ? hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m)
+                : std::nullopt;
+        if (shadow) {
             advised_ = true;
             presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
             const TablePolygon around =

@@ -48,7 +48,7 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
 
 /// What was said is left at the next pause once the visitor has managed.
 void LiveExhibit::speak() {
-    if (presentation_.falls_silent || presentation_.staff) {
+    if (presentation_.falls_silent) {
         wish_.leave();
     }
     if (presentation_.says && !presentation_.staff) {
@@ -74,6 +74,7 @@ void LiveExhibit::follow_staff_mode() {
         return;
     }
     pattern_ = std::move(*pattern);
+    wish_.leave();
 }
 
 void LiveExhibit::tell(const RunStatus& status) {
