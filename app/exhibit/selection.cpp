@@ -65,6 +65,8 @@ void Selection::undo(Command command, MonotonicTime now) {
     case Command::NextLanguage:
         change_language(language_before_, now);
         break;
+    case Command::Choose:
+    case Command::Help:
     case Command::StaffMode:
         break;
     }
@@ -77,6 +79,8 @@ bool Selection::accepts(Command command) const {
         return count_ > 1;
     case Command::NextLanguage:
         return language_count_ > 1;
+    case Command::Choose:
+    case Command::Help:
     case Command::StaffMode:
         break;
     }

@@ -13,12 +13,14 @@ enum class Command : std::uint8_t {
     PreviousArtifact,
     NextArtifact,
     NextLanguage,
+    Choose, ///< the picture that the prop rests on, at once; else the next thing to know about the artifact
+    Help,   ///< what to do, at once; where nothing is to be done, what the artifact is
     StaffMode, ///< the chord: the first and the last button were held together
 };
 
-/// The commands of buttons 0, 1 and 2; a panel may have fewer buttons.
+/// The commands of buttons 0 to 4; a panel may have fewer buttons.
 inline constexpr std::array button_commands{Command::PreviousArtifact, Command::NextArtifact,
-                                            Command::NextLanguage};
+                                            Command::NextLanguage, Command::Choose, Command::Help};
 
 /// Returns nothing if there is no such button.
 [[nodiscard]] constexpr std::optional<Command> command_of_button(int button) {

@@ -187,7 +187,7 @@ template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) 
 void press_settings(auto& fields, auto& press) {
     fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "after the script's beginning");
     fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
-                   "0 previous artifact, 1 next artifact, 2 language");
+                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help");
 }
 
 void panel_settings(auto& fields, auto& panel) {
@@ -200,13 +200,13 @@ void panel_settings(auto& fields, auto& panel) {
                   "scripted: the script begins again after this long; 0: it runs once");
     fields.text("chip", panel.chip, "gpio: path, name, label or number; gpiodetect lists them");
     fields.texts("lines", panel.lines, button_commands.size(),
-                 "gpio: names or offsets of buttons 0, 1 and 2; gpioinfo lists them");
+                 "gpio: names or offsets of buttons 0, 1, ...; gpioinfo lists them");
     fields.choice("bias", panel.bias, bias_names, "gpio: what holds a line while its button is up");
     fields.flag("active_low", panel.active_low, "gpio: a pressed button pulls its line to ground");
     fields.texts("lamps", panel.lamps, button_commands.size(),
                  "gpio: lines that light the buttons, in the same order; may be fewer");
     fields.text("device", panel.device, "keys: path or name of the keyboard's event device");
-    fields.texts("keys", panel.keys, button_commands.size(), "keys: KEY_... of buttons 0, 1 and 2");
+    fields.texts("keys", panel.keys, button_commands.size(), "keys: KEY_... of buttons 0, 1, ...");
     fields.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"},
                   "gpio, keys: a level must stand so long");
     fields.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"},
@@ -232,6 +232,12 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                 "signs, texts and speech say what to do where a visitor sees a dark face");
     fields.path("words", exhibit.words,
                 "the exhibit's own words, from frustumscreen-bake --words; left out: signs without words");
+    fields.flag("table_pictures", exhibit.table_pictures,
+                "the artifacts lie on the table as small pictures, to choose from");
+    fields.number("rest_s", exhibit.rest_s, {10.0, 3600.0, "seconds"},
+                  "after so long without a visitor the artifacts come in turn, in the first language");
+    fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
+                   "10^6 bytes that loaded artifacts may take; what was shown least recently goes first");
 }
 
 void hour_settings(auto& fields, auto& hour) {

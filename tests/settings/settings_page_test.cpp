@@ -35,8 +35,8 @@ TEST(SettingsPage, HasTheRangesAndDefaultsThatHold) {
     EXPECT_NE(page.find("| `base_m` | `0.3` | 0.02 to 2 metres |"), std::string::npos);
     EXPECT_NE(refusal("[prop]\nbase_m = 2.5").find("allowed are 0.02 to 2 metres"), std::string::npos);
     EXPECT_EQ(parsed("").prop.base_m, 0.3);
-    EXPECT_NE(page.find("| `script[].button` | `1` | whole numbers 0 to 2 |"), std::string::npos);
-    EXPECT_NE(refusal("[panel]\nscript = [{ button = 3 }]").find("whole numbers 0 to 2"), std::string::npos);
+    EXPECT_NE(page.find("| `script[].button` | `1` | whole numbers 0 to 4 |"), std::string::npos);
+    EXPECT_NE(refusal("[panel]\nscript = [{ button = 5 }]").find("whole numbers 0 to 4"), std::string::npos);
 }
 
 } // namespace

@@ -12,6 +12,7 @@ namespace frustumscreen {
     settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
     settings.exhibit.zone_frame = false;
     settings.exhibit.guidance = false;
+    settings.exhibit.table_pictures = false;
     return settings;
 }
 
