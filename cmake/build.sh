@@ -2,7 +2,7 @@
 # Configures a preset where needed, and builds it or some of its targets. On a terminal ninja says how far it is;
 # elsewhere one line does every 20 s, and the whole log only if something fails.
 #
-#   build.sh release|debug|asan|tsan|fuzz [--without tests|window]... [TARGET...]
+#   build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
 #
 # A new build folder leaves out a part that is not wanted, and needs none of its packages. A folder that has the part keeps
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
@@ -10,13 +10,14 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
 shift
-declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON)
+declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON [FRUSTUMSCREEN_BENCH]=ON)
 while [[ ${1-} == --without ]]; do
     case "$2" in
         tests) wanted[BUILD_TESTING]=OFF ;;
         window) wanted[FRUSTUMSCREEN_WINDOW]=OFF ;;
+        bench) wanted[FRUSTUMSCREEN_BENCH]=OFF ;;
         *)
-            echo "build.sh: there is no part '$2'; the parts are tests and window" >&2
+            echo "build.sh: there is no part '$2'; the parts are tests, window and bench" >&2
             exit 2
             ;;
     esac

@@ -1,5 +1,5 @@
 // Guidance as visitors meet it: signs that never lie on the prop, then words, then speech; and silence.
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 #include "exhibits.h"
 #include "tests/render/counted_new.h"

@@ -1,7 +1,7 @@
 /// The props that guidance is tested with: a frustum on a table, a cube in a hand, and any other convex prop.
 #pragma once
 
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "app/bench/guidance/guidance_report.h"
 
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 #include "firmware_host/base/time.h"
 
 #include <fmt/format.h>

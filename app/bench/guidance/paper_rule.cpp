@@ -51,7 +51,7 @@ std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation
     const std::uint32_t valid = now.seen & now.lit;
     std::optional<Move> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates(reader.setup(), situation, Part::Only).all()) {
+    for (const Candidate& candidate : candidates(reader.setup(), situation, MoveSet::Only).all()) {
         if (candidate.move.action == Action::ComeRound || candidate.effort >= least) {
             continue;
         }

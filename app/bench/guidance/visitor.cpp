@@ -1,7 +1,7 @@
 #include "app/bench/guidance/visitor.h"
 
 #include "app/bench/guidance/paper_rule.h"
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 #include "app/guidance/guide.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "app/bench/measures/csv_fields.h"
 #include "app/bench/measures/projection.h"
+#include "app/bench/truth/csv_fields.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "app/bench/measures/report.h"
 
-#include "app/bench/measures/csv_fields.h"
 #include "app/bench/measures/dominance.h"
+#include "app/bench/truth/csv_fields.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "app/bench/stability/report.h"
 
-#include "app/bench/measures/csv_fields.h"
+#include "app/bench/truth/csv_fields.h"
 
 #include <fmt/format.h>
 

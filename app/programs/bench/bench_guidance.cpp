@@ -1,5 +1,5 @@
 #include "app/bench/guidance/guidance_report.h"
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 #include "app/programs/bench/bench_command.h"
 

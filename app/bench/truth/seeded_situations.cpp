@@ -1,4 +1,4 @@
-#include "app/bench/guidance/seeded_situations.h"
+#include "app/bench/truth/seeded_situations.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "app/bench/measures/csv_fields.h"
+#include "app/bench/truth/csv_fields.h"
 
 #include <fmt/format.h>
 
