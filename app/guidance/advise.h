@@ -8,43 +8,23 @@
 ///
 /// Stable   what is advised already is kept as long as it helps and nothing else is clearly easier; until the visitor
 ///          begins to follow it, even where something else has become a little shorter.
-/// Cost     a single move about 0.3 ms, a sequence some milliseconds: not for every frame.
+/// Cost     a single move about 0.3 ms, a sequence some milliseconds: in a frame, in pieces.
 /// Threads  pure; any. Allocates nothing.
 /// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
 #pragma once
 
-#include "app/guidance/move.h"
+#include "app/guidance/advice.h"
+#include "app/guidance/advice_search.h"
+#include "app/guidance/face_reader.h"
 
 #include <optional>
 #include <utility>
 
 namespace frustumscreen {
 
-inline constexpr double sloppy_direction_deg = 20.0;
-inline constexpr double sloppy_amount = 0.4;
-
-struct Advice {
-    Move move;
-    int steps = 1; ///< moves until every seen face is lit, this one included
-};
-
-/// The advice that a visitor has, and the situation that it was given in.
-struct Standing {
-    Move move;
-    GuidedSituation given;
-    /// Whether the visitor has hardly begun to follow it.
-    [[nodiscard]] bool holds(const GuidedSituation& situation) const;
-};
-
 /// Nothing if the situation is valid. Wait: no sequence of up to four moves was found.
 [[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
                                            const std::optional<Standing>& standing = std::nullopt);
-
-enum class Help { No, Better, Valid };
-/// Whether every way in which people carry the move out leads to a valid situation or to a smaller unlit area.
-/// `margin`: a factor on how sloppy they are.
-[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move,
-                           double margin = 1.0);
 
 /// Advises one visitor from situation to situation.
 class Advisor {
@@ -52,11 +32,17 @@ public:
     explicit Advisor(GuidanceSetup setup) : reader_(std::move(setup)) {}
 
     [[nodiscard]] std::optional<Advice> advise(const GuidedSituation& situation);
+
+    /// The same in pieces (advice_search.h): begin, then advance until it is true.
+    void begin(const GuidedSituation& situation);
+    [[nodiscard]] bool advance(int looks);
+    [[nodiscard]] const std::optional<Advice>& found() const { return search_.found(); }
     [[nodiscard]] const FaceReader& reader() const { return reader_; }
 
 private:
     FaceReader reader_;
     std::optional<Standing> standing_;
+    AdviceSearch search_;
 };
 
 } // namespace frustumscreen

@@ -125,17 +125,17 @@ void add_walks(const GuidanceSetup& setup, Candidates& candidates) {
 
 } // namespace
 
-Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation, Part part) {
+Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation, MoveSet set) {
     Candidates candidates;
     add_standing(setup, situation, candidates);
     // A visitor is asked for nothing else while a prop that belongs on the table is off it.
     if (!setup.in_hand && !candidates.all().empty()) {
         return candidates;
     }
-    const bool fine = part != Part::Inner;
-    if (part == Part::Only) {
+    const bool fine = set != MoveSet::Inner;
+    if (set == MoveSet::Only) {
         add_slides(fine_ways_m, 24, setup, situation, candidates);
-    } else if (part == Part::Inner) {
+    } else if (set == MoveSet::Inner) {
         add_slides(coarse_ways_m, 8, setup, situation, candidates);
     }
     if (fine) {

@@ -6,6 +6,7 @@
 
 #include "app/guidance/move.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -26,6 +27,10 @@ public:
             list_[count_++] = {move, effort};
         }
     }
+    void sort_by_effort() {
+        std::sort(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(count_),
+                  [](const Candidate& a, const Candidate& b) { return a.effort < b.effort; });
+    }
     [[nodiscard]] std::span<const Candidate> all() const { return std::span(list_).first(count_); }
 
 private:
@@ -35,7 +40,8 @@ private:
 
 /// Only: directions and amounts are fine. Last of a sequence: places all over the table. Inner: coarse, enough to find
 /// which moves follow one another.
-enum class Part { Only, Last, Inner };
-[[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation, Part part);
+enum class MoveSet { Only, Last, Inner };
+[[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation,
+                                    MoveSet set);
 
 } // namespace frustumscreen

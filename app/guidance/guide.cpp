@@ -48,7 +48,7 @@ bool Guide::needs_help(const GuidedSituation& situation, Sensing sensing) {
     return !faces_.valid() || (faces_.seen == 0 && !advisor_.reader().setup().in_hand);
 }
 
-void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
+void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
     const Move before = guidance_.move;
     const bool was_sensing = guidance_.sensing == sensing;
     guidance_.sensing = sensing;
@@ -56,7 +56,7 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
     guidance_.move = {};
     guidance_.steps = 0;
     if (sensing == Sensing::Good) {
-        const std::optional<Advice> advice = advisor_.advise(situation);
+        const std::optional<Advice>& advice = advisor_.found();
         guidance_.move = advice ? advice->move : Move{Action::Upright};
         guidance_.steps = advice ? advice->steps : 1;
     }
@@ -102,6 +102,7 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
         guidance_ = {};
         needed_since_.reset();
         next_look_.reset();
+        looks_at_.reset();
         // Who managed for as long as a long pause is as new.
         if (spoken_ && now - *spoken_ > longest_pause) {
             spoken_.reset();
@@ -113,13 +114,32 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
     if (now - *needed_since_ < patience) {
         return guidance_;
     }
-    const bool moved = has_moved(situation, guidance_.situation);
-    if (!next_look_ || (now >= *next_look_ && moved) || guidance_.sensing != sensing) {
-        look(now, situation, sensing);
-        next_look_ = now + looks_every;
-    }
+    look(now, situation, sensing);
     raise_stage(now, may_speak);
     return guidance_;
+}
+
+/// Looks for another advice where something has moved, a piece at each step.
+void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
+    if (sensing != Sensing::Good) {
+        looks_at_.reset();
+        if (!next_look_ || guidance_.sensing != sensing) {
+            take(now, situation, sensing);
+            next_look_ = now + looks_every;
+        }
+        return;
+    }
+    const bool due = !next_look_ || guidance_.sensing != sensing ||
+                     (now >= *next_look_ && has_moved(situation, guidance_.situation));
+    if (!looks_at_ && due) {
+        looks_at_ = situation;
+        advisor_.begin(situation);
+        next_look_ = now + looks_every;
+    }
+    if (looks_at_ && advisor_.advance(looks_a_step)) {
+        take(now, *looks_at_, sensing);
+        looks_at_.reset();
+    }
 }
 
 namespace {

@@ -6,7 +6,7 @@
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back; the rhythm of the steps does not matter, but for how often the advice is looked for.
-/// Threads  values; one caller. Allocates nothing. A step that looks for advice takes some milliseconds, others
+/// Threads  values; one caller. Allocates nothing. A step takes about a millisecond while it looks for an advice, else
 ///          microseconds.
 #pragma once
 
@@ -44,6 +44,9 @@ public:
     /// At most; what rests needs no other look.
     static constexpr Nanoseconds looks_every = std::chrono::milliseconds(250);
 
+    /// About a millisecond's.
+    static constexpr int looks_a_step = 2000;
+
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
 
     /// `may_speak`: false while something else is being said.
@@ -56,6 +59,7 @@ public:
 private:
     [[nodiscard]] bool needs_help(const GuidedSituation& situation, Sensing sensing);
     void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
+    void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
 
     Advisor advisor_;
@@ -63,9 +67,10 @@ private:
     Guidance guidance_;
     std::optional<MonotonicTime> needed_since_;
     std::optional<MonotonicTime> next_look_;
-    MonotonicTime stage_since_;           ///< or since the visitor last came nearer
-    double nearest_effort_ = 0.0;         ///< what was left to do, at its least
-    std::optional<MonotonicTime> spoken_; ///< when it was last said
+    std::optional<GuidedSituation> looks_at_; ///< while an advice is looked for
+    MonotonicTime stage_since_;               ///< or since the visitor last came nearer
+    double nearest_effort_ = 0.0;             ///< what was left to do, at its least
+    std::optional<MonotonicTime> spoken_;     ///< when it was last said
     Nanoseconds pause_ = first_pause;
 };
 

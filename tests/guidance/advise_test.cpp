@@ -1,4 +1,5 @@
 // Advice, followed as people follow it.
+#include "app/guidance/guide.h"
 #include "guided_props.h"
 
 #include <gtest/gtest.h>
@@ -35,6 +36,34 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
     }
     EXPECT_GT(single, 80); // both happen
     EXPECT_GT(several, 20);
+}
+
+TEST_P(AdviceOf, IsTheSameInPieces) {
+    const FaceReader reader(GetParam()());
+    Seeded seeded(17);
+    std::optional<Standing> standing;
+    int most_pieces = 0;
+    for (int k = 0; k < 100; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> whole = advise(reader, situation, standing);
+        AdviceSearch search;
+        search.begin(reader, situation, standing);
+        int pieces = 1;
+        while (!search.advance(reader, Guide::looks_a_step)) {
+            ++pieces;
+        }
+        most_pieces = std::max(most_pieces, pieces);
+        ASSERT_EQ(search.found().has_value(), whole.has_value());
+        if (whole) {
+            EXPECT_EQ(search.found()->move.action, whole->move.action);
+            EXPECT_EQ(search.found()->move.by_m, whole->move.by_m);
+            EXPECT_EQ(search.found()->move.turn_rad, whole->move.turn_rad);
+            EXPECT_EQ(search.found()->steps, whole->steps);
+            standing = Standing{whole->move, situation};
+        }
+    }
+    EXPECT_GT(most_pieces, 2); // some are long
+    EXPECT_LT(most_pieces, 100);
 }
 
 TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {

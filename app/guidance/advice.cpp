@@ -1,0 +1,93 @@
+#include "app/guidance/advice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+/// An unlit area counts as smaller below this share of the one before.
+constexpr double better_share = 0.97;
+constexpr int looks_of_an_area = 5; ///< what is unlit takes as long as so many looks at what is lit
+
+/// Calls `visit` with what people do who turn the prop or stand it up: the angle is theirs, and whether they turn it about
+/// its middle. What is unlit between two angles can be a fifth of a degree wide. `visit` returns false to end.
+template <typename Visit> void for_each_angle(const Move& move, double margin, Visit visit) {
+    constexpr int to_each_side = 100;
+    const bool turns = move.action == Action::Turn;
+    for (int k = -to_each_side; k <= to_each_side; ++k) {
+        const double share = margin * k / to_each_side;
+        for (const bool about_origin : {false, true}) {
+            if (!visit(Execution{turns ? 1.0 + sloppy_amount * share : 1.0,
+                                 turns ? 0.0 : sloppy_direction_deg * degree * share, 0.0, about_origin})) {
+                return;
+            }
+        }
+    }
+}
+
+/// The same for a way or a walk: the edges of what people do, and between.
+template <typename Visit>
+void for_each_way(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
+    constexpr std::array<double, 7> amounts{0.0, -1.0, 1.0, -0.67, 0.67, -0.33, 0.33};
+    constexpr std::array<double, 9> sides{0.0, -1.0, 1.0, -0.5, 0.5, -0.25, 0.25, -0.75, 0.75};
+    const bool vertical = move.action == Action::Raise || move.action == Action::Lower;
+    const bool raised = setup.in_hand && (move.action == Action::Slide || vertical);
+    const double off_rad = margin * sloppy_direction_deg * degree;
+    // A vertical way may lean to any side.
+    const double aside_rad = vertical ? std::numbers::pi : off_rad;
+    for (const double amount : amounts) {
+        for (const double aside : sides) {
+            for (const double rise : {0.0, -1.0, 1.0, -0.5, 0.5}) {
+                if ((rise == 0.0 || raised) && !visit(Execution{1.0 + margin * sloppy_amount * amount,
+                                                                aside_rad * aside, off_rad * rise})) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+template <typename Visit>
+void for_each_execution(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
+    const bool by_angle =
+        move.action == Action::Turn || move.action == Action::SetDown || move.action == Action::Upright;
+    by_angle ? for_each_angle(move, margin, visit) : for_each_way(move, setup, margin, visit);
+}
+
+} // namespace
+
+Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move, double margin,
+             int* looks) {
+    const double before_px = reader.unlit_px(situation);
+    Help help = Help::Valid;
+    for_each_execution(move, reader.setup(), margin, [&](const Execution& execution) {
+        const GuidedSituation next = after(move, reader.setup(), situation, execution);
+        const bool valid = reader.valid(next);
+        if (looks != nullptr) {
+            *looks += valid ? 1 : looks_of_an_area;
+        }
+        if (!valid) {
+            help = reader.unlit_px(next) < better_share * before_px ? Help::Better : Help::No;
+        }
+        return help != Help::No;
+    });
+    return help;
+}
+
+bool Standing::holds(const GuidedSituation& situation) const {
+    constexpr double begun_m = 0.03;
+    constexpr double begun_rad = 10.0 * degree;
+    constexpr double walked_m = 0.1;
+    const RigidTransform& now = situation.table_from_prop;
+    const RigidTransform& then = given.table_from_prop;
+    const double cosine = std::min(1.0, std::abs(glm::dot(now.rotation, then.rotation)));
+    return glm::distance(now.translation, then.translation) < begun_m &&
+           2.0 * std::acos(cosine) < begun_rad && glm::distance(situation.eye_m, given.eye_m) < walked_m;
+}
+
+} // namespace frustumscreen

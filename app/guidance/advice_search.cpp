@@ -1,0 +1,197 @@
+#include "app/guidance/advice_search.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// What stands in an order of advice: all in units of effort.
+constexpr double not_surely_valid = 1.0;
+constexpr double as_advised_already = -1.0;
+/// What replaces an advice that stands must help people who are even sloppier, or the two would take turns.
+constexpr double newcomers_margin = 1.25;
+/// People are looked at on a grid; a little more than its corners holds between them too.
+constexpr double usual_margin = 1.12;
+
+/// The moves with which longer sequences begin: stood upright, then lowered to the table, the prop is where a zone is
+/// widest.
+std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& situation) {
+    constexpr double low_enough_m = 0.03;
+    if (tilt_rad(situation.table_from_prop) > upright_within_rad) {
+        return Move{Action::Upright};
+    }
+    const double height_m = lowest_m(setup.prop, situation.table_from_prop);
+    if (setup.in_hand && height_m > low_enough_m) {
+        Move move{Action::Lower};
+        move.by_m.z = -height_m;
+        return move;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+void AdviceSearch::begin(const FaceReader& reader, const GuidedSituation& situation,
+                         const std::optional<Standing>& standing) {
+    situation_ = situation;
+    standing_ = standing;
+    found_.reset();
+    over_ = reader.valid(situation);
+    stage_ = Stage::Begun;
+    best_ = {};
+}
+
+bool AdviceSearch::advance(const FaceReader& reader, int looks) {
+    looks_left_ = looks;
+    while (!over_ && looks_left_ > 0) {
+        switch (stage_) {
+        case Stage::Begun:
+            collect_single_moves(reader);
+            break;
+        case Stage::SingleMoves:
+            try_single_move(reader);
+            break;
+        case Stage::Sequences:
+            go_on_with_try(reader);
+            break;
+        }
+    }
+    return over_;
+}
+
+void AdviceSearch::end(const Move& move, int steps) {
+    found_ = Advice{move, steps};
+    over_ = true;
+}
+
+/// Those that are valid if they are done well, the easiest first.
+void AdviceSearch::collect_single_moves(const FaceReader& reader) {
+    const Candidates list = candidates(reader.setup(), situation_, MoveSet::Only);
+    looks_left_ -= static_cast<int>(list.all().size());
+    candidates_ = {};
+    for (const Candidate& candidate : list.all()) {
+        if (reader.valid(after(candidate.move, reader.setup(), situation_))) {
+            const bool stays = standing_ && alike(standing_->move, candidate.move);
+            candidates_.add(candidate.move, candidate.effort + (stays ? as_advised_already : 0.0));
+        }
+    }
+    candidates_.sort_by_effort();
+    next_ = 0;
+    stage_ = Stage::SingleMoves;
+}
+
+/// The best one is valid if it is done well, and helpful however it is done.
+void AdviceSearch::try_single_move(const FaceReader& reader) {
+    const std::span<const Candidate> moves = candidates_.all();
+    if (next_ == moves.size() || moves[next_].effort >= best_.cost) {
+        if (best_.any()) {
+            end(best_.move, 1);
+        } else {
+            plan_sequences(reader);
+        }
+        return;
+    }
+    const auto& [move, effort] = moves[next_++];
+    const bool replaces = standing_ && standing_->holds(situation_) && !alike(standing_->move, move);
+    int looks = 0;
+    const Help help = help_of(reader, situation_, move, replaces ? newcomers_margin : usual_margin, &looks);
+    looks_left_ -= looks;
+    const double cost = effort + (help == Help::Valid ? 0.0 : not_surely_valid);
+    if (help != Help::No && cost < best_.cost) {
+        best_ = {move, cost};
+    }
+}
+
+/// What stands is kept while a sequence begins with it.
+void AdviceSearch::plan_sequences(const FaceReader& reader) {
+    try_count_ = 0;
+    if (standing_ && standing_->holds(situation_)) {
+        Try kept{situation_};
+        kept.like = standing_->move;
+        plan_up_to_two(kept);
+        const std::optional<Move> first = settling(reader.setup(), situation_);
+        if (first && alike(*first, standing_->move)) {
+            plan_after_settling(reader);
+        }
+    }
+    plan_up_to_two({situation_});
+    plan_after_settling(reader);
+    stage_ = Stage::Sequences;
+    try_ = 0;
+    begin_try(reader);
+}
+
+/// With the last move all over the table only where no coarse one is found.
+void AdviceSearch::plan_up_to_two(Try from) {
+    constexpr std::array<std::pair<int, MoveSet>, 4> searches{
+        {{1, MoveSet::Only}, {1, MoveSet::Last}, {2, MoveSet::Inner}, {2, MoveSet::Last}}};
+    for (const auto& [depth, last] : searches) {
+        from.depth = depth;
+        from.last = last;
+        tries_.at(try_count_++) = from;
+    }
+}
+
+void AdviceSearch::plan_after_settling(const FaceReader& reader) {
+    Try settled{situation_};
+    while (const std::optional<Move> next = settling(reader.setup(), settled.from)) {
+        settled.settled_by = settled.settled_by ? settled.settled_by : next;
+        settled.from = after(*next, reader.setup(), settled.from);
+        ++settled.steps_before;
+        plan_up_to_two(settled);
+    }
+}
+
+void AdviceSearch::begin_try(const FaceReader& reader) {
+    best_ = {};
+    next_ = 0;
+    if (try_ == try_count_) {
+        end(Move{}, 1); // it has to wait
+        return;
+    }
+    const Try& search = tries_.at(try_);
+    candidates_ = candidates(reader.setup(), search.from, search.depth == 1 ? search.last : MoveSet::Inner);
+}
+
+/// Each move is done well, the end is valid; only the first move and the length matter.
+void AdviceSearch::go_on_with_try(const FaceReader& reader) {
+    const Try& search = tries_.at(try_);
+    if (next_ == candidates_.all().size()) {
+        if (best_.any()) {
+            // A single move that people may get wrong is mended by one more.
+            end(search.settled_by.value_or(best_.move), std::max(2, search.depth + search.steps_before));
+        } else {
+            ++try_;
+            begin_try(reader);
+        }
+        return;
+    }
+    const Candidate& first = candidates_.all()[next_++];
+    --looks_left_;
+    if (first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
+        return;
+    }
+    const GuidedSituation next = after(first.move, reader.setup(), search.from);
+    const double rest =
+        search.depth == 1 ? (reader.valid(next) ? 0.0 : never) : least_effort(reader, next, search.last);
+    if (first.effort + rest < best_.cost) {
+        best_ = {first.move, first.effort + rest};
+    }
+}
+
+/// Of the one move that is left.
+double AdviceSearch::least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set) {
+    double least = never;
+    const Candidates list = candidates(reader.setup(), from, set);
+    looks_left_ -= static_cast<int>(list.all().size());
+    for (const Candidate& candidate : list.all()) {
+        if (candidate.effort < least && reader.valid(after(candidate.move, reader.setup(), from))) {
+            least = candidate.effort;
+        }
+    }
+    return least;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,77 @@
+/// Looks for an advice in pieces, so that no frame waits for it: each piece looks at about as many situations as it may.
+///
+/// First single moves, the least effort first; then sequences, the shortest first. What is found does not depend on the
+/// pieces.
+///
+/// Cost     a situation about 1 us; a single move needs hundreds, a sequence tens of thousands.
+/// Threads  values; one caller. Allocates nothing.
+#pragma once
+
+#include "app/guidance/advice.h"
+#include "app/guidance/candidates.h"
+#include "app/guidance/face_reader.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace frustumscreen {
+
+class AdviceSearch {
+public:
+    static constexpr int unlimited = std::numeric_limits<int>::max();
+
+    /// `standing`: the advice that the visitor has already.
+    void begin(const FaceReader& reader, const GuidedSituation& situation,
+               const std::optional<Standing>& standing);
+    /// Goes on by about `looks` situations. True: it is over.
+    [[nodiscard]] bool advance(const FaceReader& reader, int looks);
+    /// That of the latest `begin`.
+    [[nodiscard]] const GuidedSituation& situation() const { return situation_; }
+    /// Once it is over: as `advise`.
+    [[nodiscard]] const std::optional<Advice>& found() const { return found_; }
+
+private:
+    static constexpr double never = std::numeric_limits<double>::infinity();
+    enum class Stage : std::uint8_t { Begun, SingleMoves, Sequences };
+    struct Best {
+        Move move;
+        double cost = never;
+        [[nodiscard]] bool any() const { return cost < never; }
+    };
+    /// A search for sequences of one length.
+    struct Try {
+        GuidedSituation from;
+        std::optional<Move> settled_by = {}; ///< what comes before it; then this is the advice
+        std::optional<Move> like = {};       ///< its first move is to be alike
+        int steps_before = 0;
+        int depth = 1;
+        MoveSet last = MoveSet::Only;
+    };
+    void collect_single_moves(const FaceReader& reader);
+    void try_single_move(const FaceReader& reader);
+    void plan_sequences(const FaceReader& reader);
+    void plan_up_to_two(Try from);
+    void plan_after_settling(const FaceReader& reader);
+    void begin_try(const FaceReader& reader);
+    void go_on_with_try(const FaceReader& reader);
+    [[nodiscard]] double least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set);
+    void end(const Move& move, int steps);
+
+    GuidedSituation situation_;
+    std::optional<Standing> standing_;
+    std::optional<Advice> found_;
+    bool over_ = true;
+    int looks_left_ = 0;
+    Stage stage_ = Stage::Begun;
+    Candidates candidates_; ///< single moves, or the first moves of the try
+    std::size_t next_ = 0;  ///< of `candidates_`
+    Best best_;
+    std::array<Try, 24> tries_{};
+    std::size_t try_count_ = 0;
+    std::size_t try_ = 0;
+};
+
+} // namespace frustumscreen
