@@ -5,7 +5,7 @@ import unittest
 
 import screen
 import watch
-from bench import CONNECTOR, UNIT, UPRIGHT, Bench
+from bench import CONFIG, CONNECTOR, SETTINGS, UNIT, UPRIGHT, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
 PIXELS = 2.0  # largest distance between what is shown and what is rendered offline
@@ -82,3 +82,30 @@ class HilTest(unittest.TestCase):
         reach = math.ceil(PIXELS)
         self.assertLess(screen.share_outside(seen, screen.grown(meant, reach, truth.width)), 0.002)
         self.assertLess(screen.share_outside(meant, screen.grown(seen, reach, truth.width)), 0.002)
+
+
+class OtherSettings(HilTest):
+    """Tests with settings of their own; after them the exhibit has its usual ones again."""
+
+    settings = CONFIG.read_text(encoding="utf-8")
+    before = after = "true"  # what the machine does while the exhibit is stopped
+
+    @classmethod
+    def other_settings(cls):
+        """The whole file."""
+        raise NotImplementedError
+
+    @classmethod
+    def setUpClass(cls):
+        cls.restart(cls.other_settings(), cls.before)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.restart(cls.settings, cls.after)
+
+    @classmethod
+    def restart(cls, settings, between):
+        # First stopped, then started: a handshake with the tracker is not cut off in the middle.
+        machine = cls.bench.machine
+        machine.write(SETTINGS, settings)
+        machine.check(f"systemctl stop {UNIT}; {between}; systemctl start --no-block {UNIT}")

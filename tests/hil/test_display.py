@@ -4,8 +4,8 @@ a viewer's window as the projector. The kernel reports it by uevent."""
 import time
 
 import screen
-from bench import CONFIG, CONNECTOR, HEIGHT, SETTINGS, UNIT, UPRIGHT, WIDTH, eventually
-from hil_test import PIXELS, START_S, HilTest, long
+from bench import CONNECTOR, HEIGHT, UNIT, UPRIGHT, WIDTH, eventually
+from hil_test import PIXELS, START_S, HilTest, OtherSettings, long
 from machine import SECOND_SLOT
 
 ARTIFACT = "amphora"
@@ -36,22 +36,23 @@ class OtherCard(HilTest):
                                f"systemctl start --no-block {UNIT}")
 
 
-class Display(HilTest):
+class Display(OtherSettings):
+    after = "modprobe -r virtio_gpu"
+
+    @classmethod
+    def other_settings(cls):
+        return f'{cls.settings}\n[display]\ncard = "{CARD}"\n'
+
     @classmethod
     def setUpClass(cls):
-        machine = cls.bench.machine
-        cls.settings = CONFIG.read_text(encoding="utf-8")
-        machine.write(SETTINGS, f'{cls.settings}\n[display]\ncard = "{CARD}"\n')
-        machine.check(f"systemctl restart --no-block {UNIT}")
+        super().setUpClass()
         cls.bench.looked_at = "second"
         cls.viewer = cls.bench.second_viewer()
 
     @classmethod
     def tearDownClass(cls):
-        machine = cls.bench.machine
         cls.viewer.close()
-        machine.write(SETTINGS, cls.settings)
-        machine.run(f"systemctl stop {UNIT}; modprobe -r virtio_gpu; systemctl start --no-block {UNIT}")
+        super().tearDownClass()
         cls.bench.looked_at = "screen"
 
     def setUp(self):

@@ -12,8 +12,8 @@ import time
 import wave
 
 import screen
-from bench import CONFIG, SETTINGS, UNIT, eventually
-from hil_test import HilTest
+from bench import UPRIGHT, eventually
+from hil_test import OtherSettings, long
 
 LEFT_OF_THE_LIGHT = (-0.28, 0.0, 0.0)
 HEADER_BYTES = 44
@@ -21,6 +21,8 @@ PIECE = 2400  # samples, 50 ms
 WHOLE_SHARE = 0.95  # of the pieces; the first and the last are faded
 TALKS_S = 60.0
 CALM_S = 8.0
+SOUNDS = "its sound goes to"
+SOUND_DRIVER = "/sys/bus/pci/drivers/snd_hda_intel"
 
 
 def spoken(samples):
@@ -29,20 +31,12 @@ def spoken(samples):
     return samples[loud[0]:loud[-1] + 1] if loud else samples[:0]
 
 
-class Guidance(HilTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.settings = CONFIG.read_text(encoding="utf-8")
-        cls.guided = cls.settings.replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
-        machine = cls.bench.machine
-        machine.write(SETTINGS, cls.guided + '\n[sound]\ndevice = "plughw:0,0"\n')
-        machine.check(f"systemctl stop {UNIT}; systemctl start --no-block {UNIT}")
+class Guidance(OtherSettings):
+    guided = OtherSettings.settings.replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
 
     @classmethod
-    def tearDownClass(cls):
-        machine = cls.bench.machine
-        machine.write(SETTINGS, cls.settings)
-        machine.check(f"systemctl stop {UNIT}; systemctl start --no-block {UNIT}")
+    def other_settings(cls):
+        return cls.guided + '\n[sound]\ndevice = "plughw:0,0"\n'
 
     def expected(self):
         """The samples that the same program says on this machine for the same place of the prop."""
@@ -70,9 +64,10 @@ class Guidance(HilTest):
         samples = self.bench.machine.heard.read_bytes()[HEADER_BYTES:]
         return array.array("h", samples[:len(samples) // 4 * 4])[0::2]
 
-    def share_heard(self, expected):
-        """The share of the pieces of `expected` that were heard, sample by sample, one after the other."""
-        heard = self.heard().tobytes()
+    def share_heard(self, expected, since):
+        """The share of the pieces of `expected` that were heard, sample by sample, one after the other, after so many
+        samples."""
+        heard = self.heard()[since:].tobytes()
         place, found, count = 0, 0, 0
         for begin in range(0, len(expected) - PIECE, PIECE):
             count += 1
@@ -81,40 +76,56 @@ class Guidance(HilTest):
                 place, found = at, found + 1
         return found / max(count, 1)
 
-    def test_prop_outside_the_light(self):
-        expected = self.expected()
-        self.assertGreater(len(expected), 48000 // 2, "nothing is said on this machine: this proves nothing")
-        self.bench.status_says("sound", "its sound goes to")
+    def outside_the_light(self):
+        """Pushes the prop out of the light, and waits for a sign beside the artifact; returns `artifact_at` there."""
         self.bench.place(LEFT_OF_THE_LIGHT)
-        pose = (*LEFT_OF_THE_LIGHT, 1.0, 0.0, 0.0, 0.0)
-        artifact = screen.lit(self.bench.rendered([pose], self.bench.status()["artifact"])[0])
+        artifact = self.artifact_at((*LEFT_OF_THE_LIGHT, *UPRIGHT))
+        eventually(lambda: self.share_beside(artifact) > 0.1, TALKS_S, "no sign appears on the screen")
+        return artifact
 
-        def beside_the_artifact():
-            picture = self.bench.screendump()
-            around = screen.grown(artifact, 4, picture.width)
-            return screen.share_outside(screen.lit(picture), around)
+    def artifact_at(self, pose):
+        """The pixels that the artifact lights, and some around them."""
+        picture = self.bench.rendered([pose], self.bench.status()["artifact"])[0]
+        return screen.grown(screen.lit(picture), 4, picture.width)
 
-        eventually(lambda: beside_the_artifact() > 0.1, TALKS_S, "no sign appears on the screen")
+    def share_beside(self, artifact):
+        return screen.share_outside(screen.lit(self.bench.screendump()), artifact)
+
+    def hears(self, expected, since=0):
         share = [0.0]
 
         def said():
-            share[0] = self.share_heard(expected)
+            share[0] = self.share_heard(expected, since)
             return share[0] >= WHOLE_SHARE
 
         eventually(said, TALKS_S, lambda: f"the advice is not heard whole: {100 * share[0]:.0f} % of it")
+
+    def test_prop_outside_the_light(self):
+        expected = self.expected()
+        self.assertGreater(len(expected), 48000 // 2, "nothing is said on this machine: this proves nothing")
+        self.bench.status_says("sound", SOUNDS)
+        self.outside_the_light()
+        self.hears(expected)
         self.bench.place((0.0, 0.0, 0.0))
-        self.bench.picture_of((0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
-        centre = screen.lit(self.bench.rendered([(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)],
-                                                self.bench.status()["artifact"])[0])
-        eventually(lambda: screen.share_outside(screen.lit(self.bench.screendump()),
-                                                screen.grown(centre, 4, screen_width(self.bench))) < 0.01,
-                   TALKS_S, "the sign stays although everything is lit")
+        self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
+        centre = self.artifact_at((0.0, 0.0, 0.0, *UPRIGHT))
+        eventually(lambda: self.share_beside(centre) < 0.01, TALKS_S, "the sign stays although everything is lit")
         quiet = len(self.heard())
         time.sleep(CALM_S)
         after = self.heard()[quiet:]
         self.assertFalse(any(abs(sample) > 300 for sample in after[24000:]), "it goes on talking")
         print(f"  {json.dumps({'sound_underruns': self.bench.status()['sound_underruns']})}", flush=True)
 
-
-def screen_width(bench):
-    return bench.screendump().width
+    @long
+    def test_sound_card_unplugged(self):
+        expected = self.expected()
+        self.bench.status_says("sound", SOUNDS)
+        self.bench.machine.check(f"for card in {SOUND_DRIVER}/0000:*; do echo 1 > $card/remove; done")
+        self.addCleanup(self.bench.machine.run, "echo 1 > /sys/bus/pci/rescan")
+        self.bench.status_says("sound", "is it plugged in")
+        artifact = self.outside_the_light()
+        silent = len(self.heard())
+        self.bench.machine.check("echo 1 > /sys/bus/pci/rescan")
+        self.bench.status_says("sound", SOUNDS)
+        self.hears(expected, silent)
+        self.assertGreater(self.share_beside(artifact), 0.1, "the sign is gone although it was not followed")

@@ -7,8 +7,7 @@ flip, 25 times a second, where flips are followed, and 30 times where they are n
 
 import time
 
-from bench import CONFIG, SETTINGS, UNIT
-from hil_test import HilTest
+from hil_test import OtherSettings
 
 CARD = "/dev/dri/by-path/platform-vkms-card"
 REFRESH_HZ = 50
@@ -17,19 +16,13 @@ MODESET_MS = 200
 MEASURED_S = 8.0
 
 
-class Vblanks(HilTest):
-    @classmethod
-    def setUpClass(cls):
-        machine = cls.bench.machine
-        cls.settings = CONFIG.read_text(encoding="utf-8")
-        machine.write(SETTINGS, f'{cls.settings}\n[display]\ncard = "{CARD}"\nmode = "640x400@{REFRESH_HZ}"\nforce = true\n')
-        machine.check(f"modprobe vkms modeset_ms={MODESET_MS}; systemctl restart --no-block {UNIT}")
+class Vblanks(OtherSettings):
+    before = f"modprobe vkms modeset_ms={MODESET_MS}"
+    after = "modprobe -r vkms"
 
     @classmethod
-    def tearDownClass(cls):
-        machine = cls.bench.machine
-        machine.write(SETTINGS, cls.settings)
-        machine.run(f"systemctl stop {UNIT}; modprobe -r vkms; systemctl start --no-block {UNIT}")
+    def other_settings(cls):
+        return f'{cls.settings}\n[display]\ncard = "{CARD}"\nmode = "640x400@{REFRESH_HZ}"\nforce = true\n'
 
     def test_frames_follow_flips_after_a_slow_modeset(self):
         before = self.bench.status()
