@@ -1,4 +1,4 @@
-/// frustumscreen-poses: pose files from recordings of other trackers, and from the simulated visitor.
+/// frustumscreen-poses: pose files from recordings of other trackers, from the simulated visitor, and along a path.
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
@@ -8,6 +8,7 @@
 #include "firmware_host/tracker/convert_recording.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
+#include "firmware_host/tracker/pose_path.h"
 #include "firmware_host/tracker/simulated_tracker.h"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,12 @@ struct ConvertRequest {
     std::string output;
     std::string settings; ///< for packets: the settings with the registration
     RecordingOptions recording;
+};
+
+struct PathRequest {
+    std::string input;
+    std::string output;
+    double rate_hz = 60.0;
 };
 
 struct SimulateRequest {
@@ -144,6 +151,28 @@ Result<void> simulate(const SimulateRequest& request) {
                            samples);
 }
 
+Result<void> follow_path(const PathRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, {{request.input}}); !safe) {
+        return safe;
+    }
+    const Result<Bytes> bytes = read_file(request.input);
+    if (!bytes) {
+        return tl::unexpected(bytes.error());
+    }
+    const auto keys = parse_poses(as_text(*bytes), request.input, PoseOrder::PropAscends);
+    if (!keys) {
+        return tl::unexpected(keys.error());
+    }
+    const Nanoseconds period(static_cast<Nanoseconds::rep>(1e9 / request.rate_hz));
+    const Result<std::vector<PoseSample>> path = pose_path(*keys, period);
+    if (!path) {
+        return at(request.input, path.error());
+    }
+    return write_pose_file(request.output,
+                           fmt::format("a path through {} poses at {} Hz", keys->size(), request.rate_hz),
+                           *path);
+}
+
 void add_convert(CLI::App& app, ConvertRequest& request, std::vector<double>& within) {
     CLI::App* command = app.add_subcommand(
         "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres; or packets) into a pose file");
@@ -179,16 +208,29 @@ void add_simulate(CLI::App& app, SimulateRequest& request) {
         ->capture_default_str();
 }
 
+void add_path(CLI::App& app, PathRequest& request) {
+    CLI::App* command = app.add_subcommand("path", "a pose file of a smooth path through a few poses");
+    command->add_option("INPUT", request.input, "a pose file: where the prop and the head are, and when")
+        ->required();
+    command->add_option("-o,--output", request.output, "the pose file to write")->required();
+    command->add_option("--hz", request.rate_hz, "poses a second")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+}
+
 int run(int argc, char** argv) {
-    CLI::App app("Pose files for FrustumScreen: from recordings of other trackers, and simulated.",
-                 "frustumscreen-poses");
+    CLI::App app(
+        "Pose files for FrustumScreen: from recordings of other trackers, simulated, and along a path.",
+        "frustumscreen-poses");
     app.set_version_flag("--version", "frustumscreen-poses " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
     ConvertRequest to_convert;
     SimulateRequest to_simulate;
+    PathRequest to_follow;
     std::vector<double> within;
     add_convert(app, to_convert, within);
     add_simulate(app, to_simulate);
+    add_path(app, to_follow);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -197,7 +239,9 @@ int run(int argc, char** argv) {
     if (within.size() == 2) {
         to_convert.recording.half_extent_m = {within[0], within[1]};
     }
-    const Result<void> done = app.got_subcommand("convert") ? convert(to_convert) : simulate(to_simulate);
+    const Result<void> done = app.got_subcommand("convert") ? convert(to_convert)
+                              : app.got_subcommand("path")  ? follow_path(to_follow)
+                                                            : simulate(to_simulate);
     if (!done) {
         fmt::print(stderr, "frustumscreen-poses: {}\n", done.error().message);
         return 1;
