@@ -47,7 +47,7 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
-      states_(catalogue_.size(), ArtifactState::Ready), arrived_at_(now),
+      states_(catalogue_.size(), ArtifactState::Ready),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       advice_placer_(place.picture_m), placer_(place.picture_m) {
     for (const AdviceLanguage& words : place_.words) {
@@ -82,9 +82,10 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
 
     Presentation presentation;
     presentation.artifact = shown.artifact;
-    presentation.brightness = shown.brightness * arrival(now, shown.artifact) * stand.brightness;
+    const StandIn::Output comes = stand_in(now, shown, stand);
+    presentation.brightness = comes.brightness * stand.brightness;
+    presentation.stand_in = comes.picture;
     presentation.wanted = wanted();
-    presentation.stand_in = stand_in(now, shown.artifact, stand);
     presentation.language = language_of(shown.artifact);
     guide(now, situation, stand, !commands.empty(), presentation);
     presentation.caption = caption(now, shown, situation, stand);
@@ -99,8 +100,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled = !table_changes && !shown.changing && !stand.changing && arrival_ >= 1.0 &&
-                           !presentation.stand_in && (opacity <= 0.0 || opacity >= 1.0);
+    presentation.settled = !table_changes && !shown.changing && !stand.changing && !comes.waits &&
+                           (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
@@ -147,43 +148,35 @@ WantedArtifacts Exhibit::wanted() const {
     return wanted;
 }
 
-double Exhibit::arrival(MonotonicTime now, std::size_t artifact) {
-    if (arriving_ != artifact) { // it is dark now
-        arriving_ = artifact;
-        arrival_ = ready(artifact) ? 1.0 : 0.0;
-    } else if (ready(artifact)) {
-        arrival_ = std::min(1.0, arrival_ + to_seconds(now - arrived_at_) / to_seconds(fade_time));
+/// The prop's place is as large as its bottom, upright for the reader.
+StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
+    if (catalogue_.empty()) {
+        return {0.0, std::nullopt, false};
     }
-    arrived_at_ = now;
-    return ease(arrival_);
-}
-
-/// As large as the prop's bottom, upright for the reader. Where the artifact comes before the one before it is dark, its
-/// picture stays until then: the two fade into each other.
-std::optional<PresentedStandIn> Exhibit::stand_in(MonotonicTime now, std::size_t shown, const Stand& stand) {
     const std::size_t chosen = selection_.artifact();
-    StandIn::Input input;
-    if (chosen < states_.size() && (!ready(chosen) || (stand_in_.artifact() == chosen && shown != chosen))) {
-        input.artifact = chosen;
-    }
     double half_side_m = 0.0;
     for (const glm::dvec3& corner : std::span(place_.prop.corners).first(place_.prop.corners.size() / 2)) {
         half_side_m = std::max({half_side_m, std::abs(corner.x), std::abs(corner.y)});
     }
-    input.to = {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
-                side_.quarter_turns()};
+    StandIn::Input input{shown,
+                         chosen,
+                         ready(shown.artifact),
+                         ready(chosen),
+                         std::nullopt,
+                         {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
+                          side_.quarter_turns()}};
     if (table_) {
         for (const PlacedPicture& picture : table_->presented().pictures()) {
-            if (picture.artifact && picture.artifact == input.artifact) {
+            if (picture.artifact == chosen) {
                 input.from = picture.place.picture;
             }
         }
     }
-    std::optional<PresentedStandIn> stands = stand_in_.step(now, input);
-    if (stands) {
-        stands->brightness *= stand.brightness;
+    StandIn::Output comes = stand_in_.step(now, input);
+    if (comes.picture) {
+        comes.picture->brightness *= stand.brightness;
     }
-    return stands;
+    return comes;
 }
 
 void Exhibit::take(Command command, MonotonicTime now) {

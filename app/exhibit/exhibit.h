@@ -147,10 +147,7 @@ private:
     void leave_out_the_bad(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
     [[nodiscard]] WantedArtifacts wanted() const;
-    /// How bright the artifact is that is shown: it fades in when it has come. 0..1
-    [[nodiscard]] double arrival(MonotonicTime now, std::size_t artifact);
-    [[nodiscard]] std::optional<PresentedStandIn> stand_in(MonotonicTime now, std::size_t shown,
-                                                           const Stand& stand);
+    [[nodiscard]] StandIn::Output stand_in(MonotonicTime now, const Shown& shown, const Stand& stand);
     void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
@@ -168,9 +165,6 @@ private:
     Selection selection_;
     std::vector<ArtifactState> states_;
     std::size_t left_out_ = 0; ///< how many of them the selection knows to be left out
-    std::size_t arriving_ = 0; ///< the artifact that is shown, or will be
-    double arrival_ = 1.0;     ///< of its way from dark to bright
-    MonotonicTime arrived_at_; ///< the latest step
     StandIn stand_in_;
     std::optional<Attract> attract_; ///< from the first step on
     std::optional<Guide> guide_;

@@ -31,6 +31,7 @@ struct Shown {
     std::string_view language; ///< of the caption; valid as long as the selection
     double caption_brightness = 0.0;
     bool changing = false; ///< a brightness changes, or is about to
+    bool leaving = false;  ///< the artifact fades out
 };
 
 class Selection {

@@ -1,8 +1,9 @@
-/// The picture of an artifact that is not there yet: it grows from its place on the table into the prop's place, and
-/// stays until the artifact fades in. Where the table shows no pictures it grows from nothing.
+/// How an artifact comes that may not be there yet. While it is not, its picture stands in for it: it grows from its place
+/// on the table into the prop's place, or from nothing where the table shows no pictures, and the artifact fades into it.
 ///
-/// One picture stands in at a time: when another is wanted, the first fades out before that one begins.
-///
+/// Light    the old artifact fades into the picture, and the picture into the new one; nothing is dark in between. Where
+///          a picture fades out itself, the next one comes after it. So however often something else is chosen, one
+///          change (selection.h) makes the light of the prop's place go down and up no more than once and a half.
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
@@ -10,6 +11,7 @@
 #pragma once
 
 #include "app/exhibit/captions.h"
+#include "app/exhibit/selection.h"
 #include "firmware_host/base/time.h"
 
 #include <cstddef>
@@ -25,25 +27,34 @@ struct PresentedStandIn {
 
 class StandIn {
 public:
-    static constexpr Nanoseconds each_way = std::chrono::milliseconds(250); ///< of its fade
     static constexpr Nanoseconds growing = std::chrono::milliseconds(500);
 
     struct Input {
-        std::optional<std::size_t> artifact; ///< whose picture is wanted
-        std::optional<TableRectangle> from;  ///< where that lies on the table
-        TableRectangle to;                   ///< the prop's place
+        Shown shown;
+        std::size_t chosen = 0; ///< what is shown, or will be
+        bool shown_ready = true, chosen_ready = true;
+        std::optional<TableRectangle> from; ///< where the chosen one's picture lies on the table
+        TableRectangle to;                  ///< the prop's place
     };
-    /// Nothing while it is dark.
-    [[nodiscard]] std::optional<PresentedStandIn> step(MonotonicTime now, const Input& input);
-    /// That it stands in for, or fades out of.
-    [[nodiscard]] std::optional<std::size_t> artifact() const { return artifact_; }
+    struct Output {
+        double brightness = 1.0; ///< of the artifact that is shown, 0..1
+        std::optional<PresentedStandIn> picture;
+        bool waits = false; ///< something is still to come, or fades
+    };
+    [[nodiscard]] Output step(MonotonicTime now, const Input& input);
 
 private:
-    std::optional<std::size_t> artifact_;
+    void begin(std::size_t artifact, MonotonicTime now, const Input& input);
+    [[nodiscard]] double light(const Input& input, double artifact) const;
+
+    std::optional<std::size_t> shown_; ///< at the latest step
+    bool leaving_ = false;             ///< it faded out then
+    double arrival_ = 1.0;             ///< of its way into the picture, 0..1
+    MonotonicTime last_;
+    std::optional<std::size_t> picture_; ///< of this artifact; none: nothing stands in
+    bool replaces_ = false; ///< the picture, of the artifact before: it came as that one faded out
     TableRectangle from_;
     MonotonicTime since_; ///< it began to grow
-    MonotonicTime last_;
-    double presence_ = 0.0; ///< 0 = dark
 };
 
 } // namespace frustumscreen
