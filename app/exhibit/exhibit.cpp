@@ -1,8 +1,10 @@
 #include "app/exhibit/exhibit.h"
 
 #include "app/exhibit/languages.h"
+#include "app/geometry/time_curves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace frustumscreen {
@@ -45,6 +47,7 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
+      states_(catalogue_.size(), ArtifactState::Ready),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       advice_placer_(place.picture_m), placer_(place.picture_m) {
     for (const AdviceLanguage& words : place_.words) {
@@ -64,6 +67,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     if (staff_until_ && now >= *staff_until_) {
         staff_until_.reset();
     }
+    leave_out_the_bad(now);
     for (const Command command : commands) {
         take(command, now);
     }
@@ -78,7 +82,10 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
 
     Presentation presentation;
     presentation.artifact = shown.artifact;
-    presentation.brightness = shown.brightness * stand.brightness;
+    const StandIn::Output comes = stand_in(now, shown, stand);
+    presentation.brightness = comes.brightness * stand.brightness;
+    presentation.stand_in = comes.picture;
+    presentation.wanted = wanted();
     presentation.language = language_of(shown.artifact);
     guide(now, situation, stand, !commands.empty(), presentation);
     presentation.caption = caption(now, shown, situation, stand);
@@ -93,11 +100,83 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled =
-        !table_changes && !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
+    presentation.settled = !table_changes && !shown.changing && !stand.changing && !comes.waits &&
+                           (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
+}
+
+void Exhibit::note(std::span<const ArtifactState> states) {
+    std::copy_n(states.begin(), std::min(states.size(), states_.size()), states_.begin());
+}
+
+void Exhibit::leave_out_the_bad(MonotonicTime now) {
+    const auto bad = std::count(states_.begin(), states_.end(), ArtifactState::LeftOut);
+    if (static_cast<std::size_t>(bad) == left_out_) {
+        return;
+    }
+    left_out_ = static_cast<std::size_t>(bad);
+    for (std::size_t artifact = 0; artifact < states_.size(); ++artifact) {
+        if (states_[artifact] == ArtifactState::LeftOut) {
+            selection_.leave_out(artifact, now);
+            if (table_) {
+                table_->leave_out(artifact);
+            }
+        }
+    }
+}
+
+bool Exhibit::ready(std::size_t artifact) const {
+    return artifact < states_.size() && states_[artifact] == ArtifactState::Ready;
+}
+
+WantedArtifacts Exhibit::wanted() const {
+    WantedArtifacts wanted;
+    if (catalogue_.empty()) {
+        return wanted;
+    }
+    wanted.add(selection_.artifact());
+    if (table_ && table_->presented().ring) {
+        if (const std::optional<std::size_t> rested =
+                table_->presented().places[*table_->presented().ring].artifact) {
+            wanted.add(*rested);
+        }
+    }
+    wanted.add(selection_.next());
+    wanted.add(selection_.previous());
+    return wanted;
+}
+
+/// The prop's place is as large as its bottom, upright for the reader.
+StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
+    if (catalogue_.empty()) {
+        return {0.0, std::nullopt, false};
+    }
+    const std::size_t chosen = selection_.artifact();
+    double half_side_m = 0.0;
+    for (const glm::dvec3& corner : std::span(place_.prop.corners).first(place_.prop.corners.size() / 2)) {
+        half_side_m = std::max({half_side_m, std::abs(corner.x), std::abs(corner.y)});
+    }
+    StandIn::Input input{shown,
+                         chosen,
+                         ready(shown.artifact),
+                         ready(chosen),
+                         std::nullopt,
+                         {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
+                          side_.quarter_turns()}};
+    if (table_) {
+        for (const PlacedPicture& picture : table_->presented().pictures()) {
+            if (picture.artifact == chosen) {
+                input.from = picture.place.picture;
+            }
+        }
+    }
+    StandIn::Output comes = stand_in_.step(now, input);
+    if (comes.picture) {
+        comes.picture->brightness *= stand.brightness;
+    }
+    return comes;
 }
 
 void Exhibit::take(Command command, MonotonicTime now) {

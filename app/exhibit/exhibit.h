@@ -14,10 +14,12 @@
 #pragma once
 
 #include "app/exhibit/advice_sign.h"
+#include "app/exhibit/artifact_state.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
+#include "app/exhibit/stand_in.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
@@ -88,10 +90,26 @@ struct PresentedAdvice {
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
 
+/// Artifacts that a visitor may see next, the most urgent first: the chosen one, the one that is rested on, the next, the
+/// previous. Some may be the same.
+class WantedArtifacts {
+public:
+    void add(std::size_t artifact) { artifacts_.at(count_++) = artifact; }
+    [[nodiscard]] std::span<const std::size_t> artifacts() const {
+        return std::span(artifacts_).first(count_);
+    }
+
+private:
+    std::array<std::size_t, 4> artifacts_{};
+    std::size_t count_ = 0;
+};
+
 struct Presentation {
-    std::size_t artifact = 0;  ///< index into the catalogue
-    double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
-    std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
+    std::size_t artifact = 0; ///< index into the catalogue
+    double brightness = 0.0;  ///< of the artifact: 0..1, a factor on linear light; 0 while it is not ready
+    WantedArtifacts wanted;   ///< to load ahead
+    std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
+    std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
     std::optional<PlacedSign> sign;        ///< what the visitor should do
     std::optional<PresentedAdvice> advice; ///< the same in words
@@ -116,6 +134,8 @@ public:
     /// `commands`: those since the step before, in their order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
                                     const Situation& situation);
+    /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
+    void note(std::span<const ArtifactState> states);
     /// Whether something is being said: then nothing else begins to be.
     void hear(bool speaking) { speaking_ = speaking; }
     /// Ends the staff's mode early: there is no pattern to show.
@@ -124,6 +144,10 @@ public:
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
+    void leave_out_the_bad(MonotonicTime now);
+    [[nodiscard]] bool ready(std::size_t artifact) const;
+    [[nodiscard]] WantedArtifacts wanted() const;
+    [[nodiscard]] StandIn::Output stand_in(MonotonicTime now, const Shown& shown, const Stand& stand);
     void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
@@ -139,6 +163,9 @@ private:
     Catalogue catalogue_;
     ExhibitPlace place_;
     Selection selection_;
+    std::vector<ArtifactState> states_;
+    std::size_t left_out_ = 0; ///< how many of them the selection knows to be left out
+    StandIn stand_in_;
     std::optional<Attract> attract_; ///< from the first step on
     std::optional<Guide> guide_;
     std::vector<std::string> word_languages_;

@@ -16,9 +16,9 @@ std::size_t place_of(std::string_view language, std::span<const std::string> lan
 
 Selection::Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
                      MonotonicTime now)
-    : count_(artifact_count), languages_(std::move(languages)), language_count_(languages_.size()),
-      language_before_(place_of(language, languages_)), artifact_(0, fade_time, now),
-      language_(language_before_, fade_time, now) {
+    : count_(artifact_count), left_out_(artifact_count), languages_(std::move(languages)),
+      language_count_(languages_.size()), language_before_(place_of(language, languages_)),
+      artifact_(0, fade_time, now), language_(language_before_, fade_time, now) {
     if (language_before_ == languages_.size()) {
         languages_.push_back(std::move(language));
     }
@@ -33,16 +33,34 @@ void Selection::take(Command command, MonotonicTime now) {
         change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
         return;
     }
-    choose((artifact_.goal() + (command == Command::NextArtifact ? 1 : count_ - 1)) % count_, now);
+    choose(command == Command::NextArtifact ? next() : previous(), now);
 }
 
 /// It begins together with a language change that has not begun yet, and after one that has.
 void Selection::choose(std::size_t artifact, MonotonicTime now) {
-    if (artifact < count_ && artifact != artifact_.goal()) {
+    if (artifact < count_ && !left_out_[artifact] && artifact != artifact_.goal()) {
         const MonotonicTime begin =
             language_.begins() >= now ? language_.begins() : std::max(now, language_.ends());
         artifact_.change_to(artifact, now, begin);
     }
+}
+
+void Selection::leave_out(std::size_t artifact, MonotonicTime now) {
+    left_out_[artifact] = true;
+    if (artifact == artifact_.goal()) {
+        choose(next(), now);
+    }
+}
+
+std::size_t Selection::neighbour(std::size_t step) const {
+    std::size_t artifact = artifact_.goal();
+    for (std::size_t k = 0; k < count_; ++k) {
+        artifact = (artifact + step) % count_;
+        if (!left_out_[artifact]) {
+            return artifact;
+        }
+    }
+    return artifact_.goal();
 }
 
 /// It begins together with an artifact's change that is not dark yet, and after one that fades in. Where both
@@ -76,7 +94,7 @@ bool Selection::accepts(Command command) const {
     switch (command) {
     case Command::PreviousArtifact:
     case Command::NextArtifact:
-        return count_ > 1;
+        return count_ > 1 && next() != artifact_.goal();
     case Command::NextLanguage:
         return language_count_ > 1;
     case Command::Choose:
@@ -93,8 +111,12 @@ Shown Selection::at(MonotonicTime now) const {
     }
     const Faded artifact = artifact_.at(now);
     const Faded language = language_.at(now);
-    return {artifact.which, artifact.brightness, languages_[language.which],
-            std::min(artifact.brightness, language.brightness), artifact.changing || language.changing};
+    return {artifact.which,
+            artifact.brightness,
+            languages_[language.which],
+            std::min(artifact.brightness, language.brightness),
+            artifact.changing || language.changing,
+            now >= artifact_.begins() && now < artifact_.dark()};
 }
 
 } // namespace frustumscreen

@@ -31,6 +31,7 @@ struct Shown {
     std::string_view language; ///< of the caption; valid as long as the selection
     double caption_brightness = 0.0;
     bool changing = false; ///< a brightness changes, or is about to
+    bool leaving = false;  ///< the artifact fades out
 };
 
 class Selection {
@@ -44,6 +45,12 @@ public:
     void take(Command command, MonotonicTime now);
     /// Chooses one artifact; one that there is not changes nothing.
     void choose(std::size_t artifact, MonotonicTime now);
+    /// The artifact is never chosen any more; where it is chosen now, the next one is.
+    void leave_out(std::size_t artifact, MonotonicTime now);
+    /// The one that the button for the next artifact leads to, or for the previous one; the chosen one where there is no
+    /// other.
+    [[nodiscard]] std::size_t next() const { return neighbour(1); }
+    [[nodiscard]] std::size_t previous() const { return neighbour(count_ - 1); }
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
     /// Whether the command has something to change to.
@@ -57,7 +64,11 @@ public:
 private:
     void change_language(std::size_t which, MonotonicTime now);
 
+    /// The nearest that is not left out, `step` by `step` round the set.
+    [[nodiscard]] std::size_t neighbour(std::size_t step) const;
+
     std::size_t count_;
+    std::vector<bool> left_out_;
     std::vector<std::string> languages_; ///< and one more, where it begins in none of them
     std::size_t language_count_;
     std::size_t language_before_; ///< the language before the latest command for another

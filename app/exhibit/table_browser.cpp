@@ -7,7 +7,7 @@
 
 namespace frustumscreen {
 
-TableBrowser::TableBrowser(const TableSetUp& set_up) {
+TableBrowser::TableBrowser(const TableSetUp& set_up) : left_out_(set_up.artifacts) {
     for (int side = 0; side < 4; ++side) {
         layouts_[static_cast<std::size_t>(side)] = lay_out_table(set_up, side);
     }
@@ -64,8 +64,9 @@ void TableBrowser::lay_out(const Arrangement& arrangement, std::size_t artifact)
         obstacles_[obstacle_count_++] = layout.places[place].whole();
         const std::optional<std::size_t> here = layout.artifact_at(arrangement.page, place);
         if (here || layout.leads_on(place)) {
-            presence_[presented_.count] = here == artifact ? 0.0 : 1.0;
-            presented_.places[presented_.count++] = {here, layout.places[place], 0.0};
+            const PlacedPicture picture{here, layout.places[place], 0.0};
+            presence_[presented_.count] = empty(picture, artifact) ? 0.0 : 1.0;
+            presented_.places[presented_.count++] = picture;
         }
     }
 }
@@ -76,7 +77,7 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
     presented_.changing = faded.changing;
     for (std::size_t k = 0; k < presented_.count; ++k) {
         PlacedPicture& picture = presented_.places[k];
-        const double goal = picture.artifact == input.artifact ? 0.0 : 1.0;
+        const double goal = empty(picture, input.artifact) ? 0.0 : 1.0;
         presence_[k] += std::clamp(goal - presence_[k], -step, step);
         presented_.changing = presented_.changing || presence_[k] != goal;
         picture.brightness =
@@ -88,7 +89,7 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
 void TableBrowser::note_choosable(std::size_t artifact) {
     choosable_count_ = 0;
     for (std::size_t k = 0; k < presented_.count; ++k) {
-        if (presented_.places[k].artifact != artifact) {
+        if (!empty(presented_.places[k], artifact)) {
             choosable_[choosable_count_] = presented_.places[k].place.picture;
             choosable_places_[choosable_count_++] = k;
         }

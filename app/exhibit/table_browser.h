@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -50,6 +51,8 @@ public:
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
+    /// Its picture goes, and it cannot be chosen any more.
+    void leave_out(std::size_t artifact) { left_out_[artifact] = true; }
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
     /// What captions lie beside: the places of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
@@ -72,7 +75,13 @@ private:
     void lighten(MonotonicTime now, const Input& input, const Faded& faded);
     void note_choosable(std::size_t artifact);
 
+    /// Whether the place is empty: of what is in the prop, or left out.
+    [[nodiscard]] bool empty(const PlacedPicture& picture, std::size_t artifact) const {
+        return picture.artifact && (*picture.artifact == artifact || left_out_[*picture.artifact]);
+    }
+
     std::array<TableLayout, 4> layouts_;
+    std::vector<bool> left_out_; ///< by artifact
     std::size_t page_ = 0;
     std::optional<std::size_t> artifact_; ///< for which `page_` and the choosable pictures are
     std::size_t side_ = 0;

@@ -118,6 +118,8 @@ struct LevelError {
     float p95_box = 0.0F;
     float max_box = 0.0F;
     float colour_rmse = 0.0F; ///< 8-bit sRGB codes against the source's colour, 0..255
+
+    [[nodiscard]] bool operator==(const LevelError&) const = default;
 };
 
 /// A picture of the artifact at one cost: clusters of counter-clockwise triangles over one colour texture.

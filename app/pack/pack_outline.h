@@ -20,11 +20,15 @@ struct LevelOutline {
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;
     std::uint32_t texture = 0; ///< index into Pack::textures
+
+    [[nodiscard]] bool operator==(const LevelOutline&) const = default;
 };
 
 struct PackOutline {
     PackDescription description;
     std::vector<LevelOutline> levels;
+
+    [[nodiscard]] bool operator==(const PackOutline&) const = default;
 };
 [[nodiscard]] PackOutline outline_of(const Pack& pack);
 

@@ -2,12 +2,10 @@
 
 #include "app/render/gl_memory.h"
 
-#include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <utility>
 
 namespace frustumscreen {
@@ -28,34 +26,6 @@ void clamp_to_edge(GLenum minification) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-GlTexture upload_colours(const Image8& image, int finest_mip) {
-    const Image8* mip = &image;
-    Image8 made;
-    const auto go_on = [&] {
-        made = half_size(*mip);
-        mip = &made;
-    };
-    for (int k = 0; k < finest_mip; ++k) {
-        go_on();
-    }
-    GlTexture texture = GlTexture::generate();
-    const auto longest = static_cast<unsigned>(std::max(mip->width, mip->height));
-    const int levels =
-        std::min(static_cast<int>(std::bit_width(longest)), coarsest_mip_level + 1 - finest_mip);
-    glBindTexture(GL_TEXTURE_2D, texture.get());
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, mip->width, mip->height);
-    for (int k = 0; k < levels; ++k) {
-        if (k > 0) {
-            go_on();
-        }
-        glTexSubImage2D(GL_TEXTURE_2D, k, 0, 0, mip->width, mip->height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        mip->texels.data());
-    }
-    clamp_to_edge(GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
-    return texture;
-}
-
 GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -70,22 +40,6 @@ GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
     return texture;
 }
 
-GpuStore::Mesh upload_vertices(const std::vector<PackVertex>& vertices) {
-    GpuStore::Mesh mesh{GlVertexArray::generate(), GlBuffer::generate()};
-    glBindVertexArray(mesh.vertex_array.get());
-    glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(PackVertex)),
-                 vertices.data(), GL_STATIC_DRAW);
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex), nullptr);
-    glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex),
-                          // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                          reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
-    glBindVertexArray(0);
-    return mesh;
-}
-
 template <typename Map, typename Id> auto found(const Map& map, Id id) -> const typename Map::mapped_type* {
     const auto place = map.find(id);
     return place != map.end() ? &place->second : nullptr;
@@ -98,23 +52,18 @@ Result<Drawable> GpuStore::upload(const Pack& pack, std::uint32_t level) {
 }
 
 Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture) {
-    const int limit = most_texels();
-    if (std::max(texture.width, texture.height) > limit) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
-                texture.width, texture.height, limit));
+    LevelUpload whole(level_data(level, texture));
+    if (Result<void> done = whole.go_on(); !done) {
+        return tl::unexpected<Error>(done.error());
     }
-    Mesh mesh = upload_vertices(level.mesh.vertices);
-    GlTexture colours = upload_colours(texture, level.finest_mip);
-    if (glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::BadConfiguration,
-                    "render: the driver has no memory for the artifact; bake a smaller one");
-    }
+    return keep(std::move(whole));
+}
+
+Drawable GpuStore::keep(LevelUpload upload) {
     const MeshId id{++last_};
-    meshes_.emplace(id, std::move(mesh));
-    return Drawable{id, {keep(std::move(colours), level.finest_mip), level.texels_per_box, level.cut_out}};
+    meshes_.emplace(id, Mesh{std::move(upload.vertex_array_), std::move(upload.vertices_)});
+    const LevelData& data = upload.data_;
+    return {id, {keep(std::move(upload.texels_), data.finest_mip), data.texels_per_box, data.cut_out}};
 }
 
 Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {

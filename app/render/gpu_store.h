@@ -1,14 +1,14 @@
 /// Meshes and pictures in the GPU's memory, by the numbers that plans name them with.
 ///
-/// Colour   an artifact's texture gives sRGB codes as they are stored; its mip levels are averaged in linear
-///          light, here and not by the driver: so they are the same everywhere, and the finest need not be on
-///          the GPU to make the others. A caption is coverage 0..255, white light.
+/// Colour   an artifact's texture gives sRGB codes as they are stored (level_data.h). A caption is coverage
+///          0..255, white light.
 /// Threads  the render thread; `find` allocates nothing.
 /// Errors   the driver has no memory, or a texture is larger than it allows.
 #pragma once
 
 #include "app/image/image.h"
 #include "app/pack/pack.h"
+#include "app/render/level_upload.h"
 #include "app/scene/drawable.h"
 #include "app/scene/scene_level.h"
 #include "firmware_host/base/result.h"
@@ -23,6 +23,8 @@ class GpuStore {
 public:
     /// Uploads what a scene needs of a level; `texture` is the level's whole texture.
     [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
+    /// Takes a level that has been uploaded piece by piece; it must be done.
+    [[nodiscard]] Drawable keep(LevelUpload upload);
     /// Uploads all of a level.
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.

@@ -43,35 +43,52 @@ FrameTimeModel::FrameTimeModel(const std::vector<RungTime>& rungs) {
     fit_shares();
 }
 
-/// Least squares ms = fixed + a * triangles + b * samples over the rungs, each weighed by 1 / ms^2, with a
-/// small ridge term where the rungs cannot separate the terms.
-void FrameTimeModel::fit_shares() {
+double RungCost::ms(const FrameWork& work, int samples) const {
+    return fixed_ms + ms_per_triangle * std::fmax(work.triangles, 0.0) +
+           ms_per_sample * std::fmax(work.pixels, 0.0) * samples;
+}
+
+/// A small ridge term helps where the rungs cannot separate the terms.
+RungCost cost_of(const std::vector<RungTime>& rungs) {
     glm::dvec3 most(1.0, 0.0, 0.0);
     const auto terms = [](const RungTime& start) {
         return glm::dvec3(1.0, std::fmax(start.work.triangles, 0.0),
                           std::fmax(start.work.pixels, 0.0) * start.samples);
     };
-    for (const Rung& rung : rungs_) {
-        most = glm::max(most, terms(rung.start));
+    for (const RungTime& rung : rungs) {
+        most = glm::max(most, terms(rung));
     }
     const glm::dvec3 scale(1.0, most.y > 0.0 ? 1.0 / most.y : 0.0, most.z > 0.0 ? 1.0 / most.z : 0.0);
     glm::dmat3 normal(0.0);
     glm::dvec3 right(0.0);
-    for (const Rung& rung : rungs_) {
-        if (std::isfinite(rung.start.ms)) {
-            const glm::dvec3 row = terms(rung.start) * scale / rung.start.ms;
+    for (const RungTime& rung : rungs) {
+        if (FrameTimeModel::is_time(rung.ms)) {
+            const glm::dvec3 row = terms(rung) * scale / rung.ms;
             normal += glm::outerProduct(row, row);
             right += row;
         }
     }
-    const double ridge = 1e-4 * (normal[0][0] + normal[1][1] + normal[2][2]);
-    const glm::dvec3 cost = glm::max(glm::inverse(normal + glm::dmat3(ridge)) * right, glm::dvec3(0.0));
+    const double trace = normal[0][0] + normal[1][1] + normal[2][2];
+    if (!(trace > 0.0)) {
+        return {};
+    }
+    const glm::dvec3 cost =
+        scale * glm::max(glm::inverse(normal + glm::dmat3(1e-4 * trace)) * right, glm::dvec3(0.0));
+    return {cost.x, cost.y, cost.z};
+}
+
+void FrameTimeModel::fit_shares() {
+    std::vector<RungTime> starts;
+    for (const Rung& rung : rungs_) {
+        starts.push_back(rung.start);
+    }
+    const RungCost cost = cost_of(starts);
     for (Rung& rung : rungs_) {
-        const glm::dvec3 parts = cost * terms(rung.start) * scale;
-        const double sum = parts.x + parts.y + parts.z;
+        const double sum = cost.ms(rung.start.work, rung.start.samples);
         if (std::isfinite(sum) && sum > 0.0) {
-            rung.triangle_share = parts.y / sum;
-            rung.sample_share = parts.z / sum;
+            rung.triangle_share = cost.ms_per_triangle * std::fmax(rung.start.work.triangles, 0.0) / sum;
+            rung.sample_share =
+                cost.ms_per_sample * std::fmax(rung.start.work.pixels, 0.0) * rung.start.samples / sum;
         }
     }
 }

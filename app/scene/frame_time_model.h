@@ -44,6 +44,18 @@ struct RungTime {
     double ms = 0.0; ///< median of some frames; not a time = never measured: infinite until it is observed
 };
 
+/// What frames cost on this GPU, from the rungs measured on one artifact; good for another one whose frames' work
+/// is known and whose times are not.
+struct RungCost {
+    double fixed_ms = 0.0;
+    double ms_per_triangle = 0.0;
+    double ms_per_sample = 0.0; ///< of a pixel
+    [[nodiscard]] double ms(const FrameWork& work, int samples) const;
+};
+/// Least squares, each rung weighed by 1 / ms^2; no term is negative. Rungs that are no times are left out; without any
+/// all terms are 0, which is no time either.
+[[nodiscard]] RungCost cost_of(const std::vector<RungTime>& rungs);
+
 class FrameTimeModel {
 public:
     static constexpr double time_constant_s = 0.2;

@@ -56,6 +56,13 @@ bool misses(const Crossed& crossed, const LevelTriangles& level, std::span<const
 
 } // namespace
 
+std::uint64_t bytes_of(const LevelTriangles& level) {
+    return level.clusters.size() * sizeof(PackCluster) +
+           level.extents.size() * sizeof(LevelTriangles::Extent) +
+           level.indices.size() * sizeof(std::uint32_t) + level.positions.size() * sizeof(glm::vec3) +
+           4 * level.distance.size() * sizeof(float);
+}
+
 void find_planes(LevelTriangles& level) {
     for (std::size_t first = 0; first + 2 < level.indices.size(); first += 3) {
         const glm::dvec3 a(level.positions[level.indices[first]]);

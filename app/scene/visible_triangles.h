@@ -35,6 +35,8 @@ struct LevelTriangles {
     /// facing everywhere.
     std::vector<float> normal_x, normal_y, normal_z, distance;
 };
+/// Of main memory.
+[[nodiscard]] std::uint64_t bytes_of(const LevelTriangles& level);
 /// Computes the planes from indices and positions.
 void find_planes(LevelTriangles& level);
 [[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);

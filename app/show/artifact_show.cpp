@@ -2,13 +2,9 @@
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/exhibit/languages.h"
-#include "app/pack/pack_file.h"
-#include "app/pack/prop_note.h"
 #include "app/render/read_back.h"
-#include "app/scene/exposure.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
-#include "app/show/caption_setter.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -22,20 +18,6 @@ namespace {
 constexpr double warm_up_step_m = 0.01;
 /// Type size of what a visitor should do, in those of a caption.
 constexpr double advice_em = 1.5;
-
-template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
-    Catalogue catalogue;
-    for (const auto& artifact : artifacts) {
-        CatalogueEntry entry{artifact.languages, {}};
-        for (const auto& shapes : artifact.captions) {
-            std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
-            std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
-                           [](const auto& shape) { return shape.size_m; });
-        }
-        catalogue.push_back(std::move(entry));
-    }
-    return catalogue;
-}
 
 /// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
 /// pixels: letters that were set pixel for pixel stay crisp.
@@ -52,15 +34,6 @@ TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
         rectangle.centre_m += glm::dvec2(lens + ray * (lens.z / -ray.z) - corner);
     }
     return rectangle;
-}
-
-/// Messages about a pack begin with its file.
-PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
-    const std::string place = pack + ": ";
-    if (message.substr(0, place.size()) == place) {
-        message.remove_prefix(place.size());
-    }
-    return {pack, std::string(message)};
 }
 
 /// `what`, behind the place that it is about, where there is one.
@@ -91,116 +64,68 @@ std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
 
 } // namespace
 
-/// Brings what is needed of packs into the GPU's memory, one after the other. Main memory keeps only what
-/// culling needs.
-struct ArtifactShow::Loader {
-    const Settings& settings;
-    const DevicePlan& devices;
-    const ArtifactShowOptions& options;
-    GpuStore& store;
-    CaptionSetter captions = setter_for(settings);
-    std::vector<std::string> languages = {}; ///< of all captions of the packs loaded, shown or not
-    std::vector<std::string> notes = {};
+namespace {
 
-    [[nodiscard]] Result<Artifact> load(const std::filesystem::path& file) {
-        ScenePlan plan;
-        const Result<VerifiedPack> pack =
-            load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-                Result<ScenePlan> made = plan_scene(settings, outline, request(outline));
-                if (!made) {
-                    return tl::unexpected<Error>(made.error());
-                }
-                plan = std::move(*made);
-                return plan.levels;
-            });
-        if (!pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
-        Result<RunLevels> levels =
-            RunLevels::upload(**pack, plan, options.technique, 1e3 / settings.projector.refresh_hz, store);
-        if (!levels) {
-            return at(file.string(), levels.error());
-        }
-        plan.needs = levels->needs();
-        plan.left_out.insert(plan.left_out.end(), levels->left_out().begin(), levels->left_out().end());
-        for (const PackCaption& caption : (*pack)->captions) {
-            add_language(languages, caption.language);
-        }
-        if (const auto note = note_other_prop(file.string(), **pack, name_of(settings.prop.kind))) {
-            notes.push_back(*note);
-        }
-        const PackLevel& first = (*pack)->levels[plan.rungs.front().level];
-        const double exposure =
-            exposure_of(first, (*pack)->box_size, (*pack)->textures[first.texture], plan.highlight_code);
-        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), exposure, {}, {}};
-        if (Result<void> set = set_captions(file, **pack, artifact); !set) {
-            release(artifact);
-            return tl::unexpected<Error>(set.error());
-        }
-        return artifact;
+/// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
+RenderNeeds with_cut_outs(RenderNeeds needs) {
+    for (ShaderKey key : RenderNeeds(needs).draws) {
+        key.cut_out = key.pass == ShaderKey::Pass::Surface;
+        needs.draws.insert(key);
     }
+    return needs;
+}
 
-    void release(Artifact& artifact) {
-        artifact.levels.release(store);
-        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
-            for (const CaptionPicture& shape : shapes) {
-                store.release(shape.texture);
-            }
-        }
-    }
+} // namespace
 
-    [[nodiscard]] SceneRequest request(const PackOutline& outline) const {
-        SceneRequest request;
-        request.technique = options.technique;
-        request.room = options.samples;
-        request.economies = options.economies;
-        request.visibility = visibility_of(settings);
-        std::vector<std::string> languages;
-        for (const PackCaption& caption : outline.description.captions) {
-            request.captions.push_back(languages.size());
-            languages.push_back(caption.language);
-        }
-        if (!devices.language && !languages.empty()) {
-            request.captions = {caption_for(settings.exhibit.language, languages)};
-        }
-        return request;
-    }
-
-    static CaptionSetter setter_for(const Settings& settings) {
-        const double height_m = settings.projector.table_from_projector.translation.z;
-        return {settings.exhibit.caption_height_m, settings.projector.pinhole.fx / height_m};
-    }
-
-    /// Reads the glyph runs of the languages that are needed, and no others. Messages begin with the file's name.
-    [[nodiscard]] Result<void> set_captions(const std::filesystem::path& file, const Pack& pack,
-                                            Artifact& artifact) {
-        for (const std::size_t each : artifact.plan.captions) {
-            artifact.languages.push_back(pack.captions[each].language);
-        }
-        const Result<std::vector<SetLanguage>> set = artifact.languages.empty()
-                                                         ? std::vector<SetLanguage>()
-                                                         : load_set_texts(file, artifact.languages);
-        if (!set) {
-            return tl::unexpected<Error>(set.error());
-        }
-        for (const std::size_t each : artifact.plan.captions) {
-            const Result<std::vector<CaptionImage>> images = captions.set(pack.captions[each], *set);
-            if (!images) {
-                return at(file.string(), images.error());
-            }
-            std::vector<CaptionPicture>& shapes = artifact.captions.emplace_back();
-            for (const CaptionImage& image : *images) {
-                const Result<TextureId> texture = store.upload(image.coverage);
-                if (!texture) {
-                    return at(file.string(), texture.error());
-                }
-                shapes.push_back(
-                    {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
-            }
-        }
-        return {};
-    }
+/// What `create` has of the packs that can be shown.
+struct ArtifactShow::Opened {
+    std::vector<KnownArtifact> known;
+    std::vector<ArtifactTexts> texts;
+    std::optional<PreparedArtifact> first;
+    std::vector<PackLeftOut> left_out;
+    RenderNeeds needs;
 };
+
+/// Opens all packs, and prepares the first that is good.
+ArtifactShow::Opened ArtifactShow::open(const DevicePlan& devices, const ArtifactShowOptions& options,
+                                        double deadline_ms, ArtifactOpener& opener) {
+    Opened all;
+    all.left_out.reserve(options.packs.size());
+    const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
+        say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
+        all.left_out.push_back(pack_left_out(file.string(), error.message));
+    };
+    for (const std::filesystem::path& file : options.packs) {
+        if (!all.known.empty() && !devices.other_packs) {
+            break; // no button leads there
+        }
+        Result<OpenedArtifact> opened = opener.open(file);
+        if (!opened) {
+            leave_out(file, opened.error());
+            continue;
+        }
+        if (!all.first) {
+            Result<PreparedArtifact> first =
+                prepare_artifact(opened->known, options.technique, deadline_ms, [] { return false; });
+            if (!first) {
+                leave_out(file, first.error());
+                opener.close(opened->texts);
+                continue;
+            }
+            ScenePlan& plan = opened->known.plan;
+            plan.needs = first->levels.needs();
+            plan.left_out.insert(plan.left_out.end(), first->levels.left_out().begin(),
+                                 first->levels.left_out().end());
+            all.first = std::move(*first);
+        } else {
+            opened->known.plan.needs = with_cut_outs(opened->known.plan.needs);
+        }
+        all.needs = united(all.needs, opened->known.plan.needs);
+        all.known.push_back(std::move(opened->known));
+        all.texts.push_back(std::move(opened->texts));
+    }
+    return all;
+}
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
                                                            const DevicePlan& devices,
@@ -211,33 +136,26 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    Loader loader{settings, devices, options, renderer->store()};
-    std::vector<Artifact> artifacts;
-    artifacts.reserve(options.packs.size());
-    std::vector<PackLeftOut> left_out;
-    RenderNeeds needs;
-    for (const std::filesystem::path& file : options.packs) {
-        if (!artifacts.empty() && !devices.other_packs) {
-            break; // no button leads there
-        }
-        Result<Artifact> artifact = loader.load(file);
-        if (artifact) {
-            needs = united(needs, artifact->plan.needs);
-            artifacts.push_back(std::move(*artifact));
-        } else {
-            say_line(options.program,
-                     after(options.packs_key, fmt::format("left out: {}", artifact.error().message)));
-            left_out.push_back(pack_left_out(file.string(), artifact.error().message));
-        }
+    const double deadline_ms = 1e3 / settings.projector.refresh_hz;
+    ArtifactOpener opener(settings, {options.technique, options.samples, options.economies, devices.language},
+                          renderer->store());
+    Opened opened = open(devices, options, deadline_ms, opener);
+    if (!opened.first) {
+        return nothing_to_show(opened.left_out, options.packs_key);
     }
-    if (artifacts.empty()) {
-        return nothing_to_show(left_out, options.packs_key);
-    }
-    if (Result<void> ready = renderer->prepare(needs); !ready) {
+    if (Result<void> ready = renderer->prepare(opened.needs); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
-    std::unique_ptr<ArtifactShow> show(
-        new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts)));
+    Result<std::unique_ptr<Residents>> residents =
+        Residents::create({std::move(opened.known), options.technique, deadline_ms,
+                           static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000, options.waits,
+                           options.program, std::move(opened.left_out)},
+                          std::move(*opened.first), renderer->store());
+    if (!residents) {
+        return tl::unexpected<Error>(residents.error());
+    }
+    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, opened.needs, std::move(*renderer),
+                                                        std::move(*residents), std::move(opened.texts)));
     if (shows_zone_frame(settings)) {
         const Result<TextureId> white = show->renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
         if (!white) {
@@ -248,43 +166,51 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     if (Result<void> signs = show->upload_signs(settings); !signs) {
         return tl::unexpected<Error>(signs.error());
     }
-    show->left_out_ = std::move(left_out);
-    show->notes_ = std::move(loader.notes);
+    show->notes_ = opener.notes();
     show->load_words(settings, devices);
-    if (settings.exhibit.captions && !loader.languages.empty() &&
-        !has_language(loader.languages, settings.exhibit.language)) {
-        const std::vector<std::string>& shown = show->artifacts_.front().languages;
-        show->notes_.push_back(fmt::format(
-            "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
-            shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
-            fmt::join(loader.languages, ", ")));
-    }
+    show->note_language(settings, opener.languages());
     show->measure(settings, target);
     return show;
 }
 
-/// Measures at the middle of the table, seen by the default eye.
+void ArtifactShow::note_language(const Settings& settings, const std::vector<std::string>& languages) {
+    if (!settings.exhibit.captions || languages.empty() ||
+        has_language(languages, settings.exhibit.language)) {
+        return;
+    }
+    const std::vector<std::string>& shown = texts_.front().languages;
+    notes_.push_back(fmt::format(
+        "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
+        shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
+        fmt::join(languages, ", ")));
+}
+
+/// Measures at the middle of the table, seen by the default eye. What comes later is expected to cost what the first
+/// artifact does, triangle for triangle and sample for sample.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
     PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
-    for (Artifact& artifact : artifacts_) {
-        view.light = artifact.plan.light;
-        view.brightness = artifact.exposure;
-        artifact.levels.measure(prop_, view, renderer_, target);
-        warm_up(artifact, view, target);
+    RunLevels& first = *residents_->find(0);
+    const ScenePlan& plan = residents_->known(0).plan;
+    view.light = plan.light;
+    view.brightness = residents_->exposure(0);
+    if (plan.rungs.size() > 1 || residents_->size() > 1) {
+        first.measure(prop_, view, renderer_, target);
     }
+    warm_up(view, target);
+    residents_->start(cost_of(first.times()), prop_, view, settings.eye.default_m);
 }
 
 /// Draws a whole picture and one that redraws what moved, each with a caption: drivers compile for what a
 /// frame does, and this should be done before the first frame.
-void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget& target) {
-    if (!artifact.captions.empty()) {
-        const CaptionPicture& caption = artifact.captions.front().front();
+void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
+    if (!texts_.front().captions.empty()) {
+        const CaptionPicture& caption = texts_.front().captions.front().front();
         view.caption =
             TablePicture{picture_corners({attract_place_m_, caption.size_m}), 1.0, caption.texture};
     }
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
-        static_cast<void>(artifact.levels.draw({}, prop_, view, renderer_, drawn, redraw));
+        static_cast<void>(residents_->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
@@ -292,11 +218,12 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
 }
 
 ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
-                           std::vector<Artifact> artifacts)
+                           std::unique_ptr<Residents> residents, std::vector<ArtifactTexts> texts)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
-      needs_(needs), renderer_(std::move(renderer)), artifacts_(std::move(artifacts)),
-      catalogue_(catalogue_of(artifacts_)), attract_place_m_(0.0) {
+      needs_(needs), renderer_(std::move(renderer)), residents_(std::move(residents)),
+      texts_(std::move(texts)), catalogue_(catalogue_of(texts_)), attract_place_m_(0.0),
+      dark_(make_plan(prop_, 0, 1)) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -330,7 +257,7 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
                                advice_em * settings.exhibit.caption_height_m,
                                projector_.fx / table_from_projector_.translation.z,
                                settings.sound.kind != SoundKind::None};
-    for (const Artifact& artifact : artifacts_) {
+    for (const ArtifactTexts& artifact : texts_) {
         if (devices.language) {
             request.languages.insert(request.languages.end(), artifact.languages.begin(),
                                      artifact.languages.end());
@@ -389,24 +316,30 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const CaptionPicture& picture =
-        artifacts_[presentation.artifact].captions[caption.language][caption.shape];
+    const CaptionPicture& picture = texts_[presentation.artifact].captions[caption.language][caption.shape];
     return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
                         caption_brightness_ * caption.brightness, picture.texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
+    residents_->step(renderer_.store(), presentation.artifact, presentation.wanted.artifacts());
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
-    view.light = artifacts_[presentation.artifact].plan.light;
-    view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
+    view.light = residents_->known(presentation.artifact).plan.light;
+    view.brightness = residents_->exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
     view.lines = place_signs(presentation);
+    RunLevels* const levels = residents_->find(presentation.artifact);
+    if (levels == nullptr) {
+        on_.reset();
+        plan_frame(prop_, PlacedLevel{}, view, dark_);
+        return renderer_.draw(dark_, target, redraw);
+    }
     if (on_ != presentation.artifact) {
-        artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
+        levels->enter(now, load_);
         on_ = presentation.artifact;
     }
-    return artifacts_[on_].levels.draw(now, prop_, view, renderer_, target, redraw);
+    return levels->draw(now, prop_, view, renderer_, target, redraw);
 }
 
 ShowUse ArtifactShow::use() const {
@@ -418,12 +351,14 @@ ShowUse ArtifactShow::use() const {
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
     use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
-    for (const Artifact& artifact : artifacts_) {
-        for (const LevelUse& level : artifact.levels.uses()) {
-            use.planned_gpu_bytes += level.planned_gpu_bytes;
+    for (std::size_t artifact = 0; artifact < texts_.size(); ++artifact) {
+        if (const RunLevels* levels = residents_->find(artifact)) {
+            for (const LevelUse& level : levels->uses()) {
+                use.planned_gpu_bytes += level.planned_gpu_bytes;
+            }
         }
-        use.captions += artifact.captions.size();
-        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
+        use.captions += texts_[artifact].captions.size();
+        for (const std::vector<CaptionPicture>& shapes : texts_[artifact].captions) {
             for (const CaptionPicture& shape : shapes) {
                 use.planned_gpu_bytes += shape.planned_gpu_bytes;
                 use.caption_gpu_bytes += renderer_.store().bytes(shape.texture);
@@ -434,25 +369,26 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    artifacts_[on_].levels.record_time(now, ms);
+    if (RunLevels* const levels = on_ ? residents_->find(*on_) : nullptr) {
+        levels->record_time(now, ms);
+        load_ = levels->load();
+    }
 }
 
 ShowState ArtifactShow::state(const Presentation& presentation) const {
-    const Artifact& artifact = artifacts_[presentation.artifact];
-    LevelState levels = artifact.levels.state();
-    levels.switches = 0;
-    levels.ignored_times = 0;
-    for (const Artifact& each : artifacts_) {
-        levels.switches += each.levels.state().switches;
-        levels.ignored_times += each.levels.state().ignored_times;
-    }
-    return {artifact.title,
+    const RunLevels* const shown = residents_->find(presentation.artifact);
+    LevelState levels = shown != nullptr ? shown->state() : LevelState{};
+    levels.switches = residents_->switches();
+    levels.ignored_times = residents_->ignored_times();
+    return {texts_[presentation.artifact].title,
             presentation.language,
             levels,
             presentation.settled,
             presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt,
-            left_out_,
-            presentation.lamps};
+            residents_->left_out(),
+            presentation.lamps,
+            residents_->ready(),
+            residents_->bytes()};
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {

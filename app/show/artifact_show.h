@@ -1,9 +1,9 @@
-/// The artifacts on the display: packs in the GPU's memory, their levels and captions, and the renderer. A
-/// Presentation says what is shown.
+/// The artifacts on the display: their captions, those that are in memory (residents.h), and the renderer. A
+/// Presentation says what is shown, and what may be shown next.
 ///
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
-/// Errors   a pack that cannot be loaded is left out with a line on standard error; if none is left,
-///          BadConfiguration.
+/// Errors   a pack that cannot be loaded is left out with a line on standard error, also later; if none is left at the
+///          start, BadConfiguration.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -12,6 +12,8 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
+#include "app/show/artifact_opener.h"
+#include "app/show/residents.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
 #include "firmware_host/base/result.h"
@@ -33,6 +35,8 @@ struct ArtifactShowOptions {
     unsigned economies = AllEconomies;
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
     std::string packs_key = {}; ///< where the settings name the packs, for messages; empty: nowhere
+    bool waits =
+        false; ///< for all that is wanted, in each frame, so that a run of simulated time is repeatable
 };
 
 /// What a show uses, planned and observed.
@@ -47,7 +51,7 @@ struct ShowUse {
 
 class ArtifactShow final : public Stage {
 public:
-    /// Measures the levels on this GPU by drawing into `target`, which holds nothing useful afterwards.
+    /// Loads the first artifact and measures its levels on this GPU by drawing into `target`, which holds nothing useful afterwards.
     [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
                                                                       const DevicePlan& devices,
                                                                       const ArtifactShowOptions& options,
@@ -66,6 +70,7 @@ public:
         return words_.words[word.language][word.text].prompt;
     }
     [[nodiscard]] bool speaks() const override;
+    [[nodiscard]] std::span<const ArtifactState> artifacts() const override { return residents_->states(); }
     /// The exhibit's own words that it has.
     [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return words_.languages; }
 
@@ -73,31 +78,21 @@ public:
     /// Sentences about what a person may not have meant.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
     /// `artifact`: the index among the artifacts that are shown.
-    [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const { return artifacts_[artifact].plan; }
-    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return artifacts_[artifact].levels; }
+    [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const {
+        return residents_->known(artifact).plan;
+    }
+    /// Of an artifact that is ready, as the first is until another is shown.
+    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return *residents_->find(artifact); }
 
 private:
-    /// One text wrapped to one width.
-    struct CaptionPicture {
-        TextureId texture = TextureId::None;
-        glm::dvec2 size_m{0.0};
-        std::uint64_t planned_gpu_bytes = 0;
-    };
-    struct Artifact {
-        std::string title;
-        ScenePlan plan;
-        RunLevels levels;
-        double exposure = 1.0; ///< factor of linear light
-        std::vector<std::string> languages;
-        /// One list for each of `languages`, in the catalogue's order.
-        std::vector<std::vector<CaptionPicture>> captions;
-    };
-    struct Loader;
-
+    struct Opened;
+    [[nodiscard]] static Opened open(const DevicePlan& devices, const ArtifactShowOptions& options,
+                                     double deadline_ms, ArtifactOpener& opener);
     ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
-                 std::vector<Artifact> artifacts);
+                 std::unique_ptr<Residents> residents, std::vector<ArtifactTexts> texts);
+    void note_language(const Settings& settings, const std::vector<std::string>& languages);
     void measure(const Settings& settings, const RenderTarget& target);
-    void warm_up(Artifact& artifact, PlanView view, const RenderTarget& target);
+    void warm_up(PlanView view, const RenderTarget& target);
     [[nodiscard]] Result<void> upload_signs(const Settings& settings);
     /// Without its words the exhibit shows signs alone, and a note says why.
     void load_words(const Settings& settings, const DevicePlan& devices);
@@ -113,8 +108,8 @@ private:
     double caption_brightness_; ///< share of the projector's light
     RenderNeeds needs_;
     Renderer renderer_;
-    std::vector<Artifact> artifacts_;
-    std::vector<PackLeftOut> left_out_;
+    std::unique_ptr<Residents> residents_;
+    std::vector<ArtifactTexts> texts_;
     std::vector<std::string> notes_;
     Catalogue catalogue_;
     glm::dvec2 attract_place_m_;
@@ -124,7 +119,9 @@ private:
     std::uint64_t planned_sign_bytes_ = 0;
     AdviceWords words_;
     std::array<TablePicture, most_lines> lines_{};
-    std::size_t on_ = 0; ///< the artifact that is on
+    std::optional<std::size_t> on_; ///< the artifact that was drawn last; none: it was not there
+    double load_ = 1.0;             ///< of the GPU (governor.h)
+    FramePlan dark_;                ///< of a picture without an artifact
 };
 
 /// The exhibit of these artifacts on the settings' table.

@@ -4,61 +4,89 @@
 #include "app/render/read_back.h"
 #include "firmware_host/base/quantile.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 
 namespace frustumscreen {
 
-RunLevels::RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs,
-                     double deadline_ms, FramePlan plan)
-    : technique_(std::move(technique)), levels_(std::move(levels)), rungs_(std::move(rungs)),
-      deadline_ms_(deadline_ms), governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms),
-      plan_(std::move(plan)) {}
+namespace {
+
+/// A pack has no more levels than this (app/pack/limits.h). Reports keep the names longer than a level lives.
+constexpr std::array<std::string_view, 32> level_names{
+    "level0",  "level1",  "level2",  "level3",  "level4",  "level5",  "level6",  "level7",
+    "level8",  "level9",  "level10", "level11", "level12", "level13", "level14", "level15",
+    "level16", "level17", "level18", "level19", "level20", "level21", "level22", "level23",
+    "level24", "level25", "level26", "level27", "level28", "level29", "level30", "level31"};
+
+std::string_view name_of_level(std::uint32_t level) {
+    return level_names.at(level);
+}
+
+} // namespace
+
+PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan) {
+    const SceneLevel kept = scene_level(pack, level, plan);
+    const Image8& texture = pack.textures[kept.mesh.texture];
+    PreparedLevel made;
+    made.use = {level,
+                kept.mesh.indices.size() / 3,
+                kept.unseen_triangles,
+                kept.unseen_clusters,
+                glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
+                kept.finest_mip,
+                gpu_bytes(kept, texture),
+                0};
+    made.error = kept.mesh.error;
+    made.box_size = pack.box_size;
+    made.samples = pack.samples;
+    made.triangles = std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size));
+    made.needs = needs_of(plan, kept);
+    made.left_out = left_out_of(plan, kept, texture);
+    made.data = level_data(kept, texture);
+    return made;
+}
+
+RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
+                     std::span<const PreparedLevel> levels)
+    : technique_(std::move(technique)), rungs_(plan.rungs), deadline_ms_(deadline_ms),
+      governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms) {
+    const double mm_per_box = 1e3 * plan.metres_per_box;
+    std::size_t indices = 0;
+    for (const PreparedLevel& level : levels) {
+        uses_.push_back(level.use);
+        left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
+        needs_ = united(needs_, level.needs);
+        indices += level.triangles->indices.size();
+        levels_.push_back(
+            {level.use.level, mm_per_box * static_cast<double>(level.error.mean_box),
+             mm_per_box * static_cast<double>(level.error.p95_box),
+             PlacedLevel{
+                 level.triangles, level.box_size, plan.metres_per_box, {}, level.samples, plan.faces}});
+    }
+    plan_ = make_plan(plan.prop, indices, 2);
+}
+
+void RunLevels::give(std::size_t place, const Drawable& drawable, const GpuStore& store) {
+    levels_[place].placed.drawable = drawable;
+    uses_[place].gpu_bytes = store.bytes(drawable);
+}
 
 Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std::string technique,
                                     double deadline_ms, GpuStore& store) {
-    const double mm_per_box = 1e3 * plan.metres_per_box;
-    std::vector<Level> levels;
-    std::vector<LevelUse> uses;
-    std::vector<LeftOut> left_out;
-    std::size_t indices = 0;
-    RenderNeeds needs;
-    for (const std::uint32_t number : plan.levels) {
-        const SceneLevel kept = scene_level(pack, number, plan);
-        needs = united(needs, needs_of(plan, kept));
-        const Image8& texture = pack.textures[kept.mesh.texture];
-        for (LeftOut& each : left_out_of(plan, kept, texture)) {
-            left_out.push_back(std::move(each));
-        }
-        const Result<Drawable> drawable = store.upload(kept, texture);
-        if (!drawable) {
-            for (const Level& each : levels) {
-                store.release(each.placed.drawable);
-            }
-            return tl::unexpected<Error>(drawable.error());
-        }
-        uses.push_back({number, kept.mesh.indices.size() / 3, kept.unseen_triangles, kept.unseen_clusters,
-                        glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
-                        kept.finest_mip, gpu_bytes(kept, texture), store.bytes(*drawable)});
-        PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size)),
-                           pack.box_size,
-                           plan.metres_per_box,
-                           *drawable,
-                           pack.samples,
-                           plan.faces};
-        levels.push_back({number, fmt::format("level{}", number),
-                          mm_per_box * static_cast<double>(kept.mesh.error.mean_box),
-                          mm_per_box * static_cast<double>(kept.mesh.error.p95_box), std::move(placed)});
-        indices += kept.mesh.indices.size();
+    std::vector<PreparedLevel> prepared;
+    for (const std::uint32_t level : plan.levels) {
+        prepared.push_back(prepare_level(pack, level, plan));
     }
-    RunLevels made(std::move(technique), std::move(levels), plan.rungs, deadline_ms,
-                   make_plan(plan.prop, indices, 2));
-    made.uses_ = std::move(uses);
-    made.left_out_ = std::move(left_out);
-    made.needs_ = needs;
+    RunLevels made(std::move(technique), plan, deadline_ms, prepared);
+    for (std::size_t place = 0; place < prepared.size(); ++place) {
+        LevelUpload upload(std::move(prepared[place].data));
+        if (Result<void> done = upload.go_on(); !done) {
+            made.release(store);
+            return tl::unexpected<Error>(done.error());
+        }
+        made.give(place, store.keep(std::move(upload)), store);
+    }
     return made;
 }
 
@@ -66,6 +94,18 @@ void RunLevels::release(GpuStore& store) {
     for (const Level& level : levels_) {
         store.release(level.placed.drawable);
     }
+}
+
+std::uint64_t RunLevels::bytes() const {
+    std::uint64_t bytes = 0;
+    std::uint64_t most_indices = 0;
+    for (std::size_t place = 0; place < levels_.size(); ++place) {
+        const LevelTriangles& triangles = *levels_[place].placed.triangles;
+        bytes += uses_[place].planned_gpu_bytes + bytes_of(triangles);
+        most_indices = std::max<std::uint64_t>(most_indices, triangles.indices.size());
+    }
+    // The plan of a frame lists the triangles that look towards the eye, and those that a face shows.
+    return bytes + 2 * sizeof(std::uint32_t) * most_indices;
 }
 
 bool RunLevels::fades() const {
@@ -103,9 +143,6 @@ double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanV
 
 void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& renderer,
                         const RenderTarget& target) {
-    if (rungs_.size() < 2) {
-        return;
-    }
     std::vector<RungTime> times;
     for (const Rung& rung : rungs_) {
         const double ms = median_ms(rung, prop, view, renderer, target);
@@ -119,7 +156,20 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     start(times);
 }
 
+void RunLevels::start(const RungCost& cost, const PropShape& prop, const PlanView& view) {
+    std::vector<RungTime> times;
+    for (const Rung& rung : rungs_) {
+        PlacedLevel placed = levels_[slot_of(rung.level)].placed;
+        placed.samples = rung.samples;
+        plan_frame(prop, placed, view, plan_);
+        const FrameWork frame = work(rung.samples);
+        times.push_back({rung.samples, frame, cost.ms(frame, rung.samples)});
+    }
+    start(times);
+}
+
 void RunLevels::start(const std::vector<RungTime>& times) {
+    times_ = times;
     governor_ = Governor(rungs_, times, deadline_ms_);
     shown_ = slot_of(governor_.rung().level);
 }
@@ -166,7 +216,7 @@ LevelState RunLevels::state() const {
     const Level& to = levels_[coming_.value_or(shown_)];
     const Level& from = levels_[shown_];
     return {technique_,
-            to.name,
+            name_of_level(to.level),
             governor_.rung().samples,
             std::max(from.mean_error_mm, to.mean_error_mm),
             std::max(from.p95_error_mm, to.p95_error_mm),

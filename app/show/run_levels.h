@@ -14,12 +14,15 @@
 #include "app/render/renderer.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/governor.h"
+#include "app/scene/level_data.h"
 #include "app/scene/scene_level.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +45,7 @@ struct LevelUse {
 /// What is being drawn.
 struct LevelState {
     std::string_view technique; ///< as asked for
-    std::string_view level;     ///< "level0", ...: during a fade the one that comes in
+    std::string_view level;     ///< "level0", ...: during a fade the one that comes in; a literal
     int samples = 0;
     double estimated_error_mm = 0.0; ///< mean; during a fade the larger of the two
     double p95_error_mm = 0.0;       ///< the tolerance limits this one
@@ -50,12 +53,32 @@ struct LevelState {
     std::uint64_t ignored_times = 0;
 };
 
+/// A level read and culled, and what of it goes into the GPU's memory.
+struct PreparedLevel {
+    LevelUse use; ///< the driver has said nothing yet
+    LevelError error;
+    glm::dvec3 box_size{1.0};
+    int samples = 0; ///< Pack::samples
+    std::shared_ptr<const LevelTriangles> triangles;
+    RenderNeeds needs;
+    std::vector<LeftOut> left_out;
+    LevelData data;
+};
+/// `level`: one of the plan's. Pure; takes long.
+[[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
+
 class RunLevels {
 public:
-    /// `technique`: as asked for. `pack` need not outlive the call. On failure nothing stays in the store.
+    /// The plan's levels in its order. Nothing can be drawn before each has its drawable. Needs no context.
+    RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
+              std::span<const PreparedLevel> levels);
+    /// The level at this place of the plan is in the store.
+    void give(std::size_t place, const Drawable& drawable, const GpuStore& store);
+
+    /// All at once. `technique`: as asked for. `pack` need not outlive the call. On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
                                                   std::string technique, double deadline_ms, GpuStore& store);
-    /// Takes all levels out of the store; nothing can be drawn any more.
+    /// Takes all levels that it was given out of the store; nothing can be drawn any more.
     void release(GpuStore& store);
 
     /// Whether it may change from one level to another.
@@ -65,12 +88,19 @@ public:
     /// What a renderer for it must be able to do.
     [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
-    /// Draws every rung some times for the view and starts the governor with the medians. Nothing is drawn if
-    /// there is nothing to choose. `target` then holds some picture, which must not be presented.
+    /// Draws every rung some times for the view and starts the governor with the medians. `target` then holds
+    /// some picture, which must not be presented.
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     /// Starts the governor with times that were measured: one for each rung, finest first.
     void start(const std::vector<RungTime>& times);
+    /// Starts the governor with times that are expected for the view. Needs no context.
+    void start(const RungCost& cost, const PropShape& prop, const PlanView& view);
+    /// Those that it was started with; none before.
+    [[nodiscard]] const std::vector<RungTime>& times() const { return times_; }
+
+    /// Bytes that it takes of the GPU's memory and of main memory, by the plan.
+    [[nodiscard]] std::uint64_t bytes() const;
 
     /// The artifact comes on while the GPU is under `load` (see Governor).
     void enter(MonotonicTime now, double load);
@@ -86,13 +116,10 @@ public:
 private:
     struct Level {
         std::uint32_t level = 0; ///< of the pack
-        std::string name;
         double mean_error_mm = 0.0;
         double p95_error_mm = 0.0;
         PlacedLevel placed;
     };
-    RunLevels(std::string technique, std::vector<Level> levels, std::vector<Rung> rungs, double deadline_ms,
-              FramePlan plan);
     /// With the samples that the governor chose.
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
     [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
@@ -107,6 +134,7 @@ private:
     RenderNeeds needs_;
     std::vector<Level> levels_;
     std::vector<Rung> rungs_;
+    std::vector<RungTime> times_;
     double deadline_ms_;
     Governor governor_;
     FramePlan plan_;

@@ -218,6 +218,8 @@ private:
         const ShowState state = show_.state();
         status.left_out = state.left_out;
         status.artifact = state.artifact;
+        status.loaded = state.loaded;
+        status.loaded_bytes = state.loaded_bytes;
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;

@@ -73,6 +73,14 @@ Sentence boot_id() {
 
 } // namespace
 
+PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+    const std::string place = pack + ": ";
+    if (message.substr(0, place.size()) == place) {
+        message.remove_prefix(place.size());
+    }
+    return {pack, std::string(message)};
+}
+
 std::string frames_csv(const std::vector<FrameRow>& rows) {
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n";
     auto out = std::back_inserter(csv);
@@ -111,6 +119,7 @@ std::string status_json(const RunStatus& status) {
         {"shown_code", json_of(status.shown_code)},
         {"left_out", left_out},
         {"artifact", status.artifact},
+        {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},
         {"technique", status.technique},
         {"level", status.level},
         {"samples", status.samples},

@@ -60,6 +60,9 @@ struct PackLeftOut {
     std::string reason;
 };
 
+/// Messages about a pack begin with its file.
+[[nodiscard]] PackLeftOut pack_left_out(const std::string& pack, std::string_view message);
+
 /// The picture that was handed to the display last, and what it shows.
 struct PresentedPicture {
     std::optional<std::uint8_t> code; ///< app/render/probe.h; nothing = the picture lights its corner
@@ -107,6 +110,8 @@ struct RunStatus {
     double hour_of_day = 12.0;         ///< local time
     bool prop_known = false;
     bool head_known = false;
+    std::size_t loaded = 0; ///< artifacts that can be shown at once
+    std::uint64_t loaded_bytes = 0;
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);

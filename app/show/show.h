@@ -27,7 +27,9 @@ struct ShowState {
     /// The prop's pose that was drawn for, if it is not the known one.
     std::optional<RigidTransform> stands = {};
     std::span<const PackLeftOut> left_out = {};
-    std::uint32_t lamps = 0; ///< the buttons that do something, bit k = button k
+    std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
+    std::size_t loaded = 0;         ///< artifacts that can be shown at once
+    std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
 };
 
 class Show {
@@ -70,6 +72,8 @@ public:
     [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
     /// Whether any word can be heard.
     [[nodiscard]] virtual bool speaks() const { return false; }
+    /// Of each artifact, whether it can be shown; none: all can.
+    [[nodiscard]] virtual std::span<const ArtifactState> artifacts() const { return {}; }
     /// None: it is silent.
     [[nodiscard]] virtual SharedPrompt prompt(const WordIndex& /*word*/) const { return nullptr; }
 };

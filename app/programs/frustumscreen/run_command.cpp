@@ -141,6 +141,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         return PatternShow::create(settings);
     }
     ArtifactShowOptions options = request.show;
+    options.waits = request.fast;
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
         options.packs_key = settings.exhibit.packs_key;

@@ -1,0 +1,101 @@
+#include "app/render/level_upload.h"
+
+#include <GLES2/gl2ext.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace frustumscreen {
+
+Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
+    if (!begun_) {
+        if (Result<void> begun = begin(); !begun) {
+            return begun;
+        }
+        begun_ = true;
+    }
+    std::uint64_t left = most_bytes;
+    left -= std::min(left, upload_vertices(left));
+    while (left > 0 && mip_ < data_.mips.size()) {
+        left -= std::min(left, upload_texels(left));
+    }
+    done_ = vertices_there_ == data_.vertices.size() && mip_ == data_.mips.size();
+    if (glGetError() != GL_NO_ERROR) {
+        return fail(ErrorKind::BadConfiguration,
+                    "render: the driver has no memory for the artifact; bake a smaller one");
+    }
+    return {};
+}
+
+/// Makes the objects with room for everything; that copies nothing yet.
+Result<void> LevelUpload::begin() {
+    const Image8& finest = data_.mips.front();
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    const int scale = 1 << data_.finest_mip;
+    if (std::max(finest.width, finest.height) > limit) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
+                finest.width * scale, finest.height * scale, limit));
+    }
+    vertex_array_ = GlVertexArray::generate();
+    vertices_ = GlBuffer::generate();
+    glBindVertexArray(vertex_array_.get());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data_.vertices.size() * sizeof(PackVertex)),
+                 nullptr, GL_STATIC_DRAW);
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex), nullptr);
+    glEnableVertexAttribArray(1);
+    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex),
+                          // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                          reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
+    glBindVertexArray(0);
+    texels_ = GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texels_.get());
+    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
+                   finest.height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    return {};
+}
+
+std::uint64_t LevelUpload::upload_vertices(std::uint64_t most_bytes) {
+    const std::size_t count =
+        std::min<std::uint64_t>(data_.vertices.size() - vertices_there_, most_bytes / sizeof(PackVertex) + 1);
+    if (count == 0) {
+        return 0;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
+    glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(vertices_there_ * sizeof(PackVertex)),
+                    static_cast<GLsizeiptr>(count * sizeof(PackVertex)),
+                    data_.vertices.data() + vertices_there_);
+    vertices_there_ += count;
+    return count * sizeof(PackVertex);
+}
+
+std::uint64_t LevelUpload::upload_texels(std::uint64_t most_bytes) {
+    Image8& mip = data_.mips[mip_];
+    const std::uint64_t bytes_a_row = sizeof(glm::u8vec4) * static_cast<std::uint64_t>(mip.width);
+    const int rows = static_cast<int>(
+        std::min<std::uint64_t>(static_cast<std::uint64_t>(mip.height - row_), most_bytes / bytes_a_row + 1));
+    glBindTexture(GL_TEXTURE_2D, texels_.get());
+    glTexSubImage2D(GL_TEXTURE_2D, static_cast<GLint>(mip_), 0, row_, mip.width, rows, GL_RGBA,
+                    GL_UNSIGNED_BYTE, &mip.at(0, row_));
+    row_ += rows;
+    if (row_ == mip.height) {
+        mip = Image8();
+        ++mip_;
+        row_ = 0;
+    }
+    return bytes_a_row * static_cast<std::uint64_t>(rows);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,44 @@
+/// A level on its way into the GPU's memory, in pieces: so that no frame waits for a whole artifact.
+///
+/// Main memory  a mip level is freed once it has been uploaded.
+/// Threads  the render thread, with the display's context current; also where it is destroyed.
+/// Errors   the driver has no memory, or the texture is larger than it allows.
+#pragma once
+
+#include "app/scene/level_data.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace frustumscreen {
+
+class LevelUpload {
+public:
+    explicit LevelUpload(LevelData data) : data_(std::move(data)) {}
+
+    /// Uploads `most_bytes` more, or the rest; a row of texels is never cut, so it may be a little more.
+    [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+    /// All of it is uploaded.
+    [[nodiscard]] bool done() const { return done_; }
+
+private:
+    friend class GpuStore;
+    [[nodiscard]] Result<void> begin();
+    [[nodiscard]] std::uint64_t upload_vertices(std::uint64_t most_bytes);
+    [[nodiscard]] std::uint64_t upload_texels(std::uint64_t most_bytes);
+
+    LevelData data_;
+    GlVertexArray vertex_array_;
+    GlBuffer vertices_;
+    GlTexture texels_;
+    bool begun_ = false;
+    bool done_ = false;
+    std::size_t vertices_there_ = 0;
+    std::size_t mip_ = 0; ///< of `data_.mips`, the next one
+    int row_ = 0;         ///< of it
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,62 @@
+#include "app/show/artifact_reader.h"
+
+#include <sys/resource.h>
+
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The picture comes first, and a reader that the picture's threads leave nothing at all would never be done.
+constexpr int niceness = 10;
+
+} // namespace
+
+ArtifactReader::ArtifactReader(Prepare prepare) : prepare_(std::move(prepare)), thread_([this] { work(); }) {}
+
+ArtifactReader::~ArtifactReader() {
+    wanted_ = the_end;
+    wanted_.notify_one();
+    thread_.join();
+    delete answer_.load();
+}
+
+void ArtifactReader::request(std::optional<std::size_t> artifact) {
+    const std::uint32_t wanted = artifact ? static_cast<std::uint32_t>(*artifact) : nothing;
+    if (wanted_.exchange(wanted) != wanted) {
+        wanted_.notify_one();
+    }
+}
+
+std::unique_ptr<ArtifactReader::Answer> ArtifactReader::take() {
+    return std::unique_ptr<Answer>(answer_.exchange(nullptr));
+}
+
+void ArtifactReader::work() {
+    // On Linux this is about the calling thread alone. Where it is not allowed, it reads at the usual priority.
+    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    while (true) {
+        wanted_.wait(nothing);
+        const std::uint32_t artifact = wanted_;
+        if (artifact == the_end) {
+            return;
+        }
+        if (artifact == nothing) {
+            continue;
+        }
+        bool gave_up = false; // for good: the same wish may have come back in between
+        auto answer = std::make_unique<Answer>(Answer{artifact, prepare_(artifact, [&] {
+                                                          gave_up = gave_up || wanted_ != artifact;
+                                                          return gave_up;
+                                                      })});
+        if (gave_up || wanted_ != artifact) {
+            continue;
+        }
+        delete answer_.exchange(answer.release());
+        std::uint32_t still = artifact;
+        wanted_.compare_exchange_strong(still, nothing); // it is done, unless there is another wish by now
+    }
+}
+
+} // namespace frustumscreen

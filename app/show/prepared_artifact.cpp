@@ -1,0 +1,63 @@
+#include "app/show/prepared_artifact.h"
+
+#include "app/pack/pack_file.h"
+#include "app/scene/exposure.h"
+
+#include <optional>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The level alone, of a pack that is still the one that is known.
+Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
+    return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+        if (outline != known.outline) {
+            return bad_input("the pack is another one than when the exhibit was started; start it again");
+        }
+        return std::vector<std::uint32_t>{level};
+    });
+}
+
+} // namespace
+
+Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
+                                          double deadline_ms, const std::function<bool()>& given_up) {
+    const ScenePlan& plan = known.plan;
+    std::vector<PreparedLevel> levels;
+    double exposure = 1.0;
+    for (const std::uint32_t number : plan.levels) {
+        if (given_up()) {
+            return bad_input("not wanted any more");
+        }
+        const Result<VerifiedPack> pack = read_level(known, number);
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
+        if (number == plan.rungs.front().level) {
+            const PackLevel& level = (*pack)->levels[number];
+            exposure =
+                exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
+        }
+        levels.push_back(prepare_level(**pack, number, plan));
+    }
+    PreparedArtifact made{RunLevels(technique, plan, deadline_ms, levels), {}, exposure};
+    for (PreparedLevel& level : levels) {
+        made.data.push_back(std::move(level.data));
+    }
+    return made;
+}
+
+std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
+    constexpr std::uint64_t per_vertex = sizeof(PackVertex) + sizeof(glm::vec3);
+    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t number : known.plan.levels) {
+        const LevelOutline& level = known.outline.levels[number];
+        bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+    }
+    return bytes;
+}
+
+} // namespace frustumscreen

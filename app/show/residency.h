@@ -1,0 +1,38 @@
+/// Which artifacts are in memory: a pure decision, one step at a time.
+///
+/// What is shown and what is wanted, in order of urgency, is gone through once: each artifact that fits into what the
+/// budget has left is to be there. The shown one always is, and so is the most urgent one, which the visitor waits
+/// for: these two alone may exceed the budget. Whatever else is loaded stays as long as there is room, and what was
+/// shown least recently goes first.
+///
+/// Units    bytes.
+/// Threads  pure; allocates nothing.
+/// Errors   none.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+struct ResidentArtifact {
+    std::uint64_t bytes = 0;      ///< that it takes, or would take
+    bool loaded = false;          ///< takes them, or part of them
+    bool left_out = false;        ///< cannot be loaded
+    std::uint64_t last_shown = 0; ///< larger = later; 0 = never
+};
+
+/// At most one of the two. Ask again when it has been done; neither: all is as it should be.
+struct ResidencyStep {
+    std::optional<std::size_t> release; ///< first: room is needed
+    std::optional<std::size_t> load;    ///< there is room
+    [[nodiscard]] bool operator==(const ResidencyStep&) const = default;
+};
+
+/// `wanted`: the most urgent first; may name an artifact twice, and the shown one.
+[[nodiscard]] ResidencyStep next_step(std::span<const ResidentArtifact> artifacts, std::size_t shown,
+                                      std::span<const std::size_t> wanted, std::uint64_t budget);
+
+} // namespace frustumscreen

@@ -1,0 +1,125 @@
+// The reader's thread, with work that the test makes up.
+
+#include "app/show/artifact_reader.h"
+#include "tests/show/shown_packs.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <random>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+/// Waits as long as it takes: a test that fails is ended from outside.
+std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
+    while (true) {
+        if (auto answer = reader.take()) {
+            return answer;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+Result<PreparedArtifact> numbered(std::size_t artifact) {
+    return bad_input(std::to_string(artifact)); // the answer that is made quickest
+}
+
+TEST(ArtifactReader, AnswersWhatIsAskedFor) {
+    ArtifactReader reader([](std::size_t artifact, const auto&) { return numbered(artifact); });
+    for (const std::size_t artifact : {3U, 0U, 7U, 7U}) {
+        reader.request(artifact);
+        const auto answer = await(reader);
+        EXPECT_EQ(answer->artifact, artifact);
+        EXPECT_EQ(answer->prepared.error().message, std::to_string(artifact));
+        reader.request(std::nullopt);
+    }
+    EXPECT_FALSE(reader.take());
+}
+
+TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
+    std::atomic<int> begun = 0;
+    std::atomic<int> given_up_count = 0;
+    ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
+        ++begun;
+        while (artifact == 1 && !given_up()) { // it would never end by itself
+            std::this_thread::yield();
+        }
+        given_up_count += artifact == 1 ? 1 : 0;
+        return numbered(artifact);
+    });
+    reader.request(1);
+    while (begun == 0) {
+        std::this_thread::yield();
+    }
+    reader.request(2);
+    EXPECT_EQ(await(reader)->artifact, 2U);
+    EXPECT_EQ(given_up_count, 1);
+}
+
+TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
+    std::atomic<bool> begun = false;
+    {
+        ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
+            begun = true;
+            while (!given_up()) {
+                std::this_thread::yield();
+            }
+            return numbered(artifact);
+        });
+        reader.request(0);
+        while (!begun) {
+            std::this_thread::yield();
+        }
+    }
+    SUCCEED();
+}
+
+/// A hand that presses faster than anything is read: every answer is one that was asked for, and the last wish is met.
+TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 50; ++round) {
+        ArtifactReader reader([](std::size_t artifact, const auto& given_up) {
+            for (int piece = 0; piece < 20 && !given_up(); ++piece) {
+                std::this_thread::yield();
+            }
+            return numbered(artifact);
+        });
+        for (int wish = 0; wish < 100; ++wish) {
+            reader.request(random() % 3 == 0 ? std::nullopt : std::optional<std::size_t>(random() % 4));
+            if (const auto answer = reader.take()) {
+                EXPECT_EQ(answer->prepared.error().message, std::to_string(answer->artifact));
+            }
+        }
+        reader.request(9);
+        while (await(reader)->artifact != 9) {
+        }
+    }
+}
+
+TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
+    const synthetic::ShownPacks packs(1);
+    const KnownArtifact known = packs.known(0);
+    ArtifactReader reader(
+        [&](std::size_t, const auto& given_up) { return prepare_artifact(known, "auto", 16.0, given_up); });
+    reader.request(0);
+    const auto answer = await(reader);
+    ASSERT_TRUE(answer->prepared) << answer->prepared.error().message;
+    const Result<VerifiedPack> pack = load_pack(known.file);
+    ASSERT_EQ(answer->prepared->data.size(), known.plan.levels.size());
+    for (std::size_t place = 0; place < known.plan.levels.size(); ++place) {
+        const PreparedLevel level = prepare_level(**pack, known.plan.levels[place], known.plan);
+        const LevelData& data = answer->prepared->data[place];
+        EXPECT_EQ(data.vertices.size(), level.data.vertices.size());
+        ASSERT_EQ(data.mips.size(), level.data.mips.size());
+        for (std::size_t mip = 0; mip < data.mips.size(); ++mip) {
+            EXPECT_EQ(data.mips[mip].texels, level.data.mips[mip].texels);
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

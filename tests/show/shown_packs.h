@@ -1,0 +1,74 @@
+/// Packs in a folder of their own, each of rings at two levels and of another colour; removed at the end.
+#pragma once
+
+#include "app/pack/pack_file.h"
+#include "app/show/prepared_artifact.h"
+#include "tests/render/synthetic_pack.h"
+#include "tests/settings/steep_table.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::synthetic {
+
+/// Rings at two levels, white but for one channel that says its number.
+inline Pack numbered_pack(std::size_t number) {
+    Pack pack = rings(24, 12);
+    const Pack coarse = rings(12, 4);
+    pack.levels.insert(pack.levels.begin(), coarse.levels[0]);
+    pack.levels[0].error = {4e-3F, 2e-2F, 4e-2F, 0.0F};
+    pack.levels[1].error = {3e-4F, 1e-3F, 4e-3F, 0.0F};
+    pack.textures[0] = Image8(64, 64, {250, 250, static_cast<std::uint8_t>(20 * number), 255});
+    pack.title = fmt::format("Rings {}", number);
+    pack.provenance.source_name = "rings.glb";
+    pack.provenance.source_sha256 = std::string(64, 'a');
+    pack.relief_size = 512;
+    pack.samples = 1;
+    for (unsigned k = 0; k < 8; ++k) {
+        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
+    }
+    return pack;
+}
+
+class ShownPacks {
+public:
+    explicit ShownPacks(std::size_t count) {
+        folder_ = std::filesystem::temp_directory_path() / fmt::format("frustumscreen_packs_{}", ::getpid());
+        std::filesystem::create_directories(folder_);
+        for (std::size_t k = 0; k < count; ++k) {
+            files_.push_back(folder_ / fmt::format("{}.fspack", k));
+            static_cast<void>(write_file(files_.back(), write_pack(numbered_pack(k)).value()));
+        }
+    }
+    ~ShownPacks() {
+        std::error_code none;
+        std::filesystem::remove_all(folder_, none);
+    }
+    ShownPacks(const ShownPacks&) = delete;
+    ShownPacks& operator=(const ShownPacks&) = delete;
+
+    [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+    /// Levels and textures are damaged, the manifest is not.
+    void damage(std::size_t number) const {
+        Bytes bytes = read_file(files_[number], 1U << 24U).value();
+        bytes[bytes.size() / 2] ^= std::byte{0x40};
+        static_cast<void>(write_file(files_[number], bytes));
+    }
+    [[nodiscard]] KnownArtifact known(std::size_t number) const {
+        KnownArtifact known{files_[number], outline_of(numbered_pack(number)), {}};
+        known.plan = plan_scene(steep_table(), known.outline, {}).value();
+        return known;
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> files_;
+};
+
+} // namespace frustumscreen::synthetic
