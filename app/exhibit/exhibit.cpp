@@ -87,8 +87,12 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
     }
     presentation.table = table_ ? &table_->presented() : nullptr;
-    presentation.zone_share =
-        stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
+    presentation.table_language = shown.language;
+    presentation.title_brightness = shown.language_brightness;
+    // Who slides the prop onto a picture need not be shown the way back.
+    presentation.zone_share = stand.attracts ? 0.0
+                                             : place_.zone.share(stand.table_from_prop) * stand.brightness *
+                                                   (table_ ? table_->share_beside_pictures() : 1.0);
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -139,6 +143,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
         selection_.choose(*chosen, now);
     }
     placer_.set_obstacles(table_->obstacles());
+    advice_placer_.set_obstacles(table_->obstacles());
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
@@ -205,7 +210,9 @@ void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& 
                     Presentation& presentation) {
     const bool there = presence_.update(now, situation, pressed);
     const bool was_advised = std::exchange(advised_, false);
-    if (guide_ && there && !stand.attracts && situation.prop_known) {
+    if (guide_ && table_ && table_->prop_is_on_picture()) {
+        guide_->rest(now); // what is being chosen is no mistake
+    } else if (guide_ && there && !stand.attracts && situation.prop_known) {
         const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
         const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
         const std::optional<TablePolygon> shadow =

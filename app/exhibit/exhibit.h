@@ -98,6 +98,8 @@ struct Presentation {
     std::optional<WordIndex> says;         ///< what begins to be spoken at this step
     bool falls_silent = false;             ///< nothing more need be said
     const PresentedTable* table = nullptr; ///< what lies there to choose from; valid until the next step
+    std::string_view table_language;       ///< of its titles; valid as long as the exhibit
+    double title_brightness = 1.0;         ///< of its titles: 0..1, a factor on linear light
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn

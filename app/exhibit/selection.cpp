@@ -93,8 +93,12 @@ Shown Selection::at(MonotonicTime now) const {
     }
     const Faded artifact = artifact_.at(now);
     const Faded language = language_.at(now);
-    return {artifact.which, artifact.brightness, languages_[language.which],
-            std::min(artifact.brightness, language.brightness), artifact.changing || language.changing};
+    return {artifact.which,
+            artifact.brightness,
+            languages_[language.which],
+            std::min(artifact.brightness, language.brightness),
+            language.brightness,
+            artifact.changing || language.changing};
 }
 
 } // namespace frustumscreen

@@ -90,7 +90,7 @@ struct DevicePlan {
     TrackerKind tracker = TrackerKind::None;
     bool head = false;        ///< the tracker's head samples are used
     bool panel = false;       ///< there are buttons
-    bool other_packs = false; ///< a button leads to another artifact than the first
+    bool other_packs = false; ///< a button or the table leads to another artifact than the first
     bool language = false;    ///< a button leads to another language
     std::vector<std::string> threads;
     std::vector<std::string> left_out; ///< sentences

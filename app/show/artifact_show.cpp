@@ -37,23 +37,6 @@ template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts)
     return catalogue;
 }
 
-/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
-/// pixels: letters that were set pixel for pixel stay crisp.
-TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
-                         const RigidTransform& table_from_projector) {
-    const glm::dvec3 corner(rectangle.corners()[3], 0.0);
-    const std::optional<glm::dvec2> pixel = projector.pixel(table_from_projector.inverse().point(corner));
-    if (!pixel) {
-        return rectangle;
-    }
-    const glm::dvec3 ray = table_from_projector.direction(projector.ray(glm::round(*pixel)));
-    if (ray.z < 0.0) {
-        const glm::dvec3 lens = table_from_projector.translation;
-        rectangle.centre_m += glm::dvec2(lens + ray * (lens.z / -ray.z) - corner);
-    }
-    return rectangle;
-}
-
 /// Messages about a pack begin with its file.
 PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
     const std::string place = pack + ": ";
@@ -82,11 +65,6 @@ tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
                                      ? "the pack cannot be shown: " + first
                                      : fmt::format("none of the {} packs can be shown; the first: {}",
                                                    left_out.size(), first)));
-}
-
-std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
-    const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
-    return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
 }
 
 } // namespace
@@ -214,16 +192,18 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     Loader loader{settings, devices, options, renderer->store()};
     std::vector<Artifact> artifacts;
     artifacts.reserve(options.packs.size());
+    std::vector<std::filesystem::path> files; // of `artifacts`
     std::vector<PackLeftOut> left_out;
     RenderNeeds needs;
     for (const std::filesystem::path& file : options.packs) {
         if (!artifacts.empty() && !devices.other_packs) {
-            break; // no button leads there
+            break; // nothing leads there
         }
         Result<Artifact> artifact = loader.load(file);
         if (artifact) {
             needs = united(needs, artifact->plan.needs);
             artifacts.push_back(std::move(*artifact));
+            files.push_back(file);
         } else {
             say_line(options.program,
                      after(options.packs_key, fmt::format("left out: {}", artifact.error().message)));
@@ -251,6 +231,15 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
     show->load_words(settings, devices);
+    if (settings.exhibit.table_pictures && files.size() > 1) {
+        Result<TableShow> table =
+            TableShow::load(settings, {std::move(files), devices.language}, show->renderer_.store());
+        if (!table) {
+            return tl::unexpected<Error>(table.error());
+        }
+        show->table_ = std::move(*table);
+        show->notes_.insert(show->notes_.end(), show->table_.notes().begin(), show->table_.notes().end());
+    }
     if (settings.exhibit.captions && !loader.languages.empty() &&
         !has_language(loader.languages, settings.exhibit.language)) {
         const std::vector<std::string>& shown = show->artifacts_.front().languages;
@@ -282,6 +271,9 @@ void ArtifactShow::warm_up(Artifact& artifact, PlanView view, const RenderTarget
         view.caption =
             TablePicture{picture_corners({attract_place_m_, caption.size_m}), 1.0, caption.texture};
     }
+    on_table_.clear();
+    table_.place_samples(attract_place_m_, on_table_);
+    view.on_table = on_table_.pictures();
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
         static_cast<void>(artifact.levels.draw({}, prop_, view, renderer_, drawn, redraw));
@@ -362,26 +354,21 @@ std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& prese
                         caption_brightness_ * advice.brightness, word.textures[advice.shape]};
 }
 
-std::span<const TablePicture> ArtifactShow::place_signs(const Presentation& presentation) {
-    std::size_t count = 0;
+void ArtifactShow::place_signs(const Presentation& presentation) {
     const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
     if (brightness > 0.0 && white_ != TextureId::None) {
         for (const TableRectangle& side : zone_.sides()) {
-            lines_.at(count++) = {picture_corners(side), brightness, white_};
+            on_table_.add({picture_corners(side), brightness, white_});
         }
     }
     if (presentation.sign) {
         const PlacedSign& sign = *presentation.sign;
-        TablePicture& picture = lines_.at(count++);
-        std::transform(sign.corners_m.begin(), sign.corners_m.end(), picture.corners_m.begin(),
-                       [](const glm::dvec2& corner) { return glm::dvec3(corner, 0.0); });
-        picture.brightness = caption_brightness_ * sign.brightness;
-        picture.texture = signs_.at(static_cast<std::size_t>(sign.sign));
+        on_table_.add({flat_corners(sign.corners_m), caption_brightness_ * sign.brightness,
+                       signs_.at(static_cast<std::size_t>(sign.sign))});
     }
     if (const std::optional<TablePicture> advice = place_advice(presentation)) {
-        lines_.at(count++) = *advice;
+        on_table_.add(*advice);
     }
-    return std::span(lines_).first(count);
 }
 
 std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
@@ -401,7 +388,12 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     view.light = artifacts_[presentation.artifact].plan.light;
     view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
     view.caption = place_caption(presentation);
-    view.lines = place_signs(presentation);
+    on_table_.clear();
+    place_signs(presentation);
+    table_.place(presentation,
+                 hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
+                 on_table_);
+    view.on_table = on_table_.pictures();
     if (on_ != presentation.artifact) {
         artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
         on_ = presentation.artifact;
@@ -416,7 +408,7 @@ ShowUse ArtifactShow::use() const {
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes;
+    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes + table_.planned_gpu_bytes();
     use.gpu_bytes = renderer_.bytes();
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
@@ -461,7 +453,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
              artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
              guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-             artifacts.words()},
+             artifacts.words(), settings.exhibit.table_pictures},
             settings.exhibit.language,
             now};
 }

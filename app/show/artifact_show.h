@@ -12,8 +12,10 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
+#include "app/show/on_table.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
+#include "app/show/table_show.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -103,7 +105,7 @@ private:
     void load_words(const Settings& settings, const DevicePlan& devices);
     [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
     /// The frame around the prop's zone and the sign of the guidance; none if they are dark.
-    [[nodiscard]] std::span<const TablePicture> place_signs(const Presentation& presentation);
+    void place_signs(const Presentation& presentation);
     /// Nothing if none is shown.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
@@ -123,7 +125,8 @@ private:
     std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
     std::uint64_t planned_sign_bytes_ = 0;
     AdviceWords words_;
-    std::array<TablePicture, most_lines> lines_{};
+    TableShow table_; ///< what lies there to choose from
+    OnTable on_table_;
     std::size_t on_ = 0; ///< the artifact that is on
 };
 
