@@ -46,7 +46,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      advice_placer_(place.picture_m), placer_(place.picture_m) {
+      advice_placer_(place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
     for (const AdviceLanguage& words : place_.words) {
         word_languages_.push_back(words.language);
     }
@@ -86,6 +86,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         // One text at a time, or the two would lie on each other.
         presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
     }
+    presentation.hotspot = label(now, shown, situation, stand, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
@@ -97,8 +98,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled =
-        !table_changes && !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
+    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
+                           (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
@@ -168,6 +169,30 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
         return std::nullopt;
     }
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
+}
+
+/// Beside the pictures and the caption; without words of advice, which say what to do first.
+std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
+                                               const Situation& situation, const Stand& stand,
+                                               const Presentation& presentation) {
+    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+        return std::nullopt;
+    }
+    const CatalogueEntry& entry = catalogue_[shown.artifact];
+    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::size_t count = 0;
+    for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
+        obstacles.at(count++) = place;
+    }
+    if (presentation.caption) {
+        obstacles.at(count++) = presentation.caption->rectangle;
+    }
+    const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
+    return labels_.step(now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : hotspot_,
+                              caption_for(shown.language, entry.languages),
+                              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
+                              stand.table_from_prop, situation.eye_m, place_.lens_m,
+                              std::span(obstacles).first(count), side_.quarter_turns()});
 }
 
 /// The sentence in the visitor's language, once it is more than a sign.

@@ -16,6 +16,7 @@
 #include "app/exhibit/advice_sign.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
+#include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/table_browser.h"
@@ -42,6 +43,7 @@ struct CatalogueEntry {
     /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
     /// preference; at most four.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
+    HotspotSet hotspots;
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
@@ -93,13 +95,14 @@ struct Presentation {
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign;        ///< what the visitor should do
-    std::optional<PresentedAdvice> advice; ///< the same in words
-    std::optional<WordIndex> says;         ///< what begins to be spoken at this step
-    bool falls_silent = false;             ///< nothing more need be said
-    const PresentedTable* table = nullptr; ///< what lies there to choose from; valid until the next step
-    std::string_view table_language;       ///< of its titles; valid as long as the exhibit
-    double title_brightness = 1.0;         ///< of its titles: 0..1, a factor on linear light
+    std::optional<PresentedHotspot> hotspot; ///< the label of a place on the artifact
+    std::optional<PlacedSign> sign;          ///< what the visitor should do
+    std::optional<PresentedAdvice> advice;   ///< the same in words
+    std::optional<WordIndex> says;           ///< what begins to be spoken at this step
+    bool falls_silent = false;               ///< nothing more need be said
+    const PresentedTable* table = nullptr;   ///< what lies there to choose from; valid until the next step
+    std::string_view table_language;         ///< of its titles; valid as long as the exhibit
+    double title_brightness = 1.0;           ///< of its titles: 0..1, a factor on linear light
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -120,6 +123,8 @@ public:
                                     const Situation& situation);
     /// Whether something is being said: then nothing else begins to be.
     void hear(bool speaking) { speaking_ = speaking; }
+    /// Shows the label of one of the artifact's hotspots, or none. An index that there is not shows none.
+    void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
     /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { staff_until_.reset(); }
 
@@ -129,6 +134,9 @@ private:
     void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
+    [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
+                                                        const Situation& situation, const Stand& stand,
+                                                        const Presentation& presentation);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
     [[nodiscard]] std::optional<WordIndex> word_of(const Guidance& guidance) const;
     /// `around`: the shadow, and the sign beside it.
@@ -152,6 +160,8 @@ private:
     VisitorSide side_;     ///< what lies on the table is turned to it
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
+    HotspotLabels labels_;
+    std::optional<std::size_t> hotspot_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.
     std::array<bool, button_commands.size()> selected_{};

@@ -26,7 +26,7 @@ constexpr double advice_em = 1.5;
 template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
     Catalogue catalogue;
     for (const auto& artifact : artifacts) {
-        CatalogueEntry entry{artifact.languages, {}};
+        CatalogueEntry entry{artifact.languages, {}, artifact.hotspots.set};
         for (const auto& shapes : artifact.captions) {
             std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
             std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
@@ -110,7 +110,7 @@ struct ArtifactShow::Loader {
         const PackLevel& first = (*pack)->levels[plan.rungs.front().level];
         const double exposure =
             exposure_of(first, (*pack)->box_size, (*pack)->textures[first.texture], plan.highlight_code);
-        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), exposure, {}, {}};
+        Artifact artifact{(*pack)->title, std::move(plan), std::move(*levels), exposure, {}, {}, {}};
         if (Result<void> set = set_captions(file, **pack, artifact); !set) {
             release(artifact);
             return tl::unexpected<Error>(set.error());
@@ -120,6 +120,7 @@ struct ArtifactShow::Loader {
 
     void release(Artifact& artifact) {
         artifact.levels.release(store);
+        artifact.hotspots.release(store);
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             for (const CaptionPicture& shape : shapes) {
                 store.release(shape.texture);
@@ -144,9 +145,11 @@ struct ArtifactShow::Loader {
         return request;
     }
 
+    static double texels_per_m(const Settings& settings) {
+        return settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+    }
     static CaptionSetter setter_for(const Settings& settings) {
-        const double height_m = settings.projector.table_from_projector.translation.z;
-        return {settings.exhibit.caption_height_m, settings.projector.pinhole.fx / height_m};
+        return {settings.exhibit.caption_height_m, texels_per_m(settings)};
     }
 
     /// Reads the glyph runs of the languages that are needed, and no others. Messages begin with the file's name.
@@ -176,6 +179,15 @@ struct ArtifactShow::Loader {
                     {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
             }
         }
+        Result<HotspotPictures> hotspots =
+            upload_hotspots(pack,
+                            {artifact.languages, *set, artifact.plan.levels, artifact.plan.metres_per_box,
+                             settings.exhibit.caption_height_m, texels_per_m(settings)},
+                            store);
+        if (!hotspots) {
+            return at(file.string(), hotspots.error());
+        }
+        artifact.hotspots = std::move(*hotspots);
         return {};
     }
 };
@@ -218,6 +230,14 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     std::unique_ptr<ArtifactShow> show(
         new ArtifactShow(settings, needs, std::move(*renderer), std::move(artifacts)));
+    if (std::any_of(show->artifacts_.begin(), show->artifacts_.end(),
+                    [](const Artifact& artifact) { return !artifact.hotspots.set.hotspots.empty(); })) {
+        Result<HotspotShow> hotspots = HotspotShow::create(show->renderer_.store());
+        if (!hotspots) {
+            return tl::unexpected<Error>(hotspots.error());
+        }
+        show->hotspots_ = std::move(*hotspots);
+    }
     if (shows_zone_frame(settings)) {
         const Result<TextureId> white = show->renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
         if (!white) {
@@ -354,13 +374,23 @@ std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& prese
                         caption_brightness_ * advice.brightness, word.textures[advice.shape]};
 }
 
-void ArtifactShow::place_signs(const Presentation& presentation) {
+void ArtifactShow::place_zone_frame(const Presentation& presentation) {
     const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
     if (brightness > 0.0 && white_ != TextureId::None) {
         for (const TableRectangle& side : zone_.sides()) {
             on_table_.add({picture_corners(side), brightness, white_});
         }
     }
+}
+
+void ArtifactShow::place_hotspot(const Presentation& presentation) {
+    if (presentation.hotspot) {
+        hotspots_.place(*presentation.hotspot, artifacts_[presentation.hotspot->artifact].hotspots,
+                        caption_brightness_, projector_, table_from_projector_, on_table_);
+    }
+}
+
+void ArtifactShow::place_signs(const Presentation& presentation) {
     if (presentation.sign) {
         const PlacedSign& sign = *presentation.sign;
         on_table_.add({flat_corners(sign.corners_m), caption_brightness_ * sign.brightness,
@@ -389,10 +419,12 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     view.brightness = artifacts_[presentation.artifact].exposure * presentation.brightness;
     view.caption = place_caption(presentation);
     on_table_.clear();
-    place_signs(presentation);
+    place_zone_frame(presentation);
     table_.place(presentation,
                  hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
                  on_table_);
+    place_hotspot(presentation);
+    place_signs(presentation);
     view.on_table = on_table_.pictures();
     if (on_ != presentation.artifact) {
         artifacts_[presentation.artifact].levels.enter(now, artifacts_[on_].levels.load());
@@ -408,12 +440,14 @@ ShowUse ArtifactShow::use() const {
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes + table_.planned_gpu_bytes();
+    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes + table_.planned_gpu_bytes() +
+                             hotspots_.planned_gpu_bytes();
     use.gpu_bytes = renderer_.bytes();
     for (const Artifact& artifact : artifacts_) {
         for (const LevelUse& level : artifact.levels.uses()) {
             use.planned_gpu_bytes += level.planned_gpu_bytes;
         }
+        use.planned_gpu_bytes += artifact.hotspots.planned_gpu_bytes;
         use.captions += artifact.captions.size();
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             for (const CaptionPicture& shape : shapes) {

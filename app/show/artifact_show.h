@@ -12,6 +12,7 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
+#include "app/show/hotspot_show.h"
 #include "app/show/on_table.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
@@ -93,6 +94,7 @@ private:
         std::vector<std::string> languages;
         /// One list for each of `languages`, in the catalogue's order.
         std::vector<std::vector<CaptionPicture>> captions;
+        HotspotPictures hotspots;
     };
     struct Loader;
 
@@ -104,7 +106,10 @@ private:
     /// Without its words the exhibit shows signs alone, and a note says why.
     void load_words(const Settings& settings, const DevicePlan& devices);
     [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
-    /// The frame around the prop's zone and the sign of the guidance; none if they are dark.
+    /// The frame around the prop's zone.
+    void place_zone_frame(const Presentation& presentation);
+    void place_hotspot(const Presentation& presentation);
+    /// What the guidance says.
     void place_signs(const Presentation& presentation);
     /// Nothing if none is shown.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
@@ -125,6 +130,7 @@ private:
     std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
     std::uint64_t planned_sign_bytes_ = 0;
     AdviceWords words_;
+    HotspotShow hotspots_;
     TableShow table_; ///< what lies there to choose from
     OnTable on_table_;
     std::size_t on_ = 0; ///< the artifact that is on
