@@ -90,10 +90,9 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
-    // Who slides the prop onto a picture need not be shown the way back.
-    presentation.zone_share = stand.attracts ? 0.0
-                                             : place_.zone.share(stand.table_from_prop) * stand.brightness *
-                                                   (table_ ? table_->share_beside_pictures() : 1.0);
+    // Pictures invite out of the zone, and its frame would cross them.
+    const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
+    presentation.zone_share = framed ? place_.zone.share(stand.table_from_prop) * stand.brightness : 0.0;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -188,11 +187,13 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
         obstacles.at(count++) = presentation.caption->rectangle;
     }
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
-    return labels_.step(now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : hotspot_,
-                              caption_for(shown.language, entry.languages),
-                              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
-                              stand.table_from_prop, situation.eye_m, place_.lens_m,
-                              std::span(obstacles).first(count), side_.quarter_turns()});
+    return labels_.step(
+        now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : hotspot_,
+              caption_for(shown.language, entry.languages),
+              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
+              stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
+              presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
+              side_.quarter_turns()});
 }
 
 /// The sentence in the visitor's language, once it is more than a sign.

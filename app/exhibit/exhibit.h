@@ -43,7 +43,7 @@ struct CatalogueEntry {
     /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
     /// preference; at most four.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
-    HotspotSet hotspots;
+    HotspotSet hotspots = {};
 };
 using Catalogue = std::vector<CatalogueEntry>;
 

@@ -1,9 +1,12 @@
 #include "app/exhibit/hotspot_labels.h"
 
+#include "app/exhibit/visitor_side.h"
 #include "app/geometry/time_curves.h"
 #include "app/settings/lit_zone.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace frustumscreen {
 
@@ -11,6 +14,8 @@ namespace {
 
 /// Cosine between the surface's normal and the way to the eye, from which on a label is as bright as can be.
 constexpr double facing = 0.12;
+/// As far as any table goes on behind a caption.
+constexpr double behind_caption_m = 0.4;
 
 Occluder occluder_of(const HotspotSet& set) {
     Occluder artifact{set.triangles.get(), glm::dmat4(1.0 / set.metres_per_box), set.tolerance_m};
@@ -63,6 +68,25 @@ void HotspotLabels::turn_to(const std::optional<Key>& key, const Input& input) {
                            : std::span<const glm::dvec2>());
 }
 
+/// No line leads past a caption to what lies behind it, seen from the prop: there the label has no place either.
+void HotspotLabels::keep_clear(const Input& input) {
+    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::size_t count = std::min(input.obstacles.size(), obstacles.size() - 1);
+    std::copy_n(input.obstacles.begin(), count, obstacles.begin());
+    if (input.caption) {
+        TableRectangle& behind = obstacles.at(count++);
+        behind = *input.caption;
+        const glm::dvec2 away = behind.centre_m - glm::dvec2(input.table_from_prop.translation);
+        const glm::dvec2 seen = turned(away, -behind.quarter_turns); // as the reader sees it
+        const int axis = std::abs(seen.x) > std::abs(seen.y) ? 0 : 1;
+        glm::dvec2 by(0.0);
+        by[axis] = seen[axis] < 0.0 ? -0.5 * behind_caption_m : 0.5 * behind_caption_m;
+        behind.centre_m += turned(by, behind.quarter_turns);
+        behind.size_m[axis] += behind_caption_m;
+    }
+    placer_.set_obstacles(std::span(obstacles).first(count));
+}
+
 std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Input& input) {
     const double passed = last_ ? to_seconds(now - *last_) / to_seconds(each_way) : 0.0;
     last_ = now;
@@ -85,7 +109,7 @@ std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Inp
         hidden_by_prop(*input.prop, input.table_from_prop, input.lens_m);
     const std::optional<TablePolygon> hidden =
         hidden_by_prop(*input.prop, input.table_from_prop, input.eye_m);
-    placer_.set_obstacles(input.obstacles);
+    keep_clear(input);
     placer_.update(now, shadow, hidden, seen_on_table(point_m, input.eye_m), input.quarter_turns);
     const CaptionPlace place = placer_.at(now);
 

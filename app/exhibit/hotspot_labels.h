@@ -67,6 +67,7 @@ public:
         glm::dvec3 eye_m{0.0};                     ///< table frame
         glm::dvec3 lens_m{0.0};                    ///< table frame
         std::span<const TableRectangle> obstacles; ///< what else lies on the table
+        std::optional<TableRectangle> caption;     ///< one of them
         int quarter_turns = 0;                     ///< the reader's side
     };
     [[nodiscard]] std::optional<PresentedHotspot> step(MonotonicTime now, const Input& input);
@@ -81,6 +82,7 @@ private:
         [[nodiscard]] bool operator==(const Key&) const = default;
     };
     [[nodiscard]] static std::optional<Key> wanted(const Input& input);
+    void keep_clear(const Input& input);
     void turn_to(const std::optional<Key>& key, const Input& input);
 
     CaptionPlacer placer_;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace frustumscreen {
 
 namespace {
 
-constexpr double longest_mitre = 2.0; ///< in widths: a sharper corner is cut
+constexpr double longest_mitre = 4.0; ///< in widths: a sharper corner is cut
 constexpr double comes_up_by = 0.1;   ///< share of the ring
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -31,13 +33,9 @@ struct Stop {
 
 /// The outline, clockwise from the far side on: `stops` begins and ends at the same place.
 struct Outline {
-    std::array<Stop, Ring::most> stops{};
+    std::array<Stop, Ring::most + 1> stops{};
     std::size_t count = 0;
-    double length = 0.0;
-    void add(const Stop& stop) {
-        length += count > 0 ? glm::distance(stops[count - 1].at, stop.at) : 0.0;
-        stops[count++] = stop;
-    }
+    void add(const Stop& stop) { stops[count++] = stop; }
 };
 
 Stop corner(const glm::dvec2& before, const glm::dvec2& at, const glm::dvec2& after) {
@@ -91,6 +89,36 @@ Outline outline_of(const TablePolygon& shadow, int quarter_turns) {
     return outline;
 }
 
+/// On an edge, not at its ends.
+Stop between(const Stop& from, const Stop& to, double share) {
+    return {glm::mix(from.at, to.at, share), normal_of(from.at, to.at)};
+}
+
+/// The part of an edge inside a convex polygon.
+std::optional<std::pair<Stop, Stop>> part_within(const Stop& from, const Stop& to,
+                                                 std::span<const glm::dvec2> room) {
+    constexpr double shortest_m = 1e-6;
+    double first = 0.0;
+    double last = 1.0;
+    for (std::size_t k = 0; k < room.size(); ++k) {
+        const glm::dvec2 side = room[(k + 1) % room.size()] - room[k];
+        const double inside = cross(side, from.at - room[k]);
+        const double rate = cross(side, to.at - from.at);
+        if (rate > 0.0) {
+            first = std::max(first, -inside / rate);
+        } else if (rate < 0.0) {
+            last = std::min(last, -inside / rate);
+        } else if (inside < 0.0) {
+            return std::nullopt;
+        }
+    }
+    if (!((last - first) * glm::distance(from.at, to.at) > shortest_m)) {
+        return std::nullopt;
+    }
+    return std::pair(first > 0.0 ? between(from, to, first) : from,
+                     last < 1.0 ? between(from, to, last) : to);
+}
+
 RingPiece piece(const Stop& from, const Stop& to, bool filled) {
     constexpr double outer_m = ring_gap_m + ring_width_m;
     return {{from.at + outer_m * from.out, to.at + outer_m * to.out, to.at + ring_gap_m * to.out,
@@ -100,22 +128,30 @@ RingPiece piece(const Stop& from, const Stop& to, bool filled) {
 
 } // namespace
 
-Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns) {
+Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns,
+                 std::span<const glm::dvec2> room) {
     const Outline outline = outline_of(shadow, quarter_turns);
-    Ring ring;
-    double rest = std::clamp(full, 0.0, 1.0) * outline.length;
+    std::array<std::pair<Stop, Stop>, Ring::most> parts{};
+    std::size_t count = 0;
+    double length = 0.0;
     for (std::size_t k = 0; k + 1 < outline.count; ++k) {
-        const Stop& from = outline.stops[k];
-        const Stop& to = outline.stops[k + 1];
-        const double length = glm::distance(from.at, to.at);
-        if (rest > 0.0 && rest < length) {
-            const Stop end{glm::mix(from.at, to.at, rest / length), normal_of(from.at, to.at)};
+        if (const auto part = part_within(outline.stops[k], outline.stops[k + 1], room)) {
+            length += glm::distance(part->first.at, part->second.at);
+            parts[count++] = *part;
+        }
+    }
+    Ring ring;
+    double rest = std::clamp(full, 0.0, 1.0) * length;
+    for (const auto& [from, to] : std::span(parts).first(count)) {
+        const double own = glm::distance(from.at, to.at);
+        if (rest > 0.0 && rest < own) {
+            const Stop end = between(from, to, rest / own);
             ring.all[ring.count++] = piece(from, end, true);
             ring.all[ring.count++] = piece(end, to, false);
-        } else if (length > 0.0) {
+        } else {
             ring.all[ring.count++] = piece(from, to, rest > 0.0);
         }
-        rest -= length;
+        rest -= own;
     }
     return ring;
 }

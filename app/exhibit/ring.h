@@ -1,7 +1,7 @@
 /// The ring around the prop that fills while the prop rests on a picture: a band beside the prop's shadow.
 ///
 /// It follows the shadow's outline, which the prop covers at any turn, and fills clockwise from the side that is farthest from
-/// the reader.
+/// the reader. A prop that stands over the edge of the projector's picture has only the part of it that can be seen.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any. Allocates nothing.
@@ -35,8 +35,10 @@ struct Ring {
     [[nodiscard]] std::span<const RingPiece> pieces() const { return std::span(all).first(count); }
 };
 
-/// `full`: the share of its length that is filled, 0..1. `quarter_turns`: the reader's side.
-[[nodiscard]] Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns);
+/// `full`: the share of its length that is filled, 0..1. `quarter_turns`: the reader's side. `room`: what the projector's picture
+/// covers of the table, convex, counter-clockwise.
+[[nodiscard]] Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns,
+                               std::span<const glm::dvec2> room);
 
 /// A ring comes up and goes softly, as it fills and empties: a factor on linear light.
 [[nodiscard]] double ring_brightness(double full);

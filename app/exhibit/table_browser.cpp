@@ -4,15 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace frustumscreen {
-
-namespace {
-
-constexpr double near_picture_m = 0.05; ///< on its way onto a picture
-
-} // namespace
 
 TableBrowser::TableBrowser(const TableSetUp& set_up) {
     for (int side = 0; side < 4; ++side) {
@@ -46,7 +39,7 @@ std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& in
         dwell_.update(now, input.prop_m, std::span(choosable_).first(faded.changing ? 0 : choosable_count_));
     presented_.ring = dwell.place ? std::optional(choosable_places_[*dwell.place]) : std::nullopt;
     presented_.ring_full = dwell.full;
-    share_beside_ = share_beside(input.prop_m);
+    on_picture_ = is_on_picture(input.prop_m);
     if (!dwell.chosen) {
         return std::nullopt;
     }
@@ -92,14 +85,12 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
     }
 }
 
-double TableBrowser::share_beside(const std::optional<glm::dvec2>& prop_m) const {
-    double nearest_m = std::numeric_limits<double>::infinity();
-    if (prop_m && !dwell_.is_on_chosen()) {
-        for (const TableRectangle& picture : std::span(choosable_).first(choosable_count_)) {
-            nearest_m = std::min(nearest_m, clearance(picture.corners(), std::span(&*prop_m, 1)));
-        }
-    }
-    return ease(nearest_m / near_picture_m);
+bool TableBrowser::is_on_picture(const std::optional<glm::dvec2>& prop_m) const {
+    const std::span<const TableRectangle> pictures = std::span(choosable_).first(choosable_count_);
+    return prop_m && !dwell_.is_on_chosen() &&
+           std::any_of(pictures.begin(), pictures.end(), [&](const TableRectangle& picture) {
+               return clearance(picture.corners(), std::span(&*prop_m, 1)) <= 0.0;
+           });
 }
 
 /// All but the empty place. What the prop is on now is not chosen before the prop has left it.

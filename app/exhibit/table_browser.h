@@ -52,9 +52,7 @@ public:
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
     /// Whether the prop is on a picture that resting there chooses.
-    [[nodiscard]] bool prop_is_on_picture() const { return share_beside_ <= 0.0 || presented_.ring; }
-    /// 0 where the prop is on such a picture, 1 where it is far from all; a function of where the prop is and of what lies there.
-    [[nodiscard]] double share_beside_pictures() const { return share_beside_; }
+    [[nodiscard]] bool prop_is_on_picture() const { return on_picture_ || presented_.ring; }
     /// What captions lie beside: the places of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
@@ -75,7 +73,7 @@ private:
     void lay_out(const Arrangement& arrangement, std::size_t artifact);
     void lighten(MonotonicTime now, const Input& input, const Faded& faded);
     void note_choosable(std::size_t artifact);
-    [[nodiscard]] double share_beside(const std::optional<glm::dvec2>& prop_m) const;
+    [[nodiscard]] bool is_on_picture(const std::optional<glm::dvec2>& prop_m) const;
 
     std::array<TableLayout, 4> layouts_;
     std::size_t page_ = 0;
@@ -89,7 +87,7 @@ private:
     std::array<TableRectangle, most_table_places> choosable_{};
     std::array<std::size_t, most_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
-    double share_beside_ = 1.0;
+    bool on_picture_ = false;
     std::array<TableRectangle, most_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;

@@ -224,8 +224,8 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
-                   request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||
-                                    settings.exhibit.table_pictures),
+                   request.live &&
+                       (shows_zone_frame(settings) || guides_visitors(settings) || request.table_pictures),
                    plan);
     choose_faces(plan);
     return plan;
@@ -247,7 +247,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
-                       (settings.exhibit.table_pictures && plan.tracker != TrackerKind::None);
+                       chooses_on_table(settings);
     plan.language = !pressed && asks(Command::NextLanguage);
     plan.threads = {"the exhibit"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {

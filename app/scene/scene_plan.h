@@ -60,6 +60,7 @@ struct SceneRequest {
     int room = 1;    ///< samples a pixel that the renderer has room for at least, for slanting views
     unsigned economies = AllEconomies;
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can come to see
+    bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
 };
 

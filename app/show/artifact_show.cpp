@@ -134,6 +134,8 @@ struct ArtifactShow::Loader {
         request.room = options.samples;
         request.economies = options.economies;
         request.visibility = visibility_of(settings);
+        request.table_pictures =
+            chooses_on_table(settings) && devices.other_packs && options.packs.size() > 1;
         std::vector<std::string> languages;
         for (const PackCaption& caption : outline.description.captions) {
             request.captions.push_back(languages.size());
@@ -251,7 +253,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     show->left_out_ = std::move(left_out);
     show->notes_ = std::move(loader.notes);
     show->load_words(settings, devices);
-    if (settings.exhibit.table_pictures && files.size() > 1) {
+    if (chooses_on_table(settings) && files.size() > 1) {
         Result<TableShow> table =
             TableShow::load(settings, {std::move(files), devices.language}, show->renderer_.store());
         if (!table) {
@@ -487,7 +489,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
              artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
              guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-             artifacts.words(), settings.exhibit.table_pictures},
+             artifacts.words(), chooses_on_table(settings)},
             settings.exhibit.language,
             now};
 }

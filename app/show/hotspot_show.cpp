@@ -14,7 +14,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double line_width_m = 0.0015;
-constexpr double soft_m = 0.0005; ///< on each side of a line, in which its light ends
+constexpr double soft_m = 0.0005;      ///< on each side of a line, in which its light ends
+constexpr double from_label_m = 0.002; ///< between the line and the letters
 constexpr double label_width_m = 0.15;
 
 /// Across a line: bright in its middle, and nothing left at its sides.
@@ -108,8 +109,13 @@ Result<HotspotShow> HotspotShow::create(GpuStore& store) {
 void HotspotShow::place(const PresentedHotspot& hotspot, const HotspotPictures& pictures, double brightness,
                         const Pinhole& projector, const RigidTransform& table_from_projector,
                         OnTable& on_table) const {
-    const std::span<const glm::dvec2> points =
-        hotspot.line ? hotspot.line->points() : std::span<const glm::dvec2>();
+    LeaderLine line = hotspot.line.value_or(LeaderLine{});
+    if (line.count > 1) {
+        glm::dvec2& end = line.points_m[line.count - 1];
+        const glm::dvec2 back = line.points_m[line.count - 2] - end;
+        end += back * std::min(0.5, from_label_m / glm::length(back));
+    }
+    const std::span<const glm::dvec2> points = line.points();
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const glm::dvec2 along = glm::normalize(points[k + 1] - points[k]);
         const glm::dvec2 side = glm::dvec2(-along.y, along.x) * (0.5 * line_width_m + soft_m);

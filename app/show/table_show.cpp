@@ -6,6 +6,7 @@
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"
 #include "app/scene/scene_level.h"
+#include "app/settings/lit_zone.h"
 
 #include <algorithm>
 #include <utility>
@@ -132,6 +133,7 @@ struct TableShow::Loader {
 
 Result<TableShow> TableShow::load(const Settings& settings, const Request& request, GpuStore& store) {
     TableShow show;
+    show.room_ = picture_on_table(settings, 0.0);
     show.projector_ = settings.projector.pinhole;
     show.table_from_projector_ = settings.projector.table_from_projector;
     show.text_brightness_ = settings.exhibit.caption_brightness;
@@ -167,7 +169,7 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
         return;
     }
     const int reader = table.pictures()[*table.ring].place.picture.quarter_turns;
-    for (const RingPiece& piece : ring_around(*shadow, table.ring_full, reader).pieces()) {
+    for (const RingPiece& piece : ring_around(*shadow, table.ring_full, reader, room_).pieces()) {
         on_table.add({flat_corners(piece.corners_m),
                       ring_brightness(table.ring_full) * (piece.filled ? 1.0 : empty_ring_brightness),
                       band_});

@@ -62,6 +62,7 @@ private:
     void place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
                      OnTable& on_table) const;
 
+    std::vector<glm::dvec2> room_; ///< what the projector's picture covers of the table
     Pinhole projector_;
     RigidTransform table_from_projector_;
     double text_brightness_ = 0.6; ///< share of the projector's light
