@@ -48,6 +48,8 @@ public:
     /// `at_m`: standing_place; nothing while the prop's pose is not known. `pictures` do not overlap.
     [[nodiscard]] DwellState update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
                                     std::span<const TableRectangle> pictures);
+    /// Whether the prop is still on what was chosen last.
+    [[nodiscard]] bool is_on_chosen() const { return chosen_.has_value(); }
     /// Other pictures lie there now: the one that the prop is on is not chosen before the prop has left it.
     void pictures_changed(std::span<const TableRectangle> pictures);
 

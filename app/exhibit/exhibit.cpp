@@ -49,7 +49,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
       states_(catalogue_.size(), ArtifactState::Ready),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      advice_placer_(place.picture_m), placer_(place.picture_m) {
+      advice_placer_(place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
     for (const AdviceLanguage& words : place_.words) {
         word_languages_.push_back(words.language);
     }
@@ -93,15 +93,19 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         // One text at a time, or the two would lie on each other.
         presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
     }
+    presentation.hotspot = label(now, shown, situation, stand, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
-    presentation.zone_share =
-        stand.attracts ? 0.0 : place_.zone.share(stand.table_from_prop) * stand.brightness;
+    presentation.table_language = shown.language;
+    presentation.title_brightness = shown.language_brightness;
+    // Pictures invite out of the zone, and its frame would cross them.
+    const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
+    presentation.zone_share = framed ? place_.zone.share(stand.table_from_prop) * stand.brightness : 0.0;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled = !table_changes && !shown.changing && !stand.changing && !comes.waits &&
-                           (opacity <= 0.0 || opacity >= 1.0);
+    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
+                           !comes.waits && (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
@@ -109,6 +113,17 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
 
 void Exhibit::note(std::span<const ArtifactState> states) {
     std::copy_n(states.begin(), std::min(states.size(), states_.size()), states_.begin());
+}
+
+void Exhibit::note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
+    if (artifact >= catalogue_.size()) {
+        return;
+    }
+    if (artifact != triangles_of_) {
+        catalogue_[triangles_of_].hotspots.triangles = {};
+    }
+    triangles_of_ = artifact;
+    catalogue_[artifact].hotspots.triangles = std::move(triangles);
 }
 
 void Exhibit::leave_out_the_bad(MonotonicTime now) {
@@ -218,6 +233,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
         selection_.choose(*chosen, now);
     }
     placer_.set_obstacles(table_->obstacles());
+    advice_placer_.set_obstacles(table_->obstacles());
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
@@ -242,6 +258,32 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
         return std::nullopt;
     }
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
+}
+
+/// Beside the pictures and the caption; without words of advice, which say what to do first.
+std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
+                                               const Situation& situation, const Stand& stand,
+                                               const Presentation& presentation) {
+    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+        return std::nullopt;
+    }
+    const CatalogueEntry& entry = catalogue_[shown.artifact];
+    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::size_t count = 0;
+    for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
+        obstacles.at(count++) = place;
+    }
+    if (presentation.caption) {
+        obstacles.at(count++) = presentation.caption->rectangle;
+    }
+    const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
+    return labels_.step(
+        now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : hotspot_,
+              caption_for(shown.language, entry.languages),
+              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
+              stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
+              presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
+              side_.quarter_turns()});
 }
 
 /// The sentence in the visitor's language, once it is more than a sign.
@@ -284,7 +326,9 @@ void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& 
                     Presentation& presentation) {
     const bool there = presence_.update(now, situation, pressed);
     const bool was_advised = std::exchange(advised_, false);
-    if (guide_ && there && !stand.attracts && situation.prop_known) {
+    if (guide_ && table_ && table_->prop_is_on_picture()) {
+        guide_->rest(now); // what is being chosen is no mistake
+    } else if (guide_ && there && !stand.attracts && situation.prop_known) {
         const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
         const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
         const std::optional<TablePolygon> shadow =

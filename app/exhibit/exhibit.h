@@ -17,6 +17,7 @@
 #include "app/exhibit/artifact_state.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
+#include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/stand_in.h"
@@ -44,6 +45,7 @@ struct CatalogueEntry {
     /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
     /// preference; at most four.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
+    HotspotSet hotspots = {};
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
@@ -111,11 +113,14 @@ struct Presentation {
     std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
     std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign;        ///< what the visitor should do
-    std::optional<PresentedAdvice> advice; ///< the same in words
-    std::optional<WordIndex> says;         ///< what begins to be spoken at this step
-    bool falls_silent = false;             ///< nothing more need be said
-    const PresentedTable* table = nullptr; ///< what lies there to choose from; valid until the next step
+    std::optional<PresentedHotspot> hotspot; ///< the label of a place on the artifact
+    std::optional<PlacedSign> sign;          ///< what the visitor should do
+    std::optional<PresentedAdvice> advice;   ///< the same in words
+    std::optional<WordIndex> says;           ///< what begins to be spoken at this step
+    bool falls_silent = false;               ///< nothing more need be said
+    const PresentedTable* table = nullptr;   ///< what lies there to choose from; valid until the next step
+    std::string_view table_language;         ///< of its titles; valid as long as the exhibit
+    double title_brightness = 1.0;           ///< of its titles: 0..1, a factor on linear light
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -136,8 +141,12 @@ public:
                                     const Situation& situation);
     /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
     void note(std::span<const ArtifactState> states);
+    /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
+    void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then nothing else begins to be.
     void hear(bool speaking) { speaking_ = speaking; }
+    /// Shows the label of one of the artifact's hotspots, or none. An index that there is not shows none.
+    void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
     /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { staff_until_.reset(); }
 
@@ -151,6 +160,9 @@ private:
     void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
+    [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
+                                                        const Situation& situation, const Stand& stand,
+                                                        const Presentation& presentation);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
     [[nodiscard]] std::optional<WordIndex> word_of(const Guidance& guidance) const;
     /// `around`: the shadow, and the sign beside it.
@@ -164,7 +176,8 @@ private:
     ExhibitPlace place_;
     Selection selection_;
     std::vector<ArtifactState> states_;
-    std::size_t left_out_ = 0; ///< how many of them the selection knows to be left out
+    std::size_t left_out_ = 0;     ///< how many of them the selection knows to be left out
+    std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
     StandIn stand_in_;
     std::optional<Attract> attract_; ///< from the first step on
     std::optional<Guide> guide_;
@@ -177,6 +190,8 @@ private:
     VisitorSide side_;     ///< what lies on the table is turned to it
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
+    HotspotLabels labels_;
+    std::optional<std::size_t> hotspot_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.
     std::array<bool, button_commands.size()> selected_{};

@@ -39,6 +39,7 @@ std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& in
         dwell_.update(now, input.prop_m, std::span(choosable_).first(faded.changing ? 0 : choosable_count_));
     presented_.ring = dwell.place ? std::optional(choosable_places_[*dwell.place]) : std::nullopt;
     presented_.ring_full = dwell.full;
+    on_picture_ = is_on_picture(input.prop_m);
     if (!dwell.chosen) {
         return std::nullopt;
     }
@@ -83,6 +84,14 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
         picture.brightness =
             ease(presence_[k]) * faded.brightness * place_brightness(picture.place, input.shadow);
     }
+}
+
+bool TableBrowser::is_on_picture(const std::optional<glm::dvec2>& prop_m) const {
+    const std::span<const TableRectangle> pictures = std::span(choosable_).first(choosable_count_);
+    return prop_m && !dwell_.is_on_chosen() &&
+           std::any_of(pictures.begin(), pictures.end(), [&](const TableRectangle& picture) {
+               return clearance(picture.corners(), std::span(&*prop_m, 1)) <= 0.0;
+           });
 }
 
 /// All but the empty place. What the prop is on now is not chosen before the prop has left it.

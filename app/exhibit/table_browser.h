@@ -54,6 +54,8 @@ public:
     /// Its picture goes, and it cannot be chosen any more.
     void leave_out(std::size_t artifact) { left_out_[artifact] = true; }
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
+    /// Whether the prop is on a picture that resting there chooses.
+    [[nodiscard]] bool prop_is_on_picture() const { return on_picture_ || presented_.ring; }
     /// What captions lie beside: the places of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
@@ -74,6 +76,7 @@ private:
     void lay_out(const Arrangement& arrangement, std::size_t artifact);
     void lighten(MonotonicTime now, const Input& input, const Faded& faded);
     void note_choosable(std::size_t artifact);
+    [[nodiscard]] bool is_on_picture(const std::optional<glm::dvec2>& prop_m) const;
 
     /// Whether the place is empty: of what is in the prop, or left out.
     [[nodiscard]] bool empty(const PlacedPicture& picture, std::size_t artifact) const {
@@ -93,6 +96,7 @@ private:
     std::array<TableRectangle, most_table_places> choosable_{};
     std::array<std::size_t, most_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
+    bool on_picture_ = false;
     std::array<TableRectangle, most_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;

@@ -96,18 +96,22 @@ void Guide::raise_stage(MonotonicTime now, bool may_speak) {
     }
 }
 
+void Guide::rest(MonotonicTime now) {
+    guidance_ = {};
+    needed_since_.reset();
+    next_look_.reset();
+    looks_at_.reset();
+    // Who managed for as long as a long pause is as new.
+    if (spoken_ && now - *spoken_ > longest_pause) {
+        spoken_.reset();
+        pause_ = first_pause;
+    }
+}
+
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
     if (!needs_help(situation, sensing)) {
-        guidance_ = {};
-        needed_since_.reset();
-        next_look_.reset();
-        looks_at_.reset();
-        // Who managed for as long as a long pause is as new.
-        if (spoken_ && now - *spoken_ > longest_pause) {
-            spoken_.reset();
-            pause_ = first_pause;
-        }
+        rest(now);
         return guidance_;
     }
     needed_since_ = needed_since_ ? needed_since_ : now;

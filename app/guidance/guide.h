@@ -52,6 +52,8 @@ public:
     /// `may_speak`: false while something else is being said.
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                                        bool may_speak);
+    /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
+    void rest(MonotonicTime now);
     /// The faces of the latest step.
     [[nodiscard]] const FaceSets& faces() const { return faces_; }
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }

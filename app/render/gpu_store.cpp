@@ -36,6 +36,38 @@ GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
                     coverage.texels.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, GL_RED); // white light
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
+    clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
+    return texture;
+}
+
+/// The colours' light over black, opaque.
+Image8 over_black(const Image8& picture) {
+    Image8 opaque = picture;
+    for (glm::u8vec4& texel : opaque.texels) {
+        const double covered = texel.a / 255.0;
+        for (int k = 0; k < 3; ++k) {
+            texel[k] = srgb8_from_linear(covered * static_cast<double>(linear_from_srgb8()[texel[k]]));
+        }
+        texel.a = 255;
+    }
+    return opaque;
+}
+
+/// The sampler decodes it, so that what is between texels is mixed in linear light.
+GlTexture upload_light(Image8 mip) {
+    GlTexture texture = GlTexture::generate();
+    const int levels = std::bit_width(static_cast<unsigned>(std::max(mip.width, mip.height)));
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, mip.width, mip.height);
+    for (int k = 0; k < levels; ++k) {
+        if (k > 0) {
+            mip = half_size(mip);
+        }
+        glTexSubImage2D(GL_TEXTURE_2D, k, 0, 0, mip.width, mip.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mip.texels.data());
+    }
     clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
     return texture;
 }
@@ -76,6 +108,16 @@ Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
                 coverage.width, coverage.height, limit));
     }
     return keep(upload_coverage(coverage), 0);
+}
+
+Result<TextureId> GpuStore::upload_picture(const Image8& picture) {
+    const int limit = most_texels();
+    if (picture.width < 1 || picture.height < 1 || std::max(picture.width, picture.height) > limit) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("render: a picture of {} x {} texels; this driver allows 1 to {}",
+                                picture.width, picture.height, limit));
+    }
+    return keep(upload_light(over_black(picture)), 0);
 }
 
 TextureId GpuStore::keep(GlTexture texels, int finest_mip) {

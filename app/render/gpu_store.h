@@ -1,7 +1,7 @@
 /// Meshes and pictures in the GPU's memory, by the numbers that plans name them with.
 ///
 /// Colour   an artifact's texture gives sRGB codes as they are stored (level_data.h). A caption is coverage
-///          0..255, white light.
+///          0..255, white light. A picture for the table gives its colours over black, as light.
 /// Threads  the render thread; `find` allocates nothing.
 /// Errors   the driver has no memory, or a texture is larger than it allows.
 #pragma once
@@ -29,6 +29,8 @@ public:
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
     [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
+    /// Uploads a picture for the table, row 0 at its top: alpha is the share of a texel that it covers.
+    [[nodiscard]] Result<TextureId> upload_picture(const Image8& picture);
     /// Draws that name it show nothing from now on.
     void release(const Drawable& drawable);
     void release(TextureId texture);

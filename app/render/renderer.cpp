@@ -1,6 +1,7 @@
 #include "app/render/renderer.h"
 
 #include "app/render/raster.h"
+#include "app/scene/plan_hash.h"
 
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
@@ -70,15 +71,48 @@ std::uint64_t Renderer::bytes() const {
     return store_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
 }
 
-PixelRectangle Renderer::to_redraw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) const {
+bool Renderer::Picture::lies(const OnTable& draw) const {
+    return std::any_of(on_table.begin(), on_table.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const OnTable& own) { return own.hash == draw.hash; });
+}
+
+void Renderer::Picture::add_changes(const Picture& other, PixelRectangle& changes) const {
+    for (std::size_t k = 0; k < count; ++k) {
+        changes = other.lies(on_table[k]) ? changes : united(changes, on_table[k].bounds);
+    }
+}
+
+Renderer::Picture Renderer::picture_of(const FramePlan& plan) {
+    Picture picture;
+    picture.hash = plan.hash;
+    picture.prop_hash = plan.prop_hash;
+    picture.prop_bounds = bounds_in_prop(plan);
+    for (const Draw& draw : plan.draws) {
+        if (draw.face == Draw::on_table && picture.count < picture.on_table.size()) {
+            picture.on_table[picture.count++] = {hash_of(draw), draw.bounds};
+        }
+    }
+    return picture;
+}
+
+Renderer::Repaint Renderer::to_redraw(const Picture& picture, const RenderTarget& target,
+                                      Redraw redraw) const {
     const auto age = static_cast<std::size_t>(std::max(target.buffer_age, 0));
     if (redraw == Redraw::Everything || age == 0 || age > pictures_) {
-        return {0, 0, width_, height_};
+        return {{0, 0, width_, height_}, true};
     }
-    if (history_[age - 1].hash == plan.hash) {
-        return {}; // the buffer holds this picture
+    const Picture& held = history_[age - 1];
+    Repaint repaint{{}, held.prop_hash != picture.prop_hash};
+    if (held.hash == picture.hash) {
+        return {{}, false}; // the buffer holds this picture
     }
-    return united(history_[age - 1].bounds, lit_bounds(plan));
+    held.add_changes(picture, repaint.part);
+    picture.add_changes(held, repaint.part);
+    repaint.part = repaint.prop ? united(repaint.part, held.prop_bounds) : repaint.part;
+    if (repaint.prop || !intersected(repaint.part, picture.prop_bounds).empty()) {
+        repaint = {united(repaint.part, picture.prop_bounds), true};
+    }
+    return repaint;
 }
 
 DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) {
@@ -86,12 +120,14 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
         history_[0].hash == plan.hash) {
         return {};
     }
-    DrawResult result{true, to_redraw(plan, target, redraw), lit_bounds(plan), 0};
+    const Picture picture = picture_of(plan);
+    const Repaint repaint = to_redraw(picture, target, redraw);
+    DrawResult result{true, repaint.part, lit_bounds(plan), 0};
     if (!result.redrawn.empty()) {
-        paint(plan, target, result);
+        paint(plan, target, repaint, result);
     }
     std::move_backward(history_.begin(), history_.end() - 1, history_.end());
-    history_[0] = {plan.hash, lit_bounds(plan)};
+    history_[0] = picture;
     pictures_ = std::min(pictures_ + 1, history_.size());
     return result;
 }
@@ -99,11 +135,11 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
 /// The larger picture comes first, so that a tiling GPU goes to the display's framebuffer once. Codes are
 /// written as they are throughout; passes that compute in linear light (captions, averages) turn the encoding
 /// on themselves.
-void Renderer::paint(const FramePlan& plan, const RenderTarget& target, DrawResult& result) const {
+void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
+                     DrawResult& result) const {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
-    const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty();
+    const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty() && repaint.prop;
     const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
-    const PixelRectangle whole{0, 0, width_, height_};
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
@@ -116,11 +152,11 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, DrawResu
     set_scissor(result.redrawn);
     clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
     glDisable(GL_SCISSOR_TEST);
-    result.draw_calls += table_.draw(plan, whole, store_, shaders_);
+    result.draw_calls += table_.draw(plan, repaint.part, store_, shaders_);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, shaders_);
-    } else {
+    } else if (repaint.prop) {
         result.draw_calls += faces_.draw(plan, store_, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);

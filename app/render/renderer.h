@@ -73,14 +73,29 @@ public:
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
+    /// What lies on the table is told apart by its draws, so that one that changes alone is drawn alone.
     struct Picture {
+        struct OnTable {
+            std::uint64_t hash = 0;
+            PixelRectangle bounds;
+        };
         std::uint64_t hash = 0;
-        PixelRectangle bounds;
+        std::uint64_t prop_hash = 0;
+        PixelRectangle prop_bounds;
+        std::array<OnTable, most_on_table + 16> on_table{}; ///< with the prop's faces, in black
+        std::size_t count = 0;
+        [[nodiscard]] bool lies(const OnTable& draw) const;
+        void add_changes(const Picture& other, PixelRectangle& changes) const;
     };
+    struct Repaint {
+        PixelRectangle part;
+        bool prop = true; ///< else the part does not meet it
+    };
+    [[nodiscard]] static Picture picture_of(const FramePlan& plan);
     Renderer(int width, int height) : width_(width), height_(height) {}
-    void paint(const FramePlan& plan, const RenderTarget& target, DrawResult& result) const;
-    [[nodiscard]] PixelRectangle to_redraw(const FramePlan& plan, const RenderTarget& target,
-                                           Redraw redraw) const;
+    void paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
+               DrawResult& result) const;
+    [[nodiscard]] Repaint to_redraw(const Picture& picture, const RenderTarget& target, Redraw redraw) const;
 
     int width_, height_;
     /// There is room for so many samples; a plan may ask for fewer, and for more in a smaller part.

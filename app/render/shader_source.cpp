@@ -120,7 +120,7 @@ out vec4 result;
 void main() { result = vec4(vec3(pow(max(share, 0.0), 1.0 / 2.4)), 1.0); }
 )";
 
-// A picture of coverage: white light.
+// A picture of light: colours, or coverage as white.
 constexpr std::string_view picture_vertex = R"(
 uniform vec4 corners[4]; // top left, top right, bottom right, bottom left
 out vec2 at;
@@ -134,7 +134,7 @@ in vec2 at;
 uniform sampler2D image;
 uniform float brightness;
 out vec4 result;
-void main() { result = vec4(vec3(brightness * texture(image, at).r), 1.0); }
+void main() { result = vec4(brightness * texture(image, at).rgb, 1.0); }
 )";
 
 /// Rectangles of the picture's pixels, six corners each, at the far plane.

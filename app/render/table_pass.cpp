@@ -26,9 +26,8 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
             continue;
         }
         shader->use();
-        if (texture != nullptr) {
-            glBindTexture(GL_TEXTURE_2D, texture->texels.get());
-        }
+        // Black takes no texture: with whatever was bound before, a driver would compile for its format.
+        glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->texels.get() : 0);
         set_scissor(part, raster);
         glUniform1f(shader->location(Uniform::Brightness), draw.brightness);
         glUniform4fv(shader->location(Uniform::Corners), 4, glm::value_ptr(draw.clip_from_unit));

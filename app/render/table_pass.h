@@ -1,9 +1,9 @@
-/// Draws what lies flat on the table: the plan's quadrilaterals, in order. A caption is a picture, then the
-/// prop's faces in black, because it never lies on the prop.
+/// Draws what lies flat on the table: the plan's quadrilaterals, in order. Captions and pictures come first, then the
+/// prop's faces in black, because nothing of them lies on the prop.
 ///
 /// It draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
 ///
-/// Colour   coverage in linear light, which the framebuffer encodes.
+/// Colour   linear light, which the framebuffer encodes.
 /// Threads  the render thread; allocates nothing in `draw`.
 #pragma once
 

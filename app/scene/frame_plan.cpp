@@ -244,29 +244,42 @@ Draw draw_flat(const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip,
 void plan_table(const Shared& shared, FramePlan& plan) {
     const glm::dmat4 clip_from_table =
         shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
-    PixelRectangle bounds;
-    const auto add = [&](const TablePicture& picture) {
+    const auto bounds_of = [&](const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip) {
         std::array<glm::dvec4, 4> corners;
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            corners[k] = clip_from_table * glm::dvec4(picture.corners_m[k], 1.0);
+            corners[k] = clip * glm::dvec4(outline[k], 1.0);
         }
-        const PixelRectangle own = pixels_around(corners, shared.view.projector);
+        return pixels_around(corners, shared.view.projector);
+    };
+    PixelRectangle bounds;
+    const auto add = [&](const TablePicture& picture) {
+        const PixelRectangle own = bounds_of(picture.corners_m, clip_from_table);
         if (picture.brightness > 0.0 && !own.empty()) {
             plan.draws.push_back(
                 draw_flat(picture.corners_m, clip_from_table, picture.texture, picture.brightness, own));
             bounds = united(bounds, own);
         }
     };
-    for (const TablePicture& line : shared.view.lines) {
-        add(line);
+    for (const TablePicture& picture : shared.view.on_table) {
+        if (!picture.on_prop) {
+            add(picture);
+        }
     }
     if (shared.view.caption) {
         add(*shared.view.caption);
     }
     for (const PropFace& face : shared.prop.faces) {
-        if (!bounds.empty() && face.plane.distance(shared.projector_in_prop) > 0.0) {
-            plan.draws.push_back(
-                draw_flat(face.corners, shared.clip_from_prop, TextureId::None, 0.0, bounds));
+        if (face.plane.distance(shared.projector_in_prop) > 0.0) {
+            const PixelRectangle own = intersected(bounds, bounds_of(face.corners, shared.clip_from_prop));
+            if (!own.empty()) {
+                plan.draws.push_back(
+                    draw_flat(face.corners, shared.clip_from_prop, TextureId::None, 0.0, own));
+            }
+        }
+    }
+    for (const TablePicture& picture : shared.view.on_table) {
+        if (picture.on_prop) {
+            add(picture);
         }
     }
 }
@@ -311,7 +324,7 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     FramePlan plan;
     const std::size_t faces = prop.faces.size();
     plan.faces.reserve(faces);
-    plan.draws.reserve(parts * faces + most_lines + 1 + faces);
+    plan.draws.reserve(parts * faces + most_on_table + 1 + faces);
     plan.feathers.reserve(4 * faces);
     // A triangle may show on every face. Memory that is never written is never used.
     plan.indices.reserve(faces * indices);
@@ -337,6 +350,7 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     if (view.light) {
         compensate(shared, *view.light, plan);
     }
+    plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);
 }
 
@@ -349,6 +363,14 @@ PixelRectangle lit_bounds(const FramePlan& plan) {
     PixelRectangle bounds = plan.lit.bounds();
     for (const Draw& draw : plan.draws) {
         bounds = united(bounds, draw.bounds);
+    }
+    return bounds;
+}
+
+PixelRectangle bounds_in_prop(const FramePlan& plan) {
+    PixelRectangle bounds = plan.lit.bounds();
+    for (const Draw& draw : plan.draws) {
+        bounds = draw.face != Draw::on_table ? united(bounds, draw.bounds) : bounds;
     }
     return bounds;
 }

@@ -61,11 +61,12 @@ struct Part {
 /// A fade from one level to another. `share`: of the pixels that have arrived, 0..1.
 [[nodiscard]] std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share);
 
-/// A picture that lies flat on the table, and never on the prop: a caption, a line. Table frame, metres.
+/// A picture that lies flat on the table: a caption, a line, an artifact to choose. Table frame, metres.
 struct TablePicture {
     std::array<glm::dvec3, 4> corners_m{}; ///< of the picture: top left, top right, bottom right, bottom left
     double brightness = 1.0;               ///< 0..1, linear light
     TextureId texture = TextureId::None;
+    bool on_prop = false; ///< shines on the prop too; else that hides it
 };
 
 /// Where the projector, the prop and the eyes are.
@@ -81,9 +82,10 @@ struct PlanView {
     /// projector can make it is cut off.
     double brightness = 1.0;
     std::optional<TablePicture> caption = std::nullopt;
-    std::span<const TablePicture> lines = {}; ///< drawn before the caption, at most most_lines
+    std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most most_on_table
 };
-inline constexpr std::size_t most_lines = 8;
+/// A page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame, signs and words.
+inline constexpr std::size_t most_on_table = 64;
 
 /// A run of FramePlan::indices.
 struct IndexRange {
@@ -131,6 +133,7 @@ struct FramePlan {
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
     LitTiles lit;                       ///< hold every pixel that the draws in the prop can light
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
+    std::uint64_t prop_hash = 0;        ///< the same of what stands in the prop alone
     FrontTriangles front;               ///< of the part and the eye planned for last; not drawn
 };
 
@@ -145,5 +148,7 @@ void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanVi
 
 /// Every pixel that the plan can light.
 [[nodiscard]] PixelRectangle lit_bounds(const FramePlan& plan);
+/// Every pixel that what stands in the prop can light.
+[[nodiscard]] PixelRectangle bounds_in_prop(const FramePlan& plan);
 
 } // namespace frustumscreen

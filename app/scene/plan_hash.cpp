@@ -43,13 +43,32 @@ void hash_draw(const Draw& draw, Hash& hash) {
 
 } // namespace
 
+std::uint64_t hash_of(const Draw& draw) {
+    Hash hash;
+    hash_draw(draw, hash);
+    return hash.value();
+}
+
 std::uint64_t hash_of(const FramePlan& plan) {
+    Hash hash;
+    hash.add(hash_of_prop(plan));
+    for (const Draw& draw : plan.draws) {
+        if (draw.face == Draw::on_table) {
+            hash_draw(draw, hash);
+        }
+    }
+    return hash.value();
+}
+
+std::uint64_t hash_of_prop(const FramePlan& plan) {
     Hash hash;
     hash.add(static_cast<std::uint64_t>(plan.projector.width));
     hash.add(static_cast<std::uint64_t>(plan.projector.height));
     hash.add(static_cast<std::uint64_t>(plan.samples));
     for (const Draw& draw : plan.draws) {
-        hash_draw(draw, hash);
+        if (draw.face != Draw::on_table) {
+            hash_draw(draw, hash);
+        }
     }
     for (const FacePlan& face : plan.faces) {
         hash.add(static_cast<std::uint64_t>(face.face));

@@ -58,5 +58,9 @@ struct SceneLevel {
 [[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture);
 [[nodiscard]] std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height);
 [[nodiscard]] std::uint64_t caption_gpu_bytes(int width, int height);
+/// A picture for the table with its mip levels.
+[[nodiscard]] inline std::uint64_t picture_gpu_bytes(int width, int height) {
+    return 4 * caption_gpu_bytes(width, height);
+}
 
 } // namespace frustumscreen

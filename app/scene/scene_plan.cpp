@@ -223,7 +223,10 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
-    choose_shaders(request, request.live && (shows_zone_frame(settings) || guides_visitors(settings)), plan);
+    choose_shaders(request,
+                   request.live &&
+                       (shows_zone_frame(settings) || guides_visitors(settings) || request.table_pictures),
+                   plan);
     choose_faces(plan);
     return plan;
 }
@@ -243,7 +246,8 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.panel = pressed || real || !script.empty();
-    plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact);
+    plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
+                       chooses_on_table(settings);
     plan.language = !pressed && asks(Command::NextLanguage);
     plan.threads = {"the exhibit"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
@@ -265,7 +269,8 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
         plan.left_out.emplace_back("No button panel is opened: no button is configured.");
     }
     if (!plan.other_packs && settings.exhibit.packs.size() > 1) {
-        plan.left_out.emplace_back("Only the first pack is loaded: no button leads to another.");
+        plan.left_out.emplace_back(
+            "Only the first pack is loaded: no button and no picture on the table leads to another.");
     }
     if (!status_file) {
         plan.left_out.emplace_back("No thread writes a status: no status file is asked for.");

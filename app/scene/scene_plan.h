@@ -60,6 +60,7 @@ struct SceneRequest {
     int room = 1;    ///< samples a pixel that the renderer has room for at least, for slanting views
     unsigned economies = AllEconomies;
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can come to see
+    bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
 };
 
@@ -90,7 +91,7 @@ struct DevicePlan {
     TrackerKind tracker = TrackerKind::None;
     bool head = false;        ///< the tracker's head samples are used
     bool panel = false;       ///< there are buttons
-    bool other_packs = false; ///< a button leads to another artifact than the first
+    bool other_packs = false; ///< a button or the table leads to another artifact than the first
     bool language = false;    ///< a button leads to another language
     std::vector<std::string> threads;
     std::vector<std::string> left_out; ///< sentences

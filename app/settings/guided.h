@@ -1,4 +1,4 @@
-/// Whether visitors are told what to do in this set-up.
+/// What visitors can do with the prop in this set-up: whether they are told what to do, and whether they choose with it.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -10,6 +10,11 @@ namespace frustumscreen {
 /// A prop that is not tracked cannot be moved by anybody.
 [[nodiscard]] inline bool guides_visitors(const Settings& settings) {
     return settings.exhibit.guidance && settings.tracker.kind != TrackerKind::None;
+}
+
+/// Nor can it be slid onto a picture.
+[[nodiscard]] inline bool chooses_on_table(const Settings& settings) {
+    return settings.exhibit.table_pictures && settings.tracker.kind != TrackerKind::None;
 }
 
 } // namespace frustumscreen

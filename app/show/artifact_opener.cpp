@@ -13,7 +13,7 @@ namespace frustumscreen {
 Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts) {
     Catalogue catalogue;
     for (const ArtifactTexts& artifact : artifacts) {
-        CatalogueEntry entry{artifact.languages, {}};
+        CatalogueEntry entry{artifact.languages, {}, artifact.hotspots.set};
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
             std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
@@ -58,7 +58,8 @@ Result<OpenedArtifact> ArtifactOpener::open(const std::filesystem::path& file) {
     return opened;
 }
 
-void ArtifactOpener::close(const ArtifactTexts& texts) {
+void ArtifactOpener::close(ArtifactTexts& texts) {
+    texts.hotspots.release(store_);
     for (const std::vector<CaptionPicture>& shapes : texts.captions) {
         for (const CaptionPicture& shape : shapes) {
             store_.release(shape.texture);
@@ -72,6 +73,7 @@ SceneRequest ArtifactOpener::request(const PackOutline& outline) const {
     request.room = options_.samples;
     request.economies = options_.economies;
     request.visibility = visibility_of(settings_);
+    request.table_pictures = options_.table_pictures;
     std::vector<std::string> languages;
     for (const PackCaption& caption : outline.description.captions) {
         request.captions.push_back(languages.size());
@@ -109,6 +111,15 @@ Result<void> ArtifactOpener::set_captions(const KnownArtifact& known, ArtifactTe
                 {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
         }
     }
+    Result<HotspotPictures> hotspots = upload_hotspots(
+        known.outline.description.hotspots,
+        {texts.languages, *set, known.plan.metres_per_box, settings_.exhibit.caption_height_m,
+         settings_.projector.pinhole.fx / settings_.projector.table_from_projector.translation.z},
+        store_);
+    if (!hotspots) {
+        return at(known.file.string(), hotspots.error());
+    }
+    texts.hotspots = std::move(*hotspots);
     return {};
 }
 

@@ -10,6 +10,7 @@
 #include "app/render/gpu_store.h"
 #include "app/settings/settings.h"
 #include "app/show/caption_setter.h"
+#include "app/show/hotspot_show.h"
 #include "app/show/prepared_artifact.h"
 #include "firmware_host/base/result.h"
 
@@ -34,6 +35,7 @@ struct ArtifactTexts {
     std::vector<std::string> languages;
     /// One list for each of `languages`, in the catalogue's order.
     std::vector<std::vector<CaptionPicture>> captions;
+    HotspotPictures hotspots;
 };
 [[nodiscard]] Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts);
 
@@ -44,18 +46,19 @@ struct OpenedArtifact {
 
 class ArtifactOpener {
 public:
-    /// `other_languages`: a visitor can come to see them. `technique`, `samples`, `economies`: as ArtifactShowOptions.
+    /// `other_languages`: a visitor can come to see them. `table_pictures`: as SceneRequest. `technique`, `samples`, `economies`: as ArtifactShowOptions.
     struct Options {
         std::string technique = "auto";
         int samples = 1;
         unsigned economies = AllEconomies;
         bool other_languages = false;
+        bool table_pictures = false;
     };
     ArtifactOpener(const Settings& settings, Options options, GpuStore& store);
 
     [[nodiscard]] Result<OpenedArtifact> open(const std::filesystem::path& file);
     /// Takes its captions out of the store.
-    void close(const ArtifactTexts& texts);
+    void close(ArtifactTexts& texts);
 
     /// Of all captions of the packs opened, shown or not.
     [[nodiscard]] const std::vector<std::string>& languages() const { return languages_; }

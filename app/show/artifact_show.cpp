@@ -19,23 +19,6 @@ constexpr double warm_up_step_m = 0.01;
 /// Type size of what a visitor should do, in those of a caption.
 constexpr double advice_em = 1.5;
 
-/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
-/// pixels: letters that were set pixel for pixel stay crisp.
-TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
-                         const RigidTransform& table_from_projector) {
-    const glm::dvec3 corner(rectangle.corners()[3], 0.0);
-    const std::optional<glm::dvec2> pixel = projector.pixel(table_from_projector.inverse().point(corner));
-    if (!pixel) {
-        return rectangle;
-    }
-    const glm::dvec3 ray = table_from_projector.direction(projector.ray(glm::round(*pixel)));
-    if (ray.z < 0.0) {
-        const glm::dvec3 lens = table_from_projector.translation;
-        rectangle.centre_m += glm::dvec2(lens + ray * (lens.z / -ray.z) - corner);
-    }
-    return rectangle;
-}
-
 /// `what`, behind the place that it is about, where there is one.
 std::string after(const std::string& place, const std::string& what) {
     return place.empty() ? what : place + ": " + what;
@@ -56,15 +39,6 @@ tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
                                      : fmt::format("none of the {} packs can be shown; the first: {}",
                                                    left_out.size(), first)));
 }
-
-std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
-    const std::array<glm::dvec2, 4> c = rectangle.corners(); // from low x, low y, counter-clockwise
-    return {glm::dvec3(c[3], 0.0), glm::dvec3(c[2], 0.0), glm::dvec3(c[1], 0.0), glm::dvec3(c[0], 0.0)};
-}
-
-} // namespace
-
-namespace {
 
 /// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
 RenderNeeds with_cut_outs(RenderNeeds needs) {
@@ -137,7 +111,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         return tl::unexpected<Error>(renderer.error());
     }
     const double deadline_ms = 1e3 / settings.projector.refresh_hz;
-    ArtifactOpener opener(settings, {options.technique, options.samples, options.economies, devices.language},
+    ArtifactOpener opener(settings,
+                          {options.technique, options.samples, options.economies, devices.language,
+                           chooses_on_table(settings) && devices.other_packs && options.packs.size() > 1},
                           renderer->store());
     Opened opened = open(devices, options, deadline_ms, opener);
     if (!opened.first) {
@@ -156,6 +132,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, opened.needs, std::move(*renderer),
                                                         std::move(*residents), std::move(opened.texts)));
+    if (Result<void> hotspots = show->prepare_hotspots(); !hotspots) {
+        return tl::unexpected<Error>(hotspots.error());
+    }
     if (shows_zone_frame(settings)) {
         const Result<TextureId> white = show->renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
         if (!white) {
@@ -168,9 +147,41 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     }
     show->notes_ = opener.notes();
     show->load_words(settings, devices);
+    if (Result<void> table = show->load_table(settings, devices); !table) {
+        return tl::unexpected<Error>(table.error());
+    }
     show->note_language(settings, opener.languages());
     show->measure(settings, target);
     return show;
+}
+
+Result<void> ArtifactShow::prepare_hotspots() {
+    if (std::any_of(texts_.begin(), texts_.end(),
+                    [](const ArtifactTexts& artifact) { return !artifact.hotspots.set.hotspots.empty(); })) {
+        Result<HotspotShow> hotspots = HotspotShow::create(renderer_.store());
+        if (!hotspots) {
+            return tl::unexpected<Error>(hotspots.error());
+        }
+        hotspots_ = std::move(*hotspots);
+    }
+    return {};
+}
+
+Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan& devices) {
+    if (!chooses_on_table(settings) || residents_->size() < 2) {
+        return {};
+    }
+    TableShow::Request request{{}, devices.language};
+    for (std::size_t artifact = 0; artifact < residents_->size(); ++artifact) {
+        request.packs.push_back(residents_->known(artifact).file);
+    }
+    Result<TableShow> table = TableShow::load(settings, request, renderer_.store());
+    if (!table) {
+        return tl::unexpected<Error>(table.error());
+    }
+    table_ = std::move(*table);
+    notes_.insert(notes_.end(), table_.notes().begin(), table_.notes().end());
+    return {};
 }
 
 void ArtifactShow::note_language(const Settings& settings, const std::vector<std::string>& languages) {
@@ -208,6 +219,9 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
         view.caption =
             TablePicture{picture_corners({attract_place_m_, caption.size_m}), 1.0, caption.texture};
     }
+    on_table_.clear();
+    table_.place_samples(attract_place_m_, on_table_);
+    view.on_table = on_table_.pictures();
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
         static_cast<void>(residents_->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
@@ -289,26 +303,32 @@ std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& prese
                         caption_brightness_ * advice.brightness, word.textures[advice.shape]};
 }
 
-std::span<const TablePicture> ArtifactShow::place_signs(const Presentation& presentation) {
-    std::size_t count = 0;
-    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
-    if (brightness > 0.0 && white_ != TextureId::None) {
-        for (const TableRectangle& side : zone_.sides()) {
-            lines_.at(count++) = {picture_corners(side), brightness, white_};
-        }
+void ArtifactShow::place_zone_frame(const Presentation& presentation) {
+    if (white_ == TextureId::None) {
+        return;
     }
+    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
+    for (const TableRectangle& side : zone_.sides()) {
+        on_table_.add({picture_corners(side), brightness, white_});
+    }
+}
+
+void ArtifactShow::place_hotspot(const Presentation& presentation) {
+    if (presentation.hotspot) {
+        hotspots_.place(*presentation.hotspot, texts_[presentation.hotspot->artifact].hotspots,
+                        caption_brightness_, projector_, table_from_projector_, on_table_);
+    }
+}
+
+void ArtifactShow::place_signs(const Presentation& presentation) {
     if (presentation.sign) {
         const PlacedSign& sign = *presentation.sign;
-        TablePicture& picture = lines_.at(count++);
-        std::transform(sign.corners_m.begin(), sign.corners_m.end(), picture.corners_m.begin(),
-                       [](const glm::dvec2& corner) { return glm::dvec3(corner, 0.0); });
-        picture.brightness = caption_brightness_ * sign.brightness;
-        picture.texture = signs_.at(static_cast<std::size_t>(sign.sign));
+        on_table_.add({flat_corners(sign.corners_m), caption_brightness_ * sign.brightness,
+                       signs_.at(static_cast<std::size_t>(sign.sign))});
     }
     if (const std::optional<TablePicture> advice = place_advice(presentation)) {
-        lines_.at(count++) = *advice;
+        on_table_.add(*advice);
     }
-    return std::span(lines_).first(count);
 }
 
 std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
@@ -328,7 +348,17 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     view.light = residents_->known(presentation.artifact).plan.light;
     view.brightness = residents_->exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
-    view.lines = place_signs(presentation);
+    on_table_.clear();
+    place_zone_frame(presentation);
+    table_.place(presentation,
+                 hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
+                 on_table_);
+    if (presentation.stand_in) {
+        table_.place_stand_in(*presentation.stand_in, on_table_);
+    }
+    place_hotspot(presentation);
+    place_signs(presentation);
+    view.on_table = on_table_.pictures();
     RunLevels* const levels = residents_->find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
@@ -349,7 +379,8 @@ ShowUse ArtifactShow::use() const {
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
     use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes;
+    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes + table_.planned_gpu_bytes() +
+                             hotspots_.planned_gpu_bytes();
     use.gpu_bytes = renderer_.bytes();
     for (std::size_t artifact = 0; artifact < texts_.size(); ++artifact) {
         if (const RunLevels* levels = residents_->find(artifact)) {
@@ -357,6 +388,7 @@ ShowUse ArtifactShow::use() const {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
         }
+        use.planned_gpu_bytes += texts_[artifact].hotspots.planned_gpu_bytes;
         use.captions += texts_[artifact].captions.size();
         for (const std::vector<CaptionPicture>& shapes : texts_[artifact].captions) {
             for (const CaptionPicture& shape : shapes) {
@@ -397,7 +429,7 @@ Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, Mo
             {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
              artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
              guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-             artifacts.words()},
+             artifacts.words(), chooses_on_table(settings)},
             settings.exhibit.language,
             now};
 }

@@ -13,9 +13,12 @@
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
 #include "app/show/artifact_opener.h"
+#include "app/show/hotspot_show.h"
+#include "app/show/on_table.h"
 #include "app/show/residents.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
+#include "app/show/table_show.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -71,6 +74,9 @@ public:
     }
     [[nodiscard]] bool speaks() const override;
     [[nodiscard]] std::span<const ArtifactState> artifacts() const override { return residents_->states(); }
+    [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const override {
+        return residents_->triangles(artifact);
+    }
     /// The exhibit's own words that it has.
     [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return words_.languages; }
 
@@ -97,8 +103,13 @@ private:
     /// Without its words the exhibit shows signs alone, and a note says why.
     void load_words(const Settings& settings, const DevicePlan& devices);
     [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
-    /// The frame around the prop's zone and the sign of the guidance; none if they are dark.
-    [[nodiscard]] std::span<const TablePicture> place_signs(const Presentation& presentation);
+    [[nodiscard]] Result<void> prepare_hotspots();
+    [[nodiscard]] Result<void> load_table(const Settings& settings, const DevicePlan& devices);
+    /// The frame around the prop's zone.
+    void place_zone_frame(const Presentation& presentation);
+    void place_hotspot(const Presentation& presentation);
+    /// What the guidance says.
+    void place_signs(const Presentation& presentation);
     /// Nothing if none is shown.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
@@ -118,7 +129,9 @@ private:
     std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
     std::uint64_t planned_sign_bytes_ = 0;
     AdviceWords words_;
-    std::array<TablePicture, most_lines> lines_{};
+    HotspotShow hotspots_;
+    TableShow table_; ///< what lies there to choose from
+    OnTable on_table_;
     std::optional<std::size_t> on_; ///< the artifact that was drawn last; none: it was not there
     double load_ = 1.0;             ///< of the GPU (governor.h)
     FramePlan dark_;                ///< of a picture without an artifact

@@ -42,6 +42,7 @@ Volume volume_of(const SoundSettings& settings) {
 
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     exhibit_.note(stage_->artifacts());
+    exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
     presentation_ = exhibit_.step(now, commands, on_table);
     follow_staff_mode();
     speak();

@@ -2,7 +2,9 @@
 
 #include "app/pack/pack_file.h"
 #include "app/scene/exposure.h"
+#include "app/show/hotspot_show.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -27,6 +29,8 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     const ScenePlan& plan = known.plan;
     std::vector<PreparedLevel> levels;
     double exposure = 1.0;
+    ArtifactTriangles triangles;
+    const std::uint32_t coarsest = *std::min_element(plan.levels.begin(), plan.levels.end());
     for (const std::uint32_t number : plan.levels) {
         if (given_up()) {
             return bad_input("not wanted any more");
@@ -40,9 +44,13 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
             exposure =
                 exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
         }
+        if (number == coarsest && !(*pack)->hotspots.empty()) {
+            triangles = hiding_triangles((*pack)->levels[number], (*pack)->box_size, plan.metres_per_box);
+        }
         levels.push_back(prepare_level(**pack, number, plan));
     }
-    PreparedArtifact made{RunLevels(technique, plan, deadline_ms, levels), {}, exposure};
+    PreparedArtifact made{
+        RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};
     for (PreparedLevel& level : levels) {
         made.data.push_back(std::move(level.data));
     }

@@ -7,6 +7,7 @@
 ///          name.
 #pragma once
 
+#include "app/exhibit/hotspot_labels.h"
 #include "app/pack/pack_outline.h"
 #include "app/scene/frame_time_model.h"
 #include "app/scene/level_data.h"
@@ -32,6 +33,7 @@ struct PreparedArtifact {
     RunLevels levels;
     std::vector<LevelData> data; ///< of its levels, to upload
     double exposure = 1.0;       ///< factor of linear light
+    ArtifactTriangles triangles; ///< none where it has no hotspots
 };
 
 /// `given_up`: asked between two levels; where it says yes, the artifact is not prepared.

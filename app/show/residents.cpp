@@ -195,6 +195,10 @@ double Residents::exposure(std::size_t artifact) const {
     return loaded_[artifact] ? loaded_[artifact]->artifact.exposure : 1.0;
 }
 
+ArtifactTriangles Residents::triangles(std::size_t artifact) const {
+    return find(artifact) != nullptr ? loaded_[artifact]->artifact.triangles : ArtifactTriangles{};
+}
+
 std::size_t Residents::ready() const {
     return static_cast<std::size_t>(std::count(states_.begin(), states_.end(), ArtifactState::Ready));
 }

@@ -59,6 +59,8 @@ public:
     [[nodiscard]] RunLevels* find(std::size_t artifact);
     [[nodiscard]] const RunLevels* find(std::size_t artifact) const;
     [[nodiscard]] double exposure(std::size_t artifact) const;
+    /// None if it is not ready, or has no hotspots.
+    [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const;
     [[nodiscard]] const KnownArtifact& known(std::size_t artifact) const {
         return set_up_.artifacts[artifact];
     }

@@ -74,6 +74,8 @@ public:
     [[nodiscard]] virtual bool speaks() const { return false; }
     /// Of each artifact, whether it can be shown; none: all can.
     [[nodiscard]] virtual std::span<const ArtifactState> artifacts() const { return {}; }
+    /// What hides its hotspots; none while it is not there.
+    [[nodiscard]] virtual ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
     /// None: it is silent.
     [[nodiscard]] virtual SharedPrompt prompt(const WordIndex& /*word*/) const { return nullptr; }
 };

@@ -1,0 +1,102 @@
+/// The label of a hotspot: where it lies beside the prop, the line that leads to it, and how bright both are.
+///
+/// One hotspot at a time. It is dark where its point is turned away from the eye, exactly; where another part of the artifact
+/// hides it or it is not lit, it fades, and so it does when another hotspot is shown.
+///
+/// Frames   as named; metres.
+/// Time     `now` never goes back.
+/// Threads  values; one caller. `step` allocates nothing.
+/// Errors   none: a label without room, and one to which no line leads, is not shown.
+#pragma once
+
+#include "app/exhibit/captions.h"
+#include "app/exhibit/leader_line.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+#include "app/geometry/triangle_tree.h"
+#include "firmware_host/base/time.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+struct LabelledHotspot {
+    Hotspot at; ///< prop frame
+    /// By CatalogueEntry::languages; without height where there is no label in a language.
+    std::vector<glm::dvec2> label_sizes_m;
+};
+
+/// What hides an artifact's points.
+struct ArtifactTriangles {
+    std::shared_ptr<const TriangleTree> tree; ///< in the box frame (pack.h); none: it hides nothing
+    double tolerance_m = 0.0;                 ///< at least the triangles' error
+};
+
+/// Of one artifact.
+struct HotspotSet {
+    std::vector<LabelledHotspot> hotspots;
+    ArtifactTriangles triangles; ///< while the artifact is there
+    double metres_per_box = 1.0;
+};
+
+struct PresentedHotspot {
+    std::size_t artifact = 0; ///< index into the catalogue
+    std::size_t hotspot = 0;  ///< index into HotspotSet::hotspots
+    std::size_t language = 0; ///< index into CatalogueEntry::languages
+    TableRectangle label;
+    std::optional<LeaderLine> line;
+    double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
+};
+
+class HotspotLabels {
+public:
+    static constexpr Nanoseconds each_way = std::chrono::milliseconds(200); ///< of a fade
+
+    explicit HotspotLabels(std::span<const glm::dvec2> room) : placer_(room) {}
+
+    struct Input {
+        const HotspotSet* set = nullptr; ///< of the artifact that is shown
+        std::size_t artifact = 0;
+        std::optional<std::size_t> hotspot; ///< nothing: none is to be shown
+        std::size_t language = 0;
+        double brightness = 1.0; ///< of the artifact and of what is said of it
+        const PropShape* prop = nullptr;
+        RigidTransform table_from_prop;
+        glm::dvec3 eye_m{0.0};                     ///< table frame
+        glm::dvec3 lens_m{0.0};                    ///< table frame
+        std::span<const TableRectangle> obstacles; ///< what else lies on the table
+        std::optional<TableRectangle> caption;     ///< one of them
+        int quarter_turns = 0;                     ///< the reader's side
+    };
+    [[nodiscard]] std::optional<PresentedHotspot> step(MonotonicTime now, const Input& input);
+    /// A brightness changes by itself.
+    [[nodiscard]] bool changing() const { return changing_; }
+
+private:
+    struct Key {
+        std::size_t artifact = 0;
+        std::size_t hotspot = 0;
+        std::size_t language = 0;
+        [[nodiscard]] bool operator==(const Key&) const = default;
+    };
+    [[nodiscard]] static std::optional<Key> wanted(const Input& input);
+    void keep_clear(const Input& input);
+    void turn_to(const std::optional<Key>& key, const Input& input);
+
+    CaptionPlacer placer_;
+    std::optional<Key> key_; ///< that the placer has
+    double presence_ = 0.0;  ///< 0..1
+    std::optional<MonotonicTime> last_;
+    bool changing_ = false;
+};
+
+/// The prop's faces that the lens lights, as a set.
+[[nodiscard]] std::uint32_t faces_lit_from(const PropShape& prop, const glm::dvec3& lens_in_prop_m);
+
+} // namespace frustumscreen

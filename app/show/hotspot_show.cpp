@@ -1,0 +1,131 @@
+#include "app/show/hotspot_show.h"
+
+#include "app/exhibit/caption_image.h"
+#include "app/scene/scene_level.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double line_width_m = 0.0015;
+constexpr double soft_m = 0.0005;      ///< on each side of a line, in which its light ends
+constexpr double from_label_m = 0.002; ///< between the line and the letters
+constexpr double label_width_m = 0.15;
+
+/// Across a line: bright in its middle, and nothing left at its sides.
+Image<std::uint8_t> line_picture() {
+    constexpr std::array<std::uint8_t, 8> across{0, 130, 255, 255, 255, 255, 130, 0};
+    Image<std::uint8_t> picture(1, static_cast<int>(across.size()));
+    std::copy(across.begin(), across.end(), picture.texels.begin());
+    return picture;
+}
+
+/// In the box frame.
+TriangleTree tree_of(const PackLevel& level, const glm::dvec3& box_size) {
+    constexpr double most_code = 65535.0;
+    std::vector<glm::vec3> positions;
+    positions.reserve(level.vertices.size());
+    for (const PackVertex& vertex : level.vertices) {
+        const glm::dvec3 share =
+            glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / most_code;
+        positions.emplace_back((share - glm::dvec3(0.5, 0.5, 0.0)) * box_size);
+    }
+    return {positions, level.indices};
+}
+
+const SetLanguage* find(std::span<const SetLanguage> texts, const std::string& language) {
+    const auto found = std::find_if(texts.begin(), texts.end(),
+                                    [&](const SetLanguage& each) { return each.language == language; });
+    return found != texts.end() ? &*found : nullptr;
+}
+
+} // namespace
+
+void HotspotPictures::release(GpuStore& store) {
+    for (const std::vector<TextureId>& languages : textures) {
+        for (const TextureId texture : languages) {
+            store.release(texture);
+        }
+    }
+    textures.clear();
+}
+
+ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box_size,
+                                   double metres_per_box) {
+    return {std::make_shared<const TriangleTree>(tree_of(level, box_size)),
+            metres_per_box * static_cast<double>(level.error.max_box)};
+}
+
+Result<HotspotPictures> upload_hotspots(std::span<const PackHotspot> hotspots, const HotspotRequest& request,
+                                        GpuStore& store) {
+    HotspotPictures made;
+    made.set.metres_per_box = request.metres_per_box;
+    for (std::size_t k = 0; k < hotspots.size(); ++k) {
+        const PackHotspot& hotspot = hotspots[k];
+        LabelledHotspot& labelled = made.set.hotspots.emplace_back();
+        labelled.at = {request.metres_per_box * hotspot.point, hotspot.normal};
+        std::vector<TextureId>& textures = made.textures.emplace_back();
+        const std::string key = fmt::format("label.{}", k);
+        for (const std::string& language : request.languages) {
+            const SetLanguage* const texts = find(request.texts, language);
+            const GlyphText* const text = texts != nullptr ? texts->runs.find(key) : nullptr;
+            labelled.label_sizes_m.emplace_back(0.0);
+            textures.push_back(TextureId::None);
+            if (text == nullptr) {
+                continue;
+            }
+            const CaptionImage image = make_caption(texts->runs, texts->atlas, nullptr, text, request.em_m,
+                                                    label_width_m, request.texels_per_m);
+            const Result<TextureId> texture = store.upload(image.coverage);
+            if (!texture) {
+                made.release(store);
+                return tl::unexpected<Error>(texture.error());
+            }
+            labelled.label_sizes_m.back() = image.size_m;
+            textures.back() = *texture;
+            made.planned_gpu_bytes += caption_gpu_bytes(image.coverage.width, image.coverage.height);
+        }
+    }
+    return made;
+}
+
+Result<HotspotShow> HotspotShow::create(GpuStore& store) {
+    const Image<std::uint8_t> picture = line_picture();
+    const Result<TextureId> line = store.upload(picture);
+    if (!line) {
+        return tl::unexpected<Error>(line.error());
+    }
+    HotspotShow show;
+    show.line_ = *line;
+    show.planned_gpu_bytes_ = caption_gpu_bytes(picture.width, picture.height);
+    return show;
+}
+
+void HotspotShow::place(const PresentedHotspot& hotspot, const HotspotPictures& pictures, double brightness,
+                        const Pinhole& projector, const RigidTransform& table_from_projector,
+                        OnTable& on_table) const {
+    LeaderLine line = hotspot.line.value_or(LeaderLine{});
+    if (line.count > 1) {
+        glm::dvec2& end = line.points_m[line.count - 1];
+        const glm::dvec2 back = line.points_m[line.count - 2] - end;
+        end += back * std::min(0.5, from_label_m / glm::length(back));
+    }
+    const std::span<const glm::dvec2> points = line.points();
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const glm::dvec2 along = glm::normalize(points[k + 1] - points[k]);
+        const glm::dvec2 side = glm::dvec2(-along.y, along.x) * (0.5 * line_width_m + soft_m);
+        on_table.add(
+            {flat_corners({points[k] + side, points[k + 1] + side, points[k + 1] - side, points[k] - side}),
+             brightness * hotspot.brightness, line_});
+    }
+    on_table.add({picture_corners(on_pixels(hotspot.label, projector, table_from_projector)),
+                  brightness * hotspot.brightness, pictures.textures[hotspot.hotspot][hotspot.language]});
+}
+
+} // namespace frustumscreen

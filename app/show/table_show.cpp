@@ -1,0 +1,251 @@
+#include "app/show/table_show.h"
+
+#include "app/exhibit/languages.h"
+#include "app/exhibit/ring.h"
+#include "app/exhibit/table_title.h"
+#include "app/pack/pack_sections.h"
+#include "app/pack/pack_texts.h"
+#include "app/scene/scene_level.h"
+#include "app/settings/lit_zone.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Of the projector's light. A picture's brightest places are those of the artifact in the prop.
+constexpr double picture_brightness = 1.0;
+constexpr double mark_brightness = 0.5;        ///< of a caption's
+constexpr double empty_ring_brightness = 0.12; ///< of the projector's light
+constexpr int mark_px = 256;
+constexpr double inner_margin_m = 0.004; ///< of a title within a square
+
+/// Across a band: its sides are a pixel soft.
+Image<std::uint8_t> band_picture() {
+    constexpr int texels = 16;
+    Image<std::uint8_t> band(1, texels, 255);
+    band.at(0, 0) = band.at(0, texels - 1) = 60;
+    return band;
+}
+
+/// As large as the square has room for, standing on its lower side. `size`: of any unit.
+TableRectangle fitted(const glm::dvec2& size, const TableRectangle& square) {
+    TableRectangle picture = square;
+    picture.size_m = size * (square.size_m.x / std::max(size.x, size.y));
+    const glm::dvec2 down(0.0, 0.5 * (picture.size_m.y - square.size_m.y));
+    picture.centre_m += turned(down, square.quarter_turns);
+    return picture;
+}
+
+} // namespace
+
+struct TableShow::Loader {
+    const Settings& settings;
+    const Request& request;
+    GpuStore& store;
+    TableShow& show;
+    double texels_per_m;
+    std::optional<Typesetter> typesetter = {};
+
+    [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage) {
+        show.planned_gpu_bytes_ += caption_gpu_bytes(coverage.width, coverage.height);
+        return store.upload(coverage);
+    }
+
+    [[nodiscard]] Result<void> upload_marks() {
+        for (const auto& [texture, image] :
+             {std::pair(&show.square_, outlined_square(mark_px)), std::pair(&show.more_, more_mark(mark_px)),
+              std::pair(&show.band_, band_picture())}) {
+            const Result<TextureId> uploaded = upload(image);
+            if (!uploaded) {
+                return tl::unexpected<Error>(uploaded.error());
+            }
+            *texture = *uploaded;
+        }
+        return {};
+    }
+
+    /// The titles that are shown; the pack's own where it has no captions.
+    [[nodiscard]] std::vector<PackLabel> titles_of(const PackCard& card) const {
+        if (card.titles.empty()) {
+            return {{"", card.title}};
+        }
+        if (request.all_languages) {
+            return card.titles;
+        }
+        std::vector<std::string> languages;
+        for (const PackLabel& title : card.titles) {
+            languages.push_back(title.language);
+        }
+        return {card.titles[caption_for(settings.exhibit.language, languages)]};
+    }
+
+    [[nodiscard]] Result<CaptionImage> set_title(const PackLabel& title,
+                                                 const std::vector<SetLanguage>& set) {
+        for (const SetLanguage& language : set) {
+            const GlyphText* const text = language.runs.find("title");
+            if (language.language == title.language && text != nullptr) {
+                return make_table_title(language.runs, language.atlas, *text, texels_per_m);
+            }
+        }
+        if (!typesetter) {
+            Result<Typesetter> opened = Typesetter::open();
+            if (!opened) {
+                return tl::unexpected<Error>(opened.error());
+            }
+            typesetter = std::move(*opened);
+        }
+        return make_table_title(*typesetter, title.text, texels_per_m);
+    }
+
+    /// What was uploaded before a refusal stays with the card.
+    [[nodiscard]] Result<void> load(const std::filesystem::path& file, Card& card) {
+        const Result<PackCard> read = load_pack_card(file);
+        if (!read) {
+            return tl::unexpected<Error>(read.error());
+        }
+        const Image8& picture = read->table_picture;
+        if (picture.width > 0 && picture.height > 0) {
+            const Result<TextureId> texture = store.upload_picture(picture);
+            if (!texture) {
+                return tl::unexpected<Error>(texture.error());
+            }
+            card.picture = {*texture, glm::dvec2(picture.width, picture.height)};
+            show.planned_gpu_bytes_ += picture_gpu_bytes(picture.width, picture.height);
+        }
+        const std::vector<PackLabel> titles = titles_of(*read);
+        std::vector<std::string> languages;
+        for (const PackLabel& title : titles) {
+            languages.push_back(title.language);
+        }
+        const Result<std::vector<SetLanguage>> set = load_set_texts(file, languages);
+        if (!set) {
+            return tl::unexpected<Error>(set.error());
+        }
+        for (const PackLabel& title : titles) {
+            const Result<CaptionImage> image = set_title(title, *set);
+            if (!image) {
+                return tl::unexpected<Error>(image.error());
+            }
+            const Result<TextureId> texture = upload(image->coverage);
+            if (!texture) {
+                return tl::unexpected<Error>(texture.error());
+            }
+            card.languages.push_back(title.language);
+            card.titles.push_back({*texture, image->size_m});
+        }
+        return {};
+    }
+};
+
+Result<TableShow> TableShow::load(const Settings& settings, const Request& request, GpuStore& store) {
+    TableShow show;
+    show.room_ = picture_on_table(settings, 0.0);
+    show.projector_ = settings.projector.pinhole;
+    show.table_from_projector_ = settings.projector.table_from_projector;
+    show.text_brightness_ = settings.exhibit.caption_brightness;
+    Loader loader{settings, request, store, show,
+                  show.projector_.fx / show.table_from_projector_.translation.z};
+    if (Result<void> marks = loader.upload_marks(); !marks) {
+        return tl::unexpected<Error>(marks.error());
+    }
+    for (const std::filesystem::path& file : request.packs) {
+        if (Result<void> loaded = loader.load(file, show.cards_.emplace_back()); !loaded) {
+            show.notes_.push_back("on the table a square lies for this artifact: " + loaded.error().message);
+        }
+    }
+    return show;
+}
+
+void TableShow::place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
+                      OnTable& on_table) const {
+    if (presentation.table == nullptr) {
+        return;
+    }
+    const PresentedTable& table = *presentation.table;
+    for (const PlacedPicture& placed : table.pictures()) {
+        if (placed.artifact && *placed.artifact < cards_.size()) {
+            place_card(placed, presentation, on_table);
+        } else {
+            on_table.add({picture_corners(placed.place.picture),
+                          mark_brightness * text_brightness_ * placed.brightness,
+                          placed.artifact ? square_ : more_});
+        }
+    }
+    if (!table.ring || !shadow) {
+        return;
+    }
+    const int reader = table.pictures()[*table.ring].place.picture.quarter_turns;
+    for (const RingPiece& piece : ring_around(*shadow, table.ring_full, reader, room_).pieces()) {
+        on_table.add({flat_corners(piece.corners_m),
+                      ring_brightness(table.ring_full) * (piece.filled ? 1.0 : empty_ring_brightness),
+                      band_});
+    }
+}
+
+/// Artifacts stand on the lower side of their places.
+void TableShow::place_stand_in(const PresentedStandIn& stand_in, OnTable& on_table) const {
+    if (stand_in.artifact >= cards_.size()) {
+        return;
+    }
+    const Picture& picture = cards_[stand_in.artifact].picture;
+    if (picture.texture != TextureId::None) {
+        on_table.add({picture_corners(fitted(picture.size, stand_in.rectangle)),
+                      picture_brightness * stand_in.brightness, picture.texture, true});
+    } else {
+        on_table.add({picture_corners(stand_in.rectangle),
+                      mark_brightness * text_brightness_ * stand_in.brightness, square_, true});
+    }
+}
+
+void TableShow::place_card(const PlacedPicture& placed, const Presentation& presentation,
+                           OnTable& on_table) const {
+    const Card& card = cards_[*placed.artifact];
+    const TableRectangle& square = placed.place.picture;
+    const bool has_picture = card.picture.texture != TextureId::None;
+    if (has_picture) {
+        on_table.add({picture_corners(fitted(card.picture.size, square)),
+                      picture_brightness * placed.brightness, card.picture.texture});
+    } else {
+        on_table.add(
+            {picture_corners(square), mark_brightness * text_brightness_ * placed.brightness, square_});
+    }
+    if (!card.titles.empty()) {
+        place_title(placed, card.titles[caption_for(presentation.table_language, card.languages)],
+                    !has_picture, text_brightness_ * presentation.title_brightness * placed.brightness,
+                    on_table);
+    }
+}
+
+/// `within`: in the middle of the square, if it has room there; else below it.
+void TableShow::place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
+                            OnTable& on_table) const {
+    const TableRectangle& square = placed.place.picture;
+    const TableRectangle& below = placed.place.title;
+    TableRectangle rectangle{below.centre_m, title.size_m, below.quarter_turns};
+    if (within && title.size_m.x <= square.size_m.x - 2.0 * inner_margin_m) {
+        rectangle.centre_m = square.centre_m;
+    } else {
+        const glm::dvec2 up(0.0, 0.5 * (below.size_m.y - title.size_m.y));
+        rectangle.centre_m += turned(up, below.quarter_turns);
+    }
+    on_table.add({picture_corners(on_pixels(rectangle, projector_, table_from_projector_)), brightness,
+                  title.texture});
+}
+
+void TableShow::place_samples(const glm::dvec2& at_m, OnTable& on_table) const {
+    constexpr double side_m = 0.05;
+    for (const Card& card : cards_) {
+        if (card.picture.texture != TextureId::None) {
+            on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, card.picture.texture});
+            break;
+        }
+    }
+    if (more_ != TextureId::None) {
+        on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, more_});
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,228 @@
+// Labels of hotspots, through the exhibit: shown where a cast ray meets the point, and nowhere else.
+
+#include "tests/exhibit/exhibits.h"
+#include "tests/render/counted_new.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using sample::start;
+using std::chrono::milliseconds;
+
+/// Two blocks beside each other, in the prop's frame: each hides the other's inner side from most eyes.
+struct Blocks {
+    std::vector<glm::vec3> points;
+    std::vector<std::uint32_t> indices;
+
+    Blocks() {
+        add({-0.028, -0.015, 0.0}, {-0.008, 0.015, 0.07});
+        add({0.008, -0.015, 0.0}, {0.028, 0.015, 0.05});
+    }
+    void add(const glm::vec3& low, const glm::vec3& high) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        for (unsigned k = 0; k < 8; ++k) {
+            points.emplace_back((k & 1U) != 0 ? high.x : low.x, (k & 2U) != 0 ? high.y : low.y,
+                                (k & 4U) != 0 ? high.z : low.z);
+        }
+        for (const auto& [a, b, c, d] :
+             {std::array{0U, 1U, 3U, 2U}, std::array{4U, 5U, 7U, 6U}, std::array{0U, 1U, 5U, 4U},
+              std::array{2U, 3U, 7U, 6U}, std::array{0U, 2U, 6U, 4U}, std::array{1U, 3U, 7U, 5U}}) {
+            for (const unsigned corner : {a, b, c, a, c, d}) {
+                indices.push_back(first + corner);
+            }
+        }
+    }
+    /// By Cramer's rule, triangle by triangle.
+    [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const {
+        for (std::size_t k = 0; k < indices.size(); k += 3) {
+            const glm::dvec3 a(points[indices[k]]);
+            const glm::dmat3 m(glm::dvec3(points[indices[k + 1]]) - a, glm::dvec3(points[indices[k + 2]]) - a,
+                               from - to);
+            const double det = glm::determinant(m);
+            if (std::abs(det) < 1e-15) {
+                continue;
+            }
+            const glm::dvec3 x = glm::inverse(m) * (from - a);
+            if (x.x >= 0.0 && x.y >= 0.0 && x.x + x.y <= 1.0 && x.z > 0.0 && x.z < 1.0) {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+constexpr double tolerance_m = 1e-4;
+
+HotspotSet hotspots_of(const Blocks& blocks) {
+    HotspotSet set;
+    set.triangles = {std::make_shared<const TriangleTree>(blocks.points, blocks.indices), tolerance_m};
+    for (const auto& [point, normal] :
+         {std::pair(glm::dvec3(-0.008, 0.0, 0.03), glm::dvec3(1, 0, 0)), // inner sides
+          std::pair(glm::dvec3(0.008, 0.004, 0.02), glm::dvec3(-1, 0, 0)),
+          std::pair(glm::dvec3(-0.018, -0.015, 0.05), glm::dvec3(0, -1, 0)), // outer ones
+          std::pair(glm::dvec3(0.018, 0.0, 0.05), glm::dvec3(0, 0, 1))}) {
+        set.hotspots.push_back({{point, normal}, {{0.04, 0.010}, {0.05, 0.010}}});
+    }
+    return set;
+}
+
+Exhibit make_exhibit(const HotspotSet& set) {
+    CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, set};
+    ExhibitPlace place = sample::place();
+    place.lens_m = {0.0, 0.0, 1.4};
+    return {{entry}, place, "en", start};
+}
+
+struct Shower {
+    Exhibit exhibit;
+    MonotonicTime now = start;
+    Situation situation = sample::situation(start);
+    Presentation shown = {};
+
+    void wait(milliseconds time, std::span<const Command> commands = {}) {
+        for (milliseconds each{0}; each < time; each += milliseconds(20)) {
+            now += milliseconds(20);
+            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+        }
+    }
+};
+
+/// Whether the face through which the eye looks at the point meets the lens's light.
+bool looks_through_a_lit_face(const PropShape& prop, const glm::dvec3& eye, const glm::dvec3& lens,
+                              const glm::dvec3& point) {
+    double entry = -1.0;
+    bool lit = false;
+    for (const PropFace& face : prop.faces) {
+        const double from = face.plane.distance(eye);
+        const double to = face.plane.distance(point);
+        if (from > 0.0 && from / (from - to) > entry) {
+            entry = from / (from - to);
+            lit = face.plane.distance(lens) > 0.0;
+        }
+    }
+    return lit;
+}
+
+TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
+    const Blocks blocks;
+    const HotspotSet set = hotspots_of(blocks);
+    const ExhibitPlace place = sample::place();
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    Shower shower{make_exhibit(set)};
+    int seen = 0;
+    int turned_away = 0;
+    int hidden = 0;
+    for (int k = 0; k < 300; ++k) {
+        const std::size_t which = random() % set.hotspots.size();
+        const double yaw = 3.14159 * u(random);
+        shower.situation.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
+                                            {0.15 * u(random), 0.05 * u(random), 0.0}};
+        const double azimuth = 3.14159 * u(random);
+        const double elevation = 0.7 + 0.5 * u(random);
+        shower.situation.eye_m =
+            0.8 * glm::dvec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                             std::sin(elevation));
+        shower.exhibit.show_hotspot(which);
+        shower.wait(milliseconds(2000));
+        const RigidTransform prop_from_table = shower.situation.table_from_prop.inverse();
+        const glm::dvec3 eye = prop_from_table.point(shower.situation.eye_m);
+        const Hotspot& at = set.hotspots[which].at;
+        const bool faces = glm::dot(eye - at.point_m, at.normal) > 0.0;
+        const bool is_hidden = blocks.meets(eye, at.point_m + tolerance_m * at.normal);
+        const bool lit =
+            looks_through_a_lit_face(place.prop, eye, prop_from_table.point({0.0, 0.0, 1.4}), at.point_m);
+        const bool expected = faces && !is_hidden && lit;
+        EXPECT_EQ(shower.shown.hotspot.has_value(), expected) << "pose " << k << ", hotspot " << which;
+        seen += expected ? 1 : 0;
+        turned_away += faces ? 0 : 1;
+        hidden += faces && is_hidden ? 1 : 0;
+        if (shower.shown.hotspot) {
+            const PresentedHotspot& shown = *shower.shown.hotspot;
+            EXPECT_EQ(shown.hotspot, which);
+            ASSERT_TRUE(shown.line);
+            const auto shadow = hidden_by_prop(place.prop, shower.situation.table_from_prop, {0.0, 0.0, 1.4});
+            EXPECT_GT(clearance(shown.label.corners(), shadow->corners()), 0.0);
+            ASSERT_TRUE(shower.shown.caption);
+            EXPECT_GT(clearance(shown.label.corners(), shower.shown.caption->rectangle.corners()), 0.0);
+            EXPECT_EQ(clearance(shown.label.corners(), shown.line->points().last(1)), 0.0);
+        }
+    }
+    EXPECT_GT(seen, 60);
+    EXPECT_GT(turned_away, 60);
+    EXPECT_GT(hidden, 20);
+}
+
+/// Not even for the time of a fade: in the very step in which the point turns away.
+TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
+    const Blocks blocks;
+    Shower shower{make_exhibit(hotspots_of(blocks))};
+    shower.exhibit.show_hotspot(2); // on -Y
+    shower.wait(milliseconds(1000));
+    ASSERT_TRUE(shower.shown.hotspot);
+    EXPECT_EQ(shower.shown.hotspot->brightness, 1.0);
+    double last = 1.0;
+    int dark = 0;
+    for (int degree = 0; degree <= 180; degree += 2) {
+        shower.situation.table_from_prop.rotation =
+            glm::angleAxis(glm::radians(1.0 * degree), glm::dvec3(0, 0, 1));
+        shower.wait(milliseconds(20));
+        const glm::dvec3 eye = shower.situation.table_from_prop.inverse().point(shower.situation.eye_m);
+        const double brightness = shower.shown.hotspot ? shower.shown.hotspot->brightness : 0.0;
+        if (eye.y >= -0.015) {
+            EXPECT_EQ(brightness, 0.0) << degree;
+            ++dark;
+        }
+        EXPECT_LT(last - brightness, 0.4) << degree; // softly
+        last = brightness;
+    }
+    EXPECT_GT(dark, 30);
+}
+
+TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {
+    const Blocks blocks;
+    Shower shower{make_exhibit(hotspots_of(blocks))};
+    shower.exhibit.show_hotspot(2);
+    shower.wait(milliseconds(1000));
+    ASSERT_TRUE(shower.shown.hotspot);
+    EXPECT_EQ(shower.shown.hotspot->label.size_m.x, 0.04);
+    shower.wait(milliseconds(1500), std::array{Command::NextLanguage});
+    ASSERT_TRUE(shower.shown.hotspot);
+    EXPECT_EQ(shower.shown.hotspot->language, 1U);
+    EXPECT_EQ(shower.shown.hotspot->label.size_m.x, 0.05);
+    EXPECT_TRUE(shower.shown.settled);
+    shower.exhibit.show_hotspot(9); // there is none
+    shower.wait(milliseconds(500));
+    EXPECT_FALSE(shower.shown.hotspot);
+    shower.exhibit.show_hotspot(2);
+    shower.wait(milliseconds(800));
+    EXPECT_TRUE(shower.shown.hotspot);
+    shower.exhibit.show_hotspot(std::nullopt);
+    shower.wait(milliseconds(500));
+    EXPECT_FALSE(shower.shown.hotspot);
+}
+
+TEST(HotspotLabels, AllocateNothing) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "the sanitizers have allocations of their own";
+    }
+    const Blocks blocks;
+    Shower shower{make_exhibit(hotspots_of(blocks))};
+    shower.wait(milliseconds(100));
+    const long before = synthetic::allocations_so_far();
+    for (std::size_t k = 0; k < 4; ++k) {
+        shower.exhibit.show_hotspot(k);
+        shower.wait(milliseconds(600));
+    }
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
+}
+
+} // namespace
+} // namespace frustumscreen

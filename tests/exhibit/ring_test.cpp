@@ -1,0 +1,107 @@
+// The ring beside the prop's shadow: where it lies, which way it fills, and how much of it.
+
+#include "app/exhibit/ring.h"
+#include "app/exhibit/visitor_side.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+const std::vector<glm::dvec2> wide{{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}};
+
+/// The smallest polygon around some points on a circle that is a little out of the middle.
+TablePolygon some_shadow(std::mt19937& random) {
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    const glm::dvec2 middle(0.2 * u(random), 0.1 * u(random));
+    TablePolygon shadow;
+    const std::size_t corners = 4 + random() % 9;
+    for (std::size_t k = 0; k < corners; ++k) {
+        const double angle =
+            6.283185307179586 * (static_cast<double>(k) + 0.3 * u(random)) / static_cast<double>(corners);
+        shadow.points[shadow.count++] = middle + 0.15 * glm::dvec2(std::cos(angle), std::sin(angle));
+    }
+    return shadow;
+}
+
+/// Along the middle of the piece's inner edge; straight, so that corners do not count twice.
+double length_of(const RingPiece& piece) {
+    return glm::distance(piece.corners_m[2], piece.corners_m[3]);
+}
+
+double filled_share(const Ring& ring) {
+    double filled = 0.0;
+    double all = 0.0;
+    for (const RingPiece& piece : ring.pieces()) {
+        filled += piece.filled ? length_of(piece) : 0.0;
+        all += length_of(piece);
+    }
+    return filled / all;
+}
+
+TEST(Ring, FillsAsMuchAsItIsToldBesideTheShadowOfAnyShape) {
+    std::mt19937 random(4);
+    for (int k = 0; k < 500; ++k) {
+        const TablePolygon shadow = some_shadow(random);
+        const double full = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+        const Ring ring = ring_around(shadow, full, static_cast<int>(random() % 4), wide);
+        ASSERT_GE(ring.count, shadow.count);
+        EXPECT_NEAR(filled_share(ring), full, 0.03);
+        for (const RingPiece& piece : ring.pieces()) {
+            EXPECT_GE(clearance(piece.corners_m, shadow.corners()), ring_gap_m - 1e-9);
+            for (const glm::dvec2& corner : piece.corners_m) {
+                const double off = clearance(std::span(&corner, 1), shadow.corners());
+                EXPECT_LE(off, 4.0 * (ring_gap_m + ring_width_m) + 1e-9);
+            }
+        }
+        for (std::size_t piece = 0; piece + 1 < ring.count; ++piece) { // one after the other, and joined
+            EXPECT_EQ(ring.all[piece].corners_m[1], ring.all[piece + 1].corners_m[0]);
+            EXPECT_TRUE(ring.all[piece].filled || !ring.all[piece + 1].filled);
+        }
+        EXPECT_EQ(ring.all[ring.count - 1].corners_m[1], ring.all[0].corners_m[0]);
+    }
+}
+
+TEST(Ring, BeginsAtTheFarSideAndGoesClockwiseForEveryReader) {
+    TablePolygon square;
+    square.points = {glm::dvec2(-0.1, -0.1), glm::dvec2(0.1, -0.1), glm::dvec2(0.1, 0.1),
+                     glm::dvec2(-0.1, 0.1)};
+    square.count = 4;
+    for (int side = 0; side < 4; ++side) {
+        const Ring ring = ring_around(square, 0.25, side, wide);
+        glm::dvec2 middle(0.0);
+        for (const RingPiece& piece : ring.pieces()) {
+            middle +=
+                piece.filled ? (piece.corners_m[2] + piece.corners_m[3]) * length_of(piece) : glm::dvec2(0.0);
+        }
+        const glm::dvec2 seen =
+            turned(middle, -side); // at the front the far side is +Y, and clockwise goes to +X
+        EXPECT_GT(seen.x, 0.0);
+        EXPECT_GT(seen.y, 0.0);
+        EXPECT_NEAR(seen.x, seen.y, 1e-9); // from the middle of one side to the middle of the next
+    }
+}
+
+TEST(Ring, FillsOnlyWhatThePictureShows) {
+    TablePolygon square;
+    square.points = {glm::dvec2(0.2, -0.1), glm::dvec2(0.4, -0.1), glm::dvec2(0.4, 0.1),
+                     glm::dvec2(0.2, 0.1)};
+    square.count = 4;
+    const std::vector<glm::dvec2> room{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.3, 0.3}};
+    const Ring half = ring_around(square, 0.5, 0, room);
+    EXPECT_NEAR(filled_share(half), 0.5, 0.03);
+    for (const RingPiece& piece : half.pieces()) {
+        EXPECT_LE((piece.corners_m[2].x + piece.corners_m[3].x) / 2.0, 0.3 + 1e-9);
+    }
+    EXPECT_EQ(
+        ring_around(square, 0.5, 0, std::vector<glm::dvec2>{{-0.3, -0.3}, {0.0, -0.3}, {0.0, 0.3}}).count,
+        0U);
+    EXPECT_EQ(ring_around({}, 0.5, 0, wide).count, 0U);
+}
+
+} // namespace
+} // namespace frustumscreen
