@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 /// The picture comes first, and a reader that the picture's threads leave nothing at all would never be done.
-constexpr int niceness = 10;
+constexpr int niceness = 5;
 
 } // namespace
 

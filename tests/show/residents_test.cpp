@@ -92,16 +92,16 @@ TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
 
 TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
     start(5, false);
-    step();
-    step(next);
-    step(next); // the third, which nobody has loaded ahead
+    rest(); // until the first has faded in
+    const std::array<Command, 2> twice{Command::NextArtifact, Command::NextArtifact};
+    step(twice); // to the third, which nobody has loaded ahead
     bool stood_in = false;
     double last = 0.0;
     while (true) {
         const bool was_ready = show->artifacts()[2] == ArtifactState::Ready;
         const Presentation presentation = step();
+        stood_in = stood_in || (presentation.stand_in && presentation.stand_in->artifact == 2);
         if (!was_ready) {
-            stood_in = stood_in || (presentation.stand_in && presentation.stand_in->artifact == 2);
             EXPECT_TRUE(presentation.artifact != 2 || presentation.brightness == 0.0);
         } else if (presentation.artifact == 2) {
             EXPECT_LE(presentation.brightness - last, 0.25);
