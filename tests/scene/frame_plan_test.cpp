@@ -258,7 +258,7 @@ TEST(FramePlan, APartShowsOnItsOwnFacesAlone) {
 TEST(FramePlan, ACaptionComesFirstAndThePropInBlackOverIt) {
     Kiosk kiosk;
     const TablePicture caption{
-        {glm::dvec3(0.1, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.1, -0.1, 0)},
+        {glm::dvec3(0.02, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.02, -0.1, 0)},
         0.5,
         TextureId{7}};
     const std::size_t without = kiosk.plan().draws.size();
