@@ -115,9 +115,9 @@ Shown Selection::at(MonotonicTime now) const {
             artifact.brightness,
             languages_[language.which],
             std::min(artifact.brightness, language.brightness),
-            language.brightness,
             artifact.changing || language.changing,
-            now >= artifact_.begins() && now < artifact_.dark()};
+            now >= artifact_.begins() && now < artifact_.dark(),
+            language.brightness};
 }
 
 } // namespace frustumscreen

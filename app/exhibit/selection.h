@@ -30,9 +30,9 @@ struct Shown {
     double brightness = 0.0;   ///< of the artifact: 0..1, a factor on linear light
     std::string_view language; ///< of the caption; valid as long as the selection
     double caption_brightness = 0.0;
-    double language_brightness = 1.0; ///< of what is in this language and stays when the artifact changes
     bool changing = false;            ///< a brightness changes, or is about to
     bool leaving = false;             ///< the artifact fades out
+    double language_brightness = 1.0; ///< of what is in this language and stays when the artifact changes
 };
 
 class Selection {
