@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -77,7 +78,6 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
 }
 
 void Guide::raise_stage(MonotonicTime now, bool may_speak) {
-    guidance_.speak = false;
     if (guidance_.stage == GuidanceStage::Picture && now - stage_since_ >= until_text) {
         guidance_.stage = GuidanceStage::Text;
         stage_since_ = now;
@@ -96,8 +96,18 @@ void Guide::raise_stage(MonotonicTime now, bool may_speak) {
     }
 }
 
+/// What is being said already is not said again.
+void Guide::answer(MonotonicTime now, bool may_speak) {
+    guidance_.stage = GuidanceStage::Voice;
+    guidance_.speak = may_speak;
+    stage_since_ = now;
+    spoken_ = may_speak ? now : spoken_;
+}
+
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
+    const bool asked = std::exchange(asked_, false);
+    guidance_.speak = false;
     if (!needs_help(situation, sensing)) {
         guidance_ = {};
         needed_since_.reset();
@@ -110,7 +120,7 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
         return guidance_;
     }
     needed_since_ = needed_since_ ? needed_since_ : now;
-    if (now - *needed_since_ < patience) {
+    if (now - *needed_since_ < patience && !asked) {
         return guidance_;
     }
     const bool moved = has_moved(situation, guidance_.situation);
@@ -118,7 +128,7 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
         look(now, situation, sensing);
         next_look_ = now + looks_every;
     }
-    raise_stage(now, may_speak);
+    asked ? answer(now, may_speak) : raise_stage(now, may_speak);
     return guidance_;
 }
 
