@@ -47,10 +47,13 @@ public:
         int quarter_turns = 0;              ///< the reader's side
         std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
         std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
+        bool choose = false;                ///< pressed: takes the picture whose ring has begun
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
+    /// Whether the latest step chose an artifact or turned the page.
+    [[nodiscard]] bool chose() const { return chose_; }
     /// What captions lie beside: the places of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
@@ -87,6 +90,7 @@ private:
     std::array<TableRectangle, most_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;
+    bool chose_ = false;
 };
 
 } // namespace frustumscreen
