@@ -26,7 +26,12 @@ constexpr double advice_em = 1.5;
 template <typename Artifacts> Catalogue catalogue_of(const Artifacts& artifacts) {
     Catalogue catalogue;
     for (const auto& artifact : artifacts) {
-        CatalogueEntry entry{artifact.languages, {}};
+        CatalogueEntry entry;
+        entry.languages = artifact.languages;
+        for (const DescriptionPictures& description : artifact.descriptions) {
+            entry.tellables.push_back(description.tellable);
+            entry.descriptions.push_back(description.shape);
+        }
         for (const auto& shapes : artifact.captions) {
             std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
             std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
@@ -147,6 +152,9 @@ struct ArtifactShow::Loader {
                 store.release(shape.texture);
             }
         }
+        for (const DescriptionPictures& description : artifact.descriptions) {
+            frustumscreen::release(description, store);
+        }
     }
 
     [[nodiscard]] SceneRequest request(const PackOutline& outline) const {
@@ -197,6 +205,18 @@ struct ArtifactShow::Loader {
                 shapes.push_back(
                     {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
             }
+        }
+        return set_descriptions({file, pack, *set, settings.sound.kind != SoundKind::None}, artifact);
+    }
+
+    [[nodiscard]] Result<void> set_descriptions(const DescriptionRequest& request, Artifact& artifact) {
+        for (const std::size_t each : artifact.plan.captions) {
+            Result<DescriptionPictures> made =
+                make_description(request, request.pack.captions[each], captions, store);
+            if (!made) {
+                return at(request.file.string(), made.error());
+            }
+            artifact.descriptions.push_back(*std::move(made));
         }
         return {};
     }
@@ -342,14 +362,17 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
         return;
     }
     words_ = std::move(*words);
-    notes_.insert(notes_.end(), words_.notes.begin(), words_.notes.end());
 }
 
 bool ArtifactShow::speaks() const {
-    return std::any_of(words_.words.begin(), words_.words.end(), [](const std::vector<AdviceWord>& language) {
-        return std::any_of(language.begin(), language.end(),
-                           [](const AdviceWord& word) { return word.prompt != nullptr; });
-    });
+    const auto is_spoken = [](const auto& made) { return made.recording != nullptr; };
+    return std::any_of(words_.words.begin(), words_.words.end(),
+                       [&](const std::vector<AdviceWord>& language) {
+                           return std::any_of(language.begin(), language.end(), is_spoken);
+                       }) ||
+           std::any_of(artifacts_.begin(), artifacts_.end(), [&](const Artifact& artifact) {
+               return std::any_of(artifact.descriptions.begin(), artifact.descriptions.end(), is_spoken);
+           });
 }
 
 std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
@@ -389,10 +412,12 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const CaptionPicture& picture =
-        artifacts_[presentation.artifact].captions[caption.language][caption.shape];
+    const Artifact& artifact = artifacts_[presentation.artifact];
+    const TextureId texture =
+        caption.portion ? artifact.descriptions[caption.language].portions[*caption.portion][caption.shape]
+                        : artifact.captions[caption.language][caption.shape].texture;
     return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * caption.brightness, picture.texture};
+                        caption_brightness_ * caption.brightness, texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
@@ -423,6 +448,9 @@ ShowUse ArtifactShow::use() const {
             use.planned_gpu_bytes += level.planned_gpu_bytes;
         }
         use.captions += artifact.captions.size();
+        for (const DescriptionPictures& description : artifact.descriptions) {
+            use.planned_gpu_bytes += description.planned_gpu_bytes;
+        }
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             for (const CaptionPicture& shape : shapes) {
                 use.planned_gpu_bytes += shape.planned_gpu_bytes;

@@ -12,6 +12,7 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
+#include "app/show/description_pictures.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
 #include "firmware_host/base/result.h"
@@ -62,8 +63,11 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(const Presentation& presentation) const override;
-    [[nodiscard]] SharedPrompt prompt(const WordIndex& word) const override {
-        return words_.words[word.language][word.text].prompt;
+    [[nodiscard]] SharedRecording recording(const WordIndex& word) const override {
+        return words_.words[word.language][word.text].recording;
+    }
+    [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
+        return artifacts_[description.artifact].descriptions[description.language].recording;
     }
     [[nodiscard]] bool speaks() const override;
     /// The exhibit's own words that it has.
@@ -91,6 +95,7 @@ private:
         std::vector<std::string> languages;
         /// One list for each of `languages`, in the catalogue's order.
         std::vector<std::vector<CaptionPicture>> captions;
+        std::vector<DescriptionPictures> descriptions = {}; ///< one for each of `languages`
     };
     struct Loader;
 
