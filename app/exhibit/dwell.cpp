@@ -37,7 +37,7 @@ std::optional<glm::dvec2> standing_place(const PropShape& prop, const RigidTrans
 }
 
 DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
-                         std::span<const TableRectangle> pictures) {
+                         std::span<const TableRectangle> pictures, bool at_once) {
     const bool followed = at_m && last_ && now - *last_ < longest_gap;
     // On a picture's edge a trembling hand is now on it and now beside it.
     const bool rests = followed && rest_ && rest_->place < pictures.size() &&
@@ -65,7 +65,7 @@ DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_
         left_.reset();
     }
     DwellState state = ring(now);
-    if (rest_ && state.full >= 1.0) {
+    if (rest_ && (state.full >= 1.0 || (at_once && rest_->settled))) {
         state.chosen = rest_->place;
         chosen_ = pictures[rest_->place];
         rest_.reset();

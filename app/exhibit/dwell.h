@@ -45,9 +45,10 @@ public:
     static constexpr double leaving_m = 0.006; ///< so far outside the picture, the prop has left it
     static constexpr Nanoseconds longest_gap = std::chrono::milliseconds(500);
 
-    /// `at_m`: standing_place; nothing while the prop's pose is not known. `pictures` do not overlap.
+    /// `at_m`: standing_place; nothing while the prop's pose is not known. `pictures` do not overlap. `at_once`: a ring that
+    /// has begun counts as full.
     [[nodiscard]] DwellState update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
-                                    std::span<const TableRectangle> pictures);
+                                    std::span<const TableRectangle> pictures, bool at_once = false);
     /// Whether the prop is still on what was chosen last.
     [[nodiscard]] bool is_on_chosen() const { return chosen_.has_value(); }
     /// Other pictures lie there now: the one that the prop is on is not chosen before the prop has left it.

@@ -30,16 +30,14 @@ Selection make_selection(const Catalogue& catalogue, const std::string& language
 
 /// For each of the widths that captions are wrapped to, the size that holds them all.
 std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
-    std::vector<glm::dvec2> largest;
+    std::vector<std::vector<glm::dvec2>> all;
     for (const CatalogueEntry& entry : catalogue) {
-        for (const std::vector<glm::dvec2>& sizes : entry.caption_sizes_m) {
-            largest.resize(std::max(largest.size(), sizes.size()), glm::dvec2(0.0));
-            for (std::size_t shape = 0; shape < sizes.size(); ++shape) {
-                largest[shape] = glm::max(largest[shape], sizes[shape]);
-            }
+        all.insert(all.end(), entry.caption_sizes_m.begin(), entry.caption_sizes_m.end());
+        for (const DescriptionShape& description : entry.descriptions) {
+            all.push_back(description.largest_m);
         }
     }
-    return largest;
+    return largest_sizes(all);
 }
 
 } // namespace
@@ -88,6 +86,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     presentation.wanted = wanted();
     presentation.language = language_of(shown.artifact);
     guide(now, situation, stand, !commands.empty(), presentation);
+    tell(now, situation, shown, stand, !commands.empty(), presentation);
     presentation.caption = caption(now, shown, situation, stand);
     if (presentation.caption && presentation.advice) {
         // One text at a time, or the two would lie on each other.
@@ -105,7 +104,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
-                           !comes.waits && (opacity <= 0.0 || opacity >= 1.0);
+                           !comes.waits && !teller_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
     presentation.staff = staff_until_.has_value();
     presentation.lamps = lamps();
     return presentation;
@@ -204,6 +203,8 @@ void Exhibit::take(Command command, MonotonicTime now) {
         staff_until_.reset();
     } else {
         selection_.take(command, now);
+        choose_ = choose_ || command == Command::Choose;
+        help_ = help_ || command == Command::Help;
     }
 }
 
@@ -224,14 +225,15 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
         return;
     }
     TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
-                              hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m),
-                              std::nullopt};
+                              hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m), std::nullopt,
+                              choose_};
     if (situation.prop_known && !staff_until_) {
         input.prop_m = standing_place(place_.prop, situation.table_from_prop);
     }
     if (const std::optional<std::size_t> chosen = table_->step(now, input)) {
         selection_.choose(*chosen, now);
     }
+    choose_ = choose_ && !table_->chose();
     placer_.set_obstacles(table_->obstacles());
     advice_placer_.set_obstacles(table_->obstacles());
 }
@@ -243,7 +245,9 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
     const std::size_t language = caption_for(shown.language, entry.languages);
-    const std::vector<glm::dvec2>& sizes = entry.caption_sizes_m[language];
+    const CaptionText text = teller_.text();
+    const std::vector<glm::dvec2>& sizes =
+        text.portion ? entry.descriptions[language].largest_m : entry.caption_sizes_m[language];
     if (placed_ != &sizes) {
         placed_ = &sizes;
         placer_.set_shapes(sizes);
@@ -253,11 +257,17 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
                    hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
                    side_.quarter_turns());
     const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness);
+    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness) * text.brightness;
     if (brightness <= 0.0) {
         return std::nullopt;
     }
-    return PresentedCaption{language, place.shape, place.rectangle, brightness};
+    PresentedCaption caption{language, place.shape, place.rectangle, brightness, text.portion};
+    if (text.portion) {
+        const DescriptionShape& description = entry.descriptions[language];
+        caption.rectangle = portion_place(place.rectangle, description.sizes_m[*text.portion][place.shape],
+                                          description.flush_right);
+    }
+    return caption;
 }
 
 /// Beside the pictures and the caption; without words of advice, which say what to do first.
@@ -278,7 +288,8 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     }
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     return labels_.step(
-        now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : hotspot_,
+        now, {&entry.hotspots, shown.artifact,
+              stand.attracts ? std::nullopt : (presentation.tells_of ? presentation.tells_of : hotspot_),
               caption_for(shown.language, entry.languages),
               shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
               stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
@@ -286,9 +297,50 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
               side_.quarter_turns()});
 }
 
-/// The sentence in the visitor's language, once it is more than a sign.
+DescriptionIndex Exhibit::description_of(std::size_t artifact, std::string_view language) const {
+    const bool named = artifact < catalogue_.size() && !catalogue_[artifact].languages.empty();
+    return {artifact, named ? caption_for(language, catalogue_[artifact].languages) : 0};
+}
+
+const Tellable* Exhibit::tellable(const DescriptionIndex& description) const {
+    if (description.artifact >= catalogue_.size()) {
+        return nullptr;
+    }
+    const std::vector<Tellable>& tellables = catalogue_[description.artifact].tellables;
+    return description.language < tellables.size() && tellables[description.language].count() > 0
+               ? &tellables[description.language]
+               : nullptr;
+}
+
+void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
+                   bool pressed, Presentation& presentation) {
+    TellerInput input;
+    input.subject = description_of(selection_.artifact(), selection_.language());
+    input.visible = description_of(shown.artifact, shown.language);
+    input.tellable = tellable(input.subject);
+    input.fades = shown.changing || stand.changing;
+    input.attracts = stand.attracts;
+    input.there = there_;
+    input.pressed = pressed;
+    input.next = std::exchange(choose_, false);
+    input.help = std::exchange(help_, false);
+    input.staff = staff_until_.has_value();
+    input.stage = stage_;
+    input.narration = narration_;
+    const Told& told = teller_.step(now, situation, input);
+    presentation.tells_of = told.hotspot;
+    presentation.leaves = told.leaves;
+    if (told.speaks) {
+        presentation.tells = input.subject;
+    }
+    if (input.tellable != nullptr && !input.tellable->portions.empty()) {
+        presentation.prepares = input.subject;
+    }
+}
+
+/// The sentence in the visitor's language.
 std::optional<WordIndex> Exhibit::word_of(const Guidance& guidance) const {
-    if (place_.words.empty() || guidance.stage < GuidanceStage::Text) {
+    if (place_.words.empty() || guidance.stage == GuidanceStage::Quiet) {
         return std::nullopt;
     }
     const std::size_t language = caption_for(selection_.language(), word_languages_);
@@ -324,13 +376,21 @@ void Exhibit::place_advice(MonotonicTime now, const std::optional<WordIndex>& wo
 
 void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
                     Presentation& presentation) {
-    const bool there = presence_.update(now, situation, pressed);
+    there_ = presence_.update(now, situation, pressed);
+    stage_ = GuidanceStage::Quiet;
     const bool was_advised = std::exchange(advised_, false);
     if (guide_ && table_ && table_->prop_is_on_picture()) {
         guide_->rest(now); // what is being chosen is no mistake
-    } else if (guide_ && there && !stand.attracts && situation.prop_known) {
+    } else if (guide_ && there_ && !stand.attracts && situation.prop_known) {
         const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
-        const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
+        // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
+        const bool describes = teller_.told().portion.has_value();
+        if (help_) {
+            guide_->ask();
+        }
+        const Guidance& guidance =
+            guide_->step(now, guided, Sensing::Good, !speaking_ || (help_ && describes));
+        stage_ = guidance.stage;
         const std::optional<TablePolygon> shadow =
             guidance.stage != GuidanceStage::Quiet
                 ? hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m)
@@ -341,7 +401,9 @@ void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& 
             const TablePolygon around =
                 presentation.sign ? hull_of(*shadow, presentation.sign->corners_m) : *shadow;
             const std::optional<WordIndex> word = word_of(guidance);
-            place_advice(now, word, around, situation, presentation);
+            presentation.prepares_word = word;
+            const bool in_words = guidance.stage >= GuidanceStage::Text && (!describes || help_);
+            place_advice(now, in_words ? word : std::nullopt, around, situation, presentation);
             presentation.says = guidance.speak ? word : std::nullopt;
         }
     }
@@ -365,6 +427,11 @@ std::uint32_t Exhibit::lamps() const {
     for (std::size_t button = 0; button < button_commands.size(); ++button) {
         lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
     }
+    const Tellable* const told = tellable(description_of(selection_.artifact(), selection_.language()));
+    const bool rests_on_picture = table_ && table_->presented().ring;
+    const bool helps = stage_ != GuidanceStage::Quiet || (told != nullptr && !told->portions.empty());
+    lamps |= told != nullptr || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
+    lamps |= helps ? 1U << button_of(Command::Help) : 0U;
     return lamps;
 }
 

@@ -17,11 +17,13 @@
 #include "app/exhibit/artifact_state.h"
 #include "app/exhibit/attract.h"
 #include "app/exhibit/captions.h"
+#include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/stand_in.h"
 #include "app/exhibit/table_browser.h"
+#include "app/exhibit/teller.h"
 #include "app/exhibit/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
@@ -45,7 +47,10 @@ struct CatalogueEntry {
     /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
     /// preference; at most four.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
-    HotspotSet hotspots = {};
+    /// For each of `languages` what there is to tell, and how large it is; none: there is nothing.
+    std::vector<Tellable> tellables{};
+    std::vector<DescriptionShape> descriptions{};
+    HotspotSet hotspots{};
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
@@ -77,6 +82,8 @@ struct PresentedCaption {
     std::size_t shape = 0;    ///< index into its sizes
     TableRectangle rectangle;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
+    /// Of the description, which is shown in place of the short text.
+    std::optional<std::size_t> portion = std::nullopt;
 };
 
 /// One of ExhibitPlace::words.
@@ -113,14 +120,19 @@ struct Presentation {
     std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
     std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PresentedHotspot> hotspot; ///< the label of a place on the artifact
-    std::optional<PlacedSign> sign;          ///< what the visitor should do
-    std::optional<PresentedAdvice> advice;   ///< the same in words
-    std::optional<WordIndex> says;           ///< what begins to be spoken at this step
-    bool falls_silent = false;               ///< nothing more need be said
-    const PresentedTable* table = nullptr;   ///< what lies there to choose from; valid until the next step
-    std::string_view table_language;         ///< of its titles; valid as long as the exhibit
-    double title_brightness = 1.0;           ///< of its titles: 0..1, a factor on linear light
+    std::optional<PlacedSign> sign;           ///< what the visitor should do
+    std::optional<PresentedAdvice> advice;    ///< the same in words
+    std::optional<WordIndex> says;            ///< what begins to be spoken at this step
+    bool falls_silent = false;                ///< no advice need be said any more
+    std::optional<WordIndex> prepares_word;   ///< what may be spoken next
+    std::optional<DescriptionIndex> tells;    ///< whose description is to be heard, from its beginning on
+    bool leaves = false;                      ///< what it told before ends at its next pause, else at once
+    std::optional<DescriptionIndex> prepares; ///< whose description may be heard next
+    std::optional<std::size_t> tells_of;      ///< the hotspot that is pointed out, seen or not
+    std::optional<PresentedHotspot> hotspot;  ///< its label
+    const PresentedTable* table = nullptr;    ///< what lies there to choose from; valid until the next step
+    std::string_view table_language;          ///< of its titles; valid as long as the exhibit
+    double title_brightness = 1.0;            ///< of its titles: 0..1, a factor on linear light
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -143,10 +155,11 @@ public:
     void note(std::span<const ArtifactState> states);
     /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
-    /// Whether something is being said: then nothing else begins to be.
-    void hear(bool speaking) { speaking_ = speaking; }
-    /// Shows the label of one of the artifact's hotspots, or none. An index that there is not shows none.
-    void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
+    /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
+    void hear(bool speaking, const Narration& narration = {}) {
+        speaking_ = speaking;
+        narration_ = narration;
+    }
     /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { staff_until_.reset(); }
 
@@ -170,6 +183,11 @@ private:
                       const Situation& situation, Presentation& presentation);
     void guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
                Presentation& presentation);
+    void tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
+              bool pressed, Presentation& presentation);
+    [[nodiscard]] DescriptionIndex description_of(std::size_t artifact, std::string_view language) const;
+    /// None: there is nothing to tell.
+    [[nodiscard]] const Tellable* tellable(const DescriptionIndex& description) const;
     [[nodiscard]] std::uint32_t lamps() const;
 
     Catalogue catalogue_;
@@ -185,9 +203,15 @@ private:
     CaptionPlacer advice_placer_;
     std::optional<WordIndex> advice_; ///< that the placer has
     bool speaking_ = false;
-    bool advised_ = false; ///< at the step before
-    Presence presence_;    ///< guidance is for somebody who is there
-    VisitorSide side_;     ///< what lies on the table is turned to it
+    Narration narration_;
+    Teller teller_;
+    bool choose_ = false;                        ///< pressed, and not taken yet
+    bool help_ = false;                          ///< the same
+    bool there_ = false;                         ///< somebody is
+    GuidanceStage stage_ = GuidanceStage::Quiet; ///< of the latest step
+    bool advised_ = false;                       ///< at the step before
+    Presence presence_;                          ///< guidance is for somebody who is there
+    VisitorSide side_;                           ///< what lies on the table is turned to it
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     HotspotLabels labels_;

@@ -35,8 +35,9 @@ std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& in
     }
     lighten(now, input, faded);
 
-    const DwellState dwell =
-        dwell_.update(now, input.prop_m, std::span(choosable_).first(faded.changing ? 0 : choosable_count_));
+    const DwellState dwell = dwell_.update(
+        now, input.prop_m, std::span(choosable_).first(faded.changing ? 0 : choosable_count_), input.choose);
+    chose_ = dwell.chosen.has_value();
     presented_.ring = dwell.place ? std::optional(choosable_places_[*dwell.place]) : std::nullopt;
     presented_.ring_full = dwell.full;
     on_picture_ = is_on_picture(input.prop_m);

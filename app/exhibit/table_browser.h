@@ -48,6 +48,7 @@ public:
         int quarter_turns = 0;              ///< the reader's side
         std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
         std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
+        bool choose = false;                ///< pressed: takes the picture whose ring has begun
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
@@ -56,6 +57,8 @@ public:
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
     /// Whether the prop is on a picture that resting there chooses.
     [[nodiscard]] bool prop_is_on_picture() const { return on_picture_ || presented_.ring; }
+    /// Whether the latest step chose an artifact or turned the page.
+    [[nodiscard]] bool chose() const { return chose_; }
     /// What captions lie beside: the places of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
@@ -100,6 +103,7 @@ private:
     std::array<TableRectangle, most_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;
+    bool chose_ = false;
 };
 
 } // namespace frustumscreen

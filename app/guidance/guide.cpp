@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -77,7 +78,6 @@ void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing se
 }
 
 void Guide::raise_stage(MonotonicTime now, bool may_speak) {
-    guidance_.speak = false;
     if (guidance_.stage == GuidanceStage::Picture && now - stage_since_ >= until_text) {
         guidance_.stage = GuidanceStage::Text;
         stage_since_ = now;
@@ -98,6 +98,7 @@ void Guide::raise_stage(MonotonicTime now, bool may_speak) {
 
 void Guide::rest(MonotonicTime now) {
     guidance_ = {};
+    asked_ = false;
     needed_since_.reset();
     next_look_.reset();
     looks_at_.reset();
@@ -108,18 +109,32 @@ void Guide::rest(MonotonicTime now) {
     }
 }
 
+/// What is being said already is not said again.
+void Guide::answer(MonotonicTime now, bool may_speak) {
+    asked_ = false;
+    guidance_.stage = GuidanceStage::Voice;
+    guidance_.speak = may_speak;
+    stage_since_ = now;
+    spoken_ = may_speak ? now : spoken_;
+}
+
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
+    guidance_.speak = false;
     if (!needs_help(situation, sensing)) {
         rest(now);
         return guidance_;
     }
     needed_since_ = needed_since_ ? needed_since_ : now;
-    if (now - *needed_since_ < patience) {
+    if (now - *needed_since_ < patience && !asked_) {
         return guidance_;
     }
     look(now, situation, sensing);
-    raise_stage(now, may_speak);
+    if (asked_ && !looks_at_) {
+        answer(now, may_speak);
+    } else {
+        raise_stage(now, may_speak);
+    }
     return guidance_;
 }
 

@@ -54,6 +54,8 @@ public:
                                        bool may_speak);
     /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
+    /// Somebody asks what to do: where there is advice, the next step gives all of it at once.
+    void ask() { asked_ = true; }
     /// The faces of the latest step.
     [[nodiscard]] const FaceSets& faces() const { return faces_; }
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
@@ -63,6 +65,7 @@ private:
     void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
+    void answer(MonotonicTime now, bool may_speak);
 
     Advisor advisor_;
     FaceSets faces_;
@@ -74,6 +77,7 @@ private:
     double nearest_effort_ = 0.0;             ///< what was left to do, at its least
     std::optional<MonotonicTime> spoken_;     ///< when it was last said
     Nanoseconds pause_ = first_pause;
+    bool asked_ = false;
 };
 
 /// The sentence's key in the exhibit's own words (assets_baked/texts/words), in the visitor's own directions.

@@ -5,8 +5,6 @@
 #include "app/pack/words_file.h"
 #include "app/scene/scene_plan.h"
 #include "firmware_host/base/file.h"
-#include "firmware_host/sound/opus_reader.h"
-#include "firmware_host/sound/pauses.h"
 
 #include <fmt/format.h>
 
@@ -35,18 +33,13 @@ std::set<std::string> nearest(const std::vector<WordsLanguage>& listed,
     return chosen;
 }
 
-SharedPrompt prompt_of(const LanguageWords& words, const std::string& key, std::vector<std::string>& notes) {
+SharedRecording recording_of(const LanguageWords& words, const std::string& key) {
     const auto sound = words.sounds.find(key);
     if (sound == words.sounds.end()) {
         return nullptr;
     }
-    Result<Prompt> prompt = read_opus(sound->second);
-    if (!prompt) {
-        notes.push_back(fmt::format("{} of {} is silent: {}", key, words.language, prompt.error().message));
-        return nullptr;
-    }
-    prompt->marks = find_pauses(prompt->samples);
-    return std::make_shared<const Prompt>(std::move(*prompt));
+    return std::make_shared<const Recording>(Recording{
+        fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}});
 }
 
 Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& request, GpuStore& store,
@@ -72,7 +65,7 @@ Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& 
             one.textures.push_back(*texture);
         }
         if (request.spoken) {
-            one.prompt = prompt_of(words, word.key, all.notes);
+            one.recording = recording_of(words, word.key);
         }
         language.texts.push_back(std::move(text));
         made.push_back(std::move(one));

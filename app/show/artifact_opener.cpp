@@ -13,7 +13,13 @@ namespace frustumscreen {
 Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts) {
     Catalogue catalogue;
     for (const ArtifactTexts& artifact : artifacts) {
-        CatalogueEntry entry{artifact.languages, {}, artifact.hotspots.set};
+        CatalogueEntry entry;
+        entry.languages = artifact.languages;
+        entry.hotspots = artifact.hotspots.set;
+        for (const DescriptionPictures& description : artifact.descriptions) {
+            entry.tellables.push_back(description.tellable);
+            entry.descriptions.push_back(description.shape);
+        }
         for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
             std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
             std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
@@ -22,6 +28,19 @@ Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts) {
         catalogue.push_back(std::move(entry));
     }
     return catalogue;
+}
+
+std::uint64_t ArtifactTexts::planned_gpu_bytes() const {
+    std::uint64_t bytes = hotspots.planned_gpu_bytes;
+    for (const std::vector<CaptionPicture>& shapes : captions) {
+        for (const CaptionPicture& shape : shapes) {
+            bytes += shape.planned_gpu_bytes;
+        }
+    }
+    for (const DescriptionPictures& description : descriptions) {
+        bytes += description.planned_gpu_bytes;
+    }
+    return bytes;
 }
 
 ArtifactOpener::ArtifactOpener(const Settings& settings, Options options, GpuStore& store)
@@ -45,7 +64,7 @@ Result<OpenedArtifact> ArtifactOpener::open(const std::filesystem::path& file) {
         return tl::unexpected<Error>(pack.error());
     }
     opened.texts.title = (*pack)->title;
-    if (Result<void> set = set_captions(opened.known, opened.texts); !set) {
+    if (Result<void> set = set_texts(**pack, opened.known, opened.texts); !set) {
         close(opened.texts);
         return tl::unexpected<Error>(set.error());
     }
@@ -60,6 +79,9 @@ Result<OpenedArtifact> ArtifactOpener::open(const std::filesystem::path& file) {
 
 void ArtifactOpener::close(ArtifactTexts& texts) {
     texts.hotspots.release(store_);
+    for (const DescriptionPictures& description : texts.descriptions) {
+        release(description, store_);
+    }
     for (const std::vector<CaptionPicture>& shapes : texts.captions) {
         for (const CaptionPicture& shape : shapes) {
             store_.release(shape.texture);
@@ -86,33 +108,20 @@ SceneRequest ArtifactOpener::request(const PackOutline& outline) const {
 }
 
 /// Reads the glyph runs of the languages that are needed, and no others.
-Result<void> ArtifactOpener::set_captions(const KnownArtifact& known, ArtifactTexts& texts) {
-    const std::vector<PackCaption>& captions = known.outline.description.captions;
+Result<void> ArtifactOpener::set_texts(const Pack& pack, const KnownArtifact& known, ArtifactTexts& texts) {
     for (const std::size_t each : known.plan.captions) {
-        texts.languages.push_back(captions[each].language);
+        texts.languages.push_back(pack.captions[each].language);
     }
     const Result<std::vector<SetLanguage>> set =
         texts.languages.empty() ? std::vector<SetLanguage>() : load_set_texts(known.file, texts.languages);
     if (!set) {
         return tl::unexpected<Error>(set.error());
     }
-    for (const std::size_t each : known.plan.captions) {
-        const Result<std::vector<CaptionImage>> images = captions_.set(captions[each], *set);
-        if (!images) {
-            return at(known.file.string(), images.error());
-        }
-        std::vector<CaptionPicture>& shapes = texts.captions.emplace_back();
-        for (const CaptionImage& image : *images) {
-            const Result<TextureId> texture = store_.upload(image.coverage);
-            if (!texture) {
-                return at(known.file.string(), texture.error());
-            }
-            shapes.push_back(
-                {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
-        }
+    if (Result<void> captions = set_captions(pack, known.plan, *set, texts); !captions) {
+        return at(known.file.string(), captions.error());
     }
     Result<HotspotPictures> hotspots = upload_hotspots(
-        known.outline.description.hotspots,
+        pack.hotspots,
         {texts.languages, *set, known.plan.metres_per_box, settings_.exhibit.caption_height_m,
          settings_.projector.pinhole.fx / settings_.projector.table_from_projector.translation.z},
         store_);
@@ -120,6 +129,35 @@ Result<void> ArtifactOpener::set_captions(const KnownArtifact& known, ArtifactTe
         return at(known.file.string(), hotspots.error());
     }
     texts.hotspots = std::move(*hotspots);
+    const DescriptionRequest request{known.file, pack, *set, settings_.sound.kind != SoundKind::None};
+    for (const std::size_t each : known.plan.captions) {
+        Result<DescriptionPictures> description =
+            make_description(request, pack.captions[each], captions_, store_);
+        if (!description) {
+            return at(known.file.string(), description.error());
+        }
+        texts.descriptions.push_back(*std::move(description));
+    }
+    return {};
+}
+
+Result<void> ArtifactOpener::set_captions(const Pack& pack, const ScenePlan& plan,
+                                          std::span<const SetLanguage> set, ArtifactTexts& texts) {
+    for (const std::size_t each : plan.captions) {
+        const Result<std::vector<CaptionImage>> images = captions_.set(pack.captions[each], set);
+        if (!images) {
+            return tl::unexpected<Error>(images.error());
+        }
+        std::vector<CaptionPicture>& shapes = texts.captions.emplace_back();
+        for (const CaptionImage& image : *images) {
+            const Result<TextureId> texture = store_.upload(image.coverage);
+            if (!texture) {
+                return tl::unexpected<Error>(texture.error());
+            }
+            shapes.push_back(
+                {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
+        }
+    }
     return {};
 }
 

@@ -10,6 +10,7 @@
 #include "app/render/gpu_store.h"
 #include "app/settings/settings.h"
 #include "app/show/caption_setter.h"
+#include "app/show/description_pictures.h"
 #include "app/show/hotspot_show.h"
 #include "app/show/prepared_artifact.h"
 #include "firmware_host/base/result.h"
@@ -36,6 +37,9 @@ struct ArtifactTexts {
     /// One list for each of `languages`, in the catalogue's order.
     std::vector<std::vector<CaptionPicture>> captions;
     HotspotPictures hotspots;
+    std::vector<DescriptionPictures> descriptions; ///< one for each of `languages`
+    /// All of it.
+    [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 };
 [[nodiscard]] Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts);
 
@@ -67,7 +71,9 @@ public:
 
 private:
     [[nodiscard]] SceneRequest request(const PackOutline& outline) const;
-    [[nodiscard]] Result<void> set_captions(const KnownArtifact& known, ArtifactTexts& texts);
+    [[nodiscard]] Result<void> set_texts(const Pack& pack, const KnownArtifact& known, ArtifactTexts& texts);
+    [[nodiscard]] Result<void> set_captions(const Pack& pack, const ScenePlan& plan,
+                                            std::span<const SetLanguage> set, ArtifactTexts& texts);
 
     const Settings& settings_;
     Options options_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace frustumscreen {
 
@@ -47,6 +48,15 @@ RenderNeeds with_cut_outs(RenderNeeds needs) {
         needs.draws.insert(key);
     }
     return needs;
+}
+
+/// What is left for artifacts beside their texts, which stay.
+std::uint64_t budget_of(const Settings& settings, std::span<const ArtifactTexts> texts) {
+    const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
+    const std::uint64_t taken = std::accumulate(
+        texts.begin(), texts.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const ArtifactTexts& each) { return sum + each.planned_gpu_bytes(); });
+    return budget - std::min(budget, taken);
 }
 
 } // namespace
@@ -122,11 +132,10 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     if (Result<void> ready = renderer->prepare(opened.needs); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
-    Result<std::unique_ptr<Residents>> residents =
-        Residents::create({std::move(opened.known), options.technique, deadline_ms,
-                           static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000, options.waits,
-                           options.program, std::move(opened.left_out)},
-                          std::move(*opened.first), renderer->store());
+    Result<std::unique_ptr<Residents>> residents = Residents::create(
+        {std::move(opened.known), options.technique, deadline_ms, budget_of(settings, opened.texts),
+         options.waits, options.program, std::move(opened.left_out)},
+        std::move(*opened.first), renderer->store());
     if (!residents) {
         return tl::unexpected<Error>(residents.error());
     }
@@ -283,14 +292,17 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
         return;
     }
     words_ = std::move(*words);
-    notes_.insert(notes_.end(), words_.notes.begin(), words_.notes.end());
 }
 
 bool ArtifactShow::speaks() const {
-    return std::any_of(words_.words.begin(), words_.words.end(), [](const std::vector<AdviceWord>& language) {
-        return std::any_of(language.begin(), language.end(),
-                           [](const AdviceWord& word) { return word.prompt != nullptr; });
-    });
+    const auto is_spoken = [](const auto& made) { return made.recording != nullptr; };
+    return std::any_of(words_.words.begin(), words_.words.end(),
+                       [&](const std::vector<AdviceWord>& language) {
+                           return std::any_of(language.begin(), language.end(), is_spoken);
+                       }) ||
+           std::any_of(texts_.begin(), texts_.end(), [&](const ArtifactTexts& artifact) {
+               return std::any_of(artifact.descriptions.begin(), artifact.descriptions.end(), is_spoken);
+           });
 }
 
 std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
@@ -336,9 +348,12 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const CaptionPicture& picture = texts_[presentation.artifact].captions[caption.language][caption.shape];
+    const ArtifactTexts& texts = texts_[presentation.artifact];
+    const TextureId texture =
+        caption.portion ? texts.descriptions[caption.language].portions[*caption.portion][caption.shape]
+                        : texts.captions[caption.language][caption.shape].texture;
     return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * caption.brightness, picture.texture};
+                        caption_brightness_ * caption.brightness, texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
@@ -388,11 +403,10 @@ ShowUse ArtifactShow::use() const {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
         }
-        use.planned_gpu_bytes += texts_[artifact].hotspots.planned_gpu_bytes;
+        use.planned_gpu_bytes += texts_[artifact].planned_gpu_bytes();
         use.captions += texts_[artifact].captions.size();
         for (const std::vector<CaptionPicture>& shapes : texts_[artifact].captions) {
             for (const CaptionPicture& shape : shapes) {
-                use.planned_gpu_bytes += shape.planned_gpu_bytes;
                 use.caption_gpu_bytes += renderer_.store().bytes(shape.texture);
             }
         }

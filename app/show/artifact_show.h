@@ -69,8 +69,11 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(const Presentation& presentation) const override;
-    [[nodiscard]] SharedPrompt prompt(const WordIndex& word) const override {
-        return words_.words[word.language][word.text].prompt;
+    [[nodiscard]] SharedRecording recording(const WordIndex& word) const override {
+        return words_.words[word.language][word.text].recording;
+    }
+    [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
+        return texts_[description.artifact].descriptions[description.language].recording;
     }
     [[nodiscard]] bool speaks() const override;
     [[nodiscard]] std::span<const ArtifactState> artifacts() const override { return residents_->states(); }

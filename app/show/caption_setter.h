@@ -17,6 +17,12 @@
 
 namespace frustumscreen {
 
+/// A portion of a description.
+struct SetPortion {
+    std::vector<CaptionImage> images; ///< one for each of `caption_widths_m`
+    bool flush_right = false;         ///< its lines begin at the right
+};
+
 class CaptionSetter {
 public:
     CaptionSetter(double em_m, double texels_per_m) : em_m_(em_m), texels_per_m_(texels_per_m) {}
@@ -25,7 +31,13 @@ public:
     [[nodiscard]] Result<std::vector<CaptionImage>> set(const PackCaption& caption,
                                                         std::span<const SetLanguage> set);
 
+    /// `key`: as portion_key gives it; `set` as above.
+    [[nodiscard]] Result<SetPortion> set_portion(const std::string& language, const std::string& key,
+                                                 const std::string& text, std::span<const SetLanguage> set);
+
 private:
+    [[nodiscard]] Result<void> open_typesetter();
+
     double em_m_;
     double texels_per_m_;
     std::optional<Typesetter> typesetter_; ///< opened for the first caption without glyph runs

@@ -40,24 +40,26 @@ Volume volume_of(const SoundSettings& settings) {
     return volume;
 }
 
+LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit,
+                         std::string driver, PromptReader::Answer answer)
+    : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
+      volume_(volume_of(settings.sound)) {
+    if (stage_->speaks()) {
+        speaker_.begin(answer);
+    }
+}
+
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
     presentation_ = exhibit_.step(now, commands, on_table);
     follow_staff_mode();
-    speak();
+    speaker_.step(presentation_, *stage_);
 }
 
-/// What was said is left at the next pause once the visitor has managed.
-void LiveExhibit::speak() {
-    if (presentation_.falls_silent) {
-        wish_.leave();
-    }
-    if (presentation_.says && !presentation_.staff) {
-        if (SharedPrompt prompt = stage_->prompt(*presentation_.says)) {
-            wish_.say(std::move(prompt));
-        }
-    }
+void LiveExhibit::hear(const SoundReport& report) {
+    speaker_.hear(report);
+    exhibit_.hear(speaker_.speaks(), speaker_.narration());
 }
 
 void LiveExhibit::follow_staff_mode() {
@@ -76,14 +78,13 @@ void LiveExhibit::follow_staff_mode() {
         return;
     }
     pattern_ = std::move(*pattern);
-    wish_.leave();
 }
 
 void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
         pattern_->set_lines(lines_of(status, driver_));
     }
-    wish_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
+    speaker_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }
 
 DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,

@@ -11,6 +11,7 @@
 #include "app/settings/settings.h"
 #include "app/show/pattern_show.h"
 #include "app/show/show.h"
+#include "app/show/speaker.h"
 #include "firmware_host/sound/volume.h"
 
 #include <memory>
@@ -25,9 +26,9 @@ namespace frustumscreen {
 class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
-    LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver)
-        : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)),
-          exhibit_(std::move(exhibit)), volume_(volume_of(settings.sound)) {}
+    /// `answer`: of a clock that is not the wall's, always.
+    LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver,
+                PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
     void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
     void tell(const RunStatus& status) override;
@@ -35,20 +36,19 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override { return stage_->state(presentation_); }
-    [[nodiscard]] const SoundWish& wish() const override { return wish_; }
+    [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
-    void hear(const SoundReport& report) override { exhibit_.hear(report.number != 0); }
+    void hear(const SoundReport& report) override;
 
 private:
     void follow_staff_mode();
-    void speak();
 
     const Settings& settings_;
     std::unique_ptr<Stage> stage_;
     std::string driver_;
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
-    SoundWish wish_;
+    Speaker speaker_;
     Volume volume_;
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never

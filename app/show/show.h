@@ -6,6 +6,7 @@
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
 #include "app/settings/command.h"
+#include "app/show/prompt_reader.h"
 #include "app/show/run_levels.h"
 #include "app/show/run_report.h"
 #include "app/tracking/situation.h"
@@ -77,7 +78,10 @@ public:
     /// What hides its hotspots; none while it is not there.
     [[nodiscard]] virtual ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
     /// None: it is silent.
-    [[nodiscard]] virtual SharedPrompt prompt(const WordIndex& /*word*/) const { return nullptr; }
+    [[nodiscard]] virtual SharedRecording recording(const WordIndex& /*word*/) const { return nullptr; }
+    [[nodiscard]] virtual SharedRecording recording(const DescriptionIndex& /*description*/) const {
+        return nullptr;
+    }
 };
 
 } // namespace frustumscreen

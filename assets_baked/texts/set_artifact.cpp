@@ -1,5 +1,6 @@
 #include "assets_baked/texts/set_artifact.h"
 
+#include "app/pack/text_portions.h"
 #include "assets_baked/texts/glyph_atlas.h"
 
 #include <fmt/format.h>
@@ -19,13 +20,13 @@ struct KeyedText {
 };
 
 std::vector<KeyedText> texts_of(const PackCaption& caption, std::span<const std::vector<PackLabel>> labels) {
-    std::vector<KeyedText> texts{{"title", caption.title, true},
-                                 {"text", caption.text},
-                                 {"period", caption.period},
-                                 {"place", caption.place},
-                                 {"maker", caption.maker},
-                                 {"credit", caption.credit},
-                                 {"description", caption.description}};
+    std::vector<KeyedText> texts{{"title", caption.title, true}, {"text", caption.text},
+                                 {"period", caption.period},     {"place", caption.place},
+                                 {"maker", caption.maker},       {"credit", caption.credit}};
+    const std::vector<std::string> portions = portions_of(caption.description);
+    for (std::size_t k = 0; k < portions.size() && portions.size() <= most_text_portions; ++k) {
+        texts.push_back({portion_key(k), portions[k]});
+    }
     for (std::size_t k = 0; k < labels.size(); ++k) {
         for (const PackLabel& label : labels[k]) {
             if (label.language == caption.language) {
@@ -80,6 +81,15 @@ public:
         }
         join_equal(shaped->settings);
         builder_.add(text.key, *shaped);
+    }
+    void check_length() {
+        const std::size_t portions = portions_of(caption_.description).size();
+        if (portions > most_text_portions) {
+            note(fmt::format("description: it is as long as {} captions and is not told; allowed are {}: "
+                             "shorten it to about {} letters",
+                             portions, most_text_portions,
+                             letters_of(caption_.description) * most_text_portions / portions));
+        }
     }
 
     /// Nothing if the letters do not fit an atlas.
@@ -142,6 +152,7 @@ SetArtifact set_artifact(std::span<const PackCaption> captions,
         for (const KeyedText& text : texts) {
             setter.add(text);
         }
+        setter.check_length();
         if (std::optional<SetLanguage> language = setter.finish()) {
             set.languages.push_back(*std::move(language));
         }

@@ -54,6 +54,7 @@ TEST(FlashCounter, CountsPairsOfOpposingChanges) {
 class Watched {
 public:
     explicit Watched(std::size_t artifacts) : exhibit_(sample::exhibit(artifacts, {"en", "de", "fr"})) {}
+    explicit Watched(Exhibit exhibit) : exhibit_(std::move(exhibit)) {}
 
     /// `lost`: since when nobody knows where the prop is.
     void look(MonotonicTime now, std::span<const Command> commands, std::optional<MonotonicTime> lost = {}) {
@@ -108,6 +109,61 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
         }
     }
     EXPECT_GE(most, 2) << "nothing was seen of the presses";
+}
+
+/// Three artifacts with a description and two hotspots each.
+Exhibit telling_exhibit() {
+    const std::vector<std::vector<glm::dvec2>> sizes{{{0.2, 0.03}}, {{0.2, 0.06}}};
+    CatalogueEntry entry{{"en", "de"}, {2, {{0.2, 0.05}}}};
+    entry.tellables.assign(2, {{seconds(1), seconds(1)}, {seconds(1), seconds(1)}});
+    entry.descriptions.assign(2, {sizes, largest_sizes(sizes), false});
+    ExhibitPlace place = sample::place();
+    place.buttons = button_commands.size();
+    return {Catalogue(3, entry), place, "en", start};
+}
+
+/// The caption's text changes by fades of its own, which a change of artifact or language may interrupt.
+TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
+    int most = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        std::mt19937 random(seed);
+        Watched watched(telling_exhibit());
+        MonotonicTime next = start;
+        const unsigned slowest_ms = 1U << (1 + seed % 11);
+        for (MonotonicTime now = start; now < start + seconds(30); now += frame) {
+            std::vector<Command> commands;
+            while (next <= now) {
+                press(commands, random);
+                next += milliseconds(1 + random() % slowest_ms);
+            }
+            watched.look(now, commands);
+        }
+        EXPECT_LE(most_flashes_a_second(watched.artifact), 2) << seed;
+        EXPECT_LE(most_flashes_a_second(watched.caption), 3) << seed;
+        most = std::max(most, most_flashes_a_second(watched.caption));
+    }
+    EXPECT_GE(most, 2) << "nothing was seen of the presses";
+    // Choose and another button in turn, each at a brightness of its own on the way up or down.
+    for (const Command other : {Command::NextArtifact, Command::NextLanguage, Command::Help}) {
+        for (int k = 0; k < 400; k += 3) {
+            Watched watched(telling_exhibit());
+            double before = 0.0;
+            bool chooses = true;
+            bool presses = false;
+            for (MonotonicTime now = start; now < start + seconds(8); now += frame) {
+                const Command command = chooses ? Command::Choose : other;
+                watched.look(now, std::span(&command, presses ? 1 : 0));
+                chooses = presses ? !chooses : chooses;
+                const double seen = watched.caption.back().value;
+                const int level = chooses ? k / 20 : k % 20;
+                const bool rises = level < 10;
+                presses = rises ? seen >= 0.1 * level && seen >= before
+                                : seen <= 2.0 - 0.1 * level && seen < before;
+                before = seen;
+            }
+            ASSERT_LE(most_flashes_a_second(watched.caption), 3) << k;
+        }
+    }
 }
 
 /// Somebody who watches the picture and presses just when it hurts most: at any brightness on its way up.

@@ -84,6 +84,24 @@ TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
     EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it shows
 }
 
+TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
+    at(seconds(1), good);
+    guide_.ask();
+    EXPECT_EQ(at(seconds(2), good).stage, GuidanceStage::Quiet) << "nothing is to be done";
+    EXPECT_EQ(at(seconds(2), right_of_the_beam).stage, GuidanceStage::Quiet);
+    guide_.ask();
+    const Guidance& asked =
+        guide_.step(MonotonicTime(seconds(2) + milliseconds(10)), right_of_the_beam, Sensing::Good, true);
+    EXPECT_EQ(asked.stage, GuidanceStage::Voice);
+    EXPECT_TRUE(asked.speak);
+    EXPECT_EQ(words_key(asked), "slide_left");
+    time_ += milliseconds(20);
+    EXPECT_EQ(at(seconds(9), right_of_the_beam).stage, GuidanceStage::Voice);
+    EXPECT_EQ(spoken_, 0) << "it is not said again before its pause";
+    guide_.ask();
+    EXPECT_FALSE(at(seconds(9), right_of_the_beam, Sensing::Good, false).speak) << "it is being said already";
+}
+
 TEST_F(GuideTest, WaitsWhileItIsFollowed) {
     // 2 cm each second towards the beam: slow, but followed.
     for (int k = 0; k < 8; ++k) {

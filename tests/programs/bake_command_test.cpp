@@ -133,7 +133,7 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
     ASSERT_TRUE(set) << set.error().message;
     ASSERT_EQ(set->size(), 2U);
     EXPECT_EQ((*set)[1].runs.find("title")->direction, TextDirection::RightToLeft);
-    EXPECT_NE((*set)[1].runs.find("description"), nullptr);
+    EXPECT_NE((*set)[1].runs.find("description.0"), nullptr);
     EXPECT_FALSE(load_sound(folder / "vase.fspack", "he", "description")->empty());
     EXPECT_EQ(run("frustumscreen-pack verify vase.fspack"), 0) << text("err.txt");
 

@@ -60,7 +60,7 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
     EXPECT_TRUE(made.notes.empty()) << made.notes.front();
     ASSERT_EQ(made.languages.size(), 2U);
     EXPECT_EQ(keys_of(made.languages[0]), (std::vector<std::string>{"title", "text", "period", "place",
-                                                                    "credit", "description", "label.1"}));
+                                                                    "credit", "description.0", "label.1"}));
     EXPECT_EQ(keys_of(made.languages[1]), (std::vector<std::string>{"title", "label.0", "label.1"}));
     EXPECT_EQ(made.languages[0].runs.find("title")->settings.size(), 1U) << "one line is one setting";
 }
@@ -107,7 +107,8 @@ TEST_F(SetArtifactTexts, what_cannot_be_set_is_said_and_the_rest_is_set) {
     ASSERT_EQ(made.languages.size(), 1U);
     EXPECT_EQ(keys_of(made.languages.front()), (std::vector<std::string>{"title", "text"}));
     EXPECT_TRUE(has_note(made, "texts in 'de': title: the letter")) << made.notes.front();
-    EXPECT_TRUE(has_note(made, "texts in 'de': description: the text has 7500 letters; allowed are 5000"));
+    EXPECT_TRUE(has_note(made, "texts in 'de': description: it is as long as 45 captions and is not told; "
+                               "allowed are 32: shorten it to about 5333 letters"));
     EXPECT_EQ(made.notes.size(), 2U);
 }
 

@@ -155,7 +155,9 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         say_line("frustumscreen", note);
     }
     Exhibit exhibit = make_exhibit(settings, **artifacts, start);
-    return std::make_unique<LiveExhibit>(settings, std::move(*artifacts), std::move(exhibit), display.name());
+    return std::make_unique<LiveExhibit>(settings, std::move(*artifacts), std::move(exhibit), display.name(),
+                                         request.fast ? PromptReader::Answer::Always
+                                                      : PromptReader::Answer::WhenReady);
 }
 
 /// A service that cannot record says so, and the exhibit goes on without the recording.

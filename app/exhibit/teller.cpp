@@ -1,0 +1,76 @@
+#include "app/exhibit/teller.h"
+
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+const Told& Teller::step(MonotonicTime now, const Situation& situation, const TellerInput& input) {
+    const bool has_advice = input.stage != GuidanceStage::Quiet;
+    TellingInput telling;
+    telling.subject = input.subject;
+    telling.tellable = input.tellable;
+    telling.shown = !input.fades && input.subject == input.visible;
+    telling.whole = !has_advice && situation.prop_known && !input.attracts;
+    telling.there = input.there;
+    telling.rested = stillness_.update(now, situation, input.pressed);
+    telling.next = input.next;
+    telling.describe = input.help && !has_advice;
+    telling.gives_way = gives_way(now, situation, input);
+    telling.stops = input.staff || (input.help && has_advice);
+    telling.narration = input.narration;
+    told_ = telling_.step(now, telling);
+    follow_text(now, input);
+    return told_;
+}
+
+/// Who asks to be told while something is amiss is told; what becomes amiss later goes first.
+bool Teller::gives_way(MonotonicTime now, const Situation& situation, const TellerInput& input) {
+    const bool comes_to_words =
+        input.stage >= GuidanceStage::Text && std::exchange(stage_, input.stage) < GuidanceStage::Text;
+    stage_ = input.stage;
+    const bool moved_away = std::exchange(attracts_, input.attracts) != input.attracts;
+    const bool head_lost = head_known_ && !situation.head_known;
+    const bool is_lost = (!situation.prop_known && !input.attracts) || head_lost;
+    lost_since_ = !is_lost ? std::nullopt : lost_since_ ? lost_since_ : now;
+    const bool goes = lost_since_ && now - *lost_since_ >= lost;
+    if (!is_lost || goes) {
+        head_known_ = situation.head_known;
+    }
+    return comes_to_words || moved_away || goes;
+}
+
+/// With another artifact or language comes its short text; it is dark then.
+void Teller::follow_text(MonotonicTime now, const TellerInput& input) {
+    const double step = to_seconds(now - std::exchange(last_, now)) / to_seconds(fade_time);
+    portion_ = told_.portion.value_or(portion_);
+    if (input.visible != visible_) {
+        visible_ = input.visible;
+        shows_description_ = text_leaves_ = false;
+        text_brightness_ = 1.0;
+    }
+    if (input.fades || input.subject != input.visible) {
+        fades_until_ = now;
+        return;
+    }
+    if (text_leaves_) {
+        text_brightness_ = std::max(text_brightness_ - step, 0.0);
+        if (text_brightness_ <= 0.0) {
+            text_leaves_ = false;
+            shows_description_ = told_.portion.has_value();
+        }
+    } else if (text_brightness_ < 1.0) {
+        text_brightness_ = std::min(text_brightness_ + step, 1.0);
+    } else {
+        text_leaves_ = shows_description_ != told_.portion.has_value() && now - fades_until_ >= fade_time;
+    }
+}
+
+CaptionText Teller::text() const {
+    return {shows_description_ ? std::optional(portion_) : std::nullopt, ease(text_brightness_),
+            text_leaves_ || text_brightness_ < 1.0};
+}
+
+} // namespace frustumscreen

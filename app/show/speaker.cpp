@@ -1,0 +1,121 @@
+#include "app/show/speaker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+void Speaker::step(const Presentation& presentation, const Stage& stage) {
+    if (!reader_) {
+        return;
+    }
+    reader_->want(SpokenUse::Word,
+                  presentation.prepares_word ? stage.recording(*presentation.prepares_word) : nullptr);
+    reader_->want(SpokenUse::Description,
+                  presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
+    if (presentation.staff) {
+        if (is_alive(std::max(description_, advice_))) {
+            wish_.stop();
+        }
+        told_.reset();
+        word_.reset();
+        return;
+    }
+    tell(presentation, stage);
+    advise(presentation, stage);
+}
+
+void Speaker::end_description(bool at_pause) {
+    const bool is_heard = report_.number == description_;
+    if (!is_alive(description_) || ending_ == Ending::Stopped) {
+        return;
+    }
+    // What is not heard yet waits for something else to end, and that goes on to its own next pause.
+    if (!at_pause && is_heard) {
+        wish_.stop();
+        ending_ = Ending::Stopped;
+    } else if (ending_ == Ending::None) {
+        wish_.leave();
+        ending_ = Ending::Left;
+    }
+}
+
+void Speaker::tell(const Presentation& presentation, const Stage& stage) {
+    if (told_ != presentation.tells) {
+        end_description(!presentation.tells && presentation.leaves);
+        told_ = presentation.tells;
+        if (told_) {
+            description_ = 0;
+            reading_ = nullptr;
+            ending_ = Ending::None;
+        }
+    } else if (!told_ && !presentation.leaves) {
+        end_description(false); // it found no pause
+    }
+    if (reading_ && !is_alive(description_)) {
+        if (description_ > advice_) {
+            wish_.leave(); // lets go of its samples
+        }
+        reading_ = nullptr;
+    }
+    comes_ = false;
+    if (!told_ || description_ != 0) {
+        return;
+    }
+    const SharedRecording recording = stage.recording(*told_);
+    reading_ = recording ? reader_->find(recording) : nullptr;
+    comes_ = recording && !reading_;
+    if (reading_ && reading_->prompt) {
+        if (speaks()) {
+            wish_.stop();
+        }
+        description_ = wish_.say(reading_->prompt);
+    }
+}
+
+void Speaker::advise(const Presentation& presentation, const Stage& stage) {
+    if (presentation.falls_silent) {
+        word_.reset();
+        if (is_alive(advice_) && advice_ > description_) {
+            wish_.leave();
+        }
+    }
+    if (presentation.says) {
+        word_ = presentation.says;
+    }
+    if (!word_) {
+        return;
+    }
+    const SharedRecording recording = stage.recording(*word_);
+    const SharedReading reading = recording ? reader_->find(recording) : nullptr;
+    if (recording && !reading) {
+        word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // nobody reads it any more
+        return;
+    }
+    word_.reset();
+    if (reading && reading->prompt) {
+        advice_ = wish_.say(reading->prompt);
+    }
+}
+
+void Speaker::hear(const SoundReport& report) {
+    report_ = report;
+}
+
+Narration Speaker::narration() const {
+    if (description_ == 0) {
+        return {comes_ ? Narration::State::Coming : Narration::State::Silent, 0};
+    }
+    if (!is_alive(description_)) {
+        return {Narration::State::Over, 0};
+    }
+    if (report_.number != description_) {
+        return {Narration::State::Coming, 0};
+    }
+    const std::vector<Nanoseconds>& begins = reading_->portions;
+    const auto next = std::upper_bound(begins.begin(), begins.end(), report_.heard);
+    return {Narration::State::Heard,
+            static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - begins.begin(), 1) - 1)};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,56 @@
+/// Turns what the exhibit decides to say into what is to be heard: one voice at a time.
+///
+///     Presentation (says, tells, prepares) -> step -> SoundWish -> Sound -> SoundReport -> hear -> Narration
+///
+/// Advice is said once, when its words have been read. A description is heard as long as the presentation tells it; then it is
+/// left at its next pause or stopped, as the presentation says. What begins while something else is spoken stops that, but
+/// advice that comes by itself waits for the pause.
+///
+/// Time     speech begins at the step that asks for it, if its recording was read by then (prompt_reader.h).
+/// Threads  the render thread. `step` allocates nothing.
+/// Errors   none: what cannot be read is silent.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/show/prompt_reader.h"
+#include "app/show/show.h"
+#include "firmware_host/sound/sound.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+class Speaker {
+public:
+    /// There is something to say: without it nothing is heard, and there is no thread that reads.
+    void begin(PromptReader::Answer answer) { reader_.emplace(answer); }
+    void step(const Presentation& presentation, const Stage& stage);
+    void hear(const SoundReport& report);
+    void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
+
+    [[nodiscard]] const SoundWish& wish() const { return wish_; }
+    /// Something is heard.
+    [[nodiscard]] bool speaks() const { return report_.number != 0; }
+    /// How the description is heard that the latest step told, or left.
+    [[nodiscard]] Narration narration() const;
+
+private:
+    void end_description(bool at_pause);
+    void tell(const Presentation& presentation, const Stage& stage);
+    void advise(const Presentation& presentation, const Stage& stage);
+    [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
+
+    std::optional<PromptReader> reader_;
+    SoundWish wish_;
+    SoundReport report_;
+    std::optional<DescriptionIndex> told_;
+    std::uint64_t description_ = 0; ///< its number; 0: it was not said
+    SharedReading reading_;         ///< of the description that was said
+    bool comes_ = false;            ///< it is being read
+    enum class Ending : std::uint8_t { None, Left, Stopped };
+    Ending ending_ = Ending::None;  ///< of it, before its time
+    std::optional<WordIndex> word_; ///< waits until it was read
+    std::uint64_t advice_ = 0;      ///< the number of the latest
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,160 @@
+// Prompts that a thread of its own reads: what comes, what is kept, what is silent, and that nobody waits.
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
+#include "app/show/prompt_reader.h"
+#include "firmware_host/sound/opus_reader.h"
+#include "tests/pack/samples.h"
+#include "tests/render/counted_new.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace frustumscreen;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+namespace {
+
+Bytes fixture(const std::string& name) {
+    return read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/") + name).value_or(Bytes());
+}
+
+SharedRecording in_memory(const std::string& name, Bytes opus) {
+    return std::make_shared<const Recording>(
+        Recording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
+}
+
+/// Asks until there is an answer; the tests' own time limit ends what never comes.
+SharedReading wait_for(PromptReader& reader, const SharedRecording& recording) {
+    SharedReading reading = reader.find(recording);
+    while (!reading) {
+        std::this_thread::sleep_for(milliseconds(1));
+        reading = reader.find(recording);
+    }
+    return reading;
+}
+
+class PromptReading : public ::testing::Test {
+protected:
+    void SetUp() override {
+        Pack pack = samples::pack();
+        put_sounds(pack, std::vector<SpokenLanguage>{{"en", {{"description", fixture("speech.opus")}}},
+                                                     {"de", {{"description", samples::some_bytes("OggS")}}}});
+        ASSERT_TRUE(write_file(file, samples::bytes_of(pack)));
+    }
+    void TearDown() override { std::filesystem::remove(file); }
+    [[nodiscard]] SharedRecording in_pack(const std::string& language) const {
+        return std::make_shared<const Recording>(Recording{
+            "the description in '" + language + "'", {}, file, language, "description", {seconds(1)}});
+    }
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "prompt_reading.fspack";
+};
+
+} // namespace
+
+TEST_F(PromptReading, reads_from_the_pack_what_the_decoder_reads) {
+    PromptReader reader;
+    const SharedRecording english = in_pack("en");
+    EXPECT_EQ(reader.find(english), nullptr) << "nobody wants it";
+    reader.want(SpokenUse::Description, english);
+    const SharedReading reading = wait_for(reader, english);
+    ASSERT_TRUE(reading->prompt);
+    EXPECT_EQ(reading->prompt->samples, read_opus(fixture("speech.opus"))->samples);
+    EXPECT_FALSE(reading->prompt->marks.empty());
+    EXPECT_EQ(reading->portions, std::vector{Nanoseconds(0)});
+}
+
+TEST_F(PromptReading, what_cannot_be_read_is_silent_and_said_once) {
+    const SharedRecording bad = in_pack("de");
+    const SharedRecording missing = in_pack("fr");
+    const SharedRecording damaged = in_memory("damaged", Bytes(100, std::byte(7)));
+    auto gone_file = std::make_shared<Recording>(*in_pack("en"));
+    gone_file->name = "gone";
+    gone_file->pack = file.string() + ".gone";
+    const SharedRecording gone = gone_file;
+    ::testing::internal::CaptureStderr();
+    {
+        PromptReader reader;
+        for (int round = 0; round < 2; ++round) {
+            for (const SharedRecording& recording : {bad, missing, damaged, gone}) {
+                reader.want(SpokenUse::Description, recording);
+                EXPECT_EQ(wait_for(reader, recording)->prompt, nullptr);
+            }
+        }
+        const SharedRecording good = in_pack("en");
+        reader.want(SpokenUse::Description, good);
+        EXPECT_TRUE(wait_for(reader, good)->prompt) << "and it goes on";
+    }
+    const std::string said = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 4) << said;
+    for (const SharedRecording& recording : {bad, missing, damaged, gone}) {
+        EXPECT_NE(said.find(recording->name + " is silent: "), std::string::npos) << said;
+    }
+}
+
+TEST_F(PromptReading, frees_the_description_that_is_not_wanted_any_more) {
+    PromptReader reader;
+    const SharedRecording english = in_pack("en");
+    reader.want(SpokenUse::Description, english);
+    const std::weak_ptr<const Prompt> prompt = wait_for(reader, english)->prompt;
+    EXPECT_FALSE(prompt.expired());
+    reader.want(SpokenUse::Description, nullptr);
+    while (!prompt.expired()) {
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_EQ(reader.find(english), nullptr);
+}
+
+TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
+    PromptReader reader;
+    std::vector<SharedRecording> words;
+    for (std::size_t k = 0; k <= PromptReader::words_kept; ++k) {
+        words.push_back(in_memory("word " + std::to_string(k), fixture("tone.opus")));
+        reader.want(SpokenUse::Word, words.back());
+        wait_for(reader, words.back());
+        if (k > 0) { // the first is wanted again and again
+            reader.want(SpokenUse::Word, words.front());
+            wait_for(reader, words.front());
+        }
+    }
+    EXPECT_NE(reader.find(words[0]), nullptr);
+    EXPECT_EQ(reader.find(words[1]), nullptr);
+    for (std::size_t k = 2; k < words.size(); ++k) {
+        EXPECT_NE(reader.find(words[k]), nullptr) << k;
+    }
+}
+
+TEST_F(PromptReading, the_newest_want_wins_and_a_word_goes_first) {
+    PromptReader reader;
+    std::vector<SharedRecording> wanted;
+    for (int k = 0; k < 50; ++k) {
+        wanted.push_back(in_memory("description " + std::to_string(k), fixture("speech.opus")));
+        reader.want(SpokenUse::Description, wanted.back());
+    }
+    const SharedRecording word = in_memory("word", fixture("tone.opus"));
+    reader.want(SpokenUse::Word, word);
+    wait_for(reader, word);
+    wait_for(reader, wanted.back());
+    for (std::size_t k = 0; k + 1 < wanted.size(); ++k) {
+        EXPECT_EQ(reader.find(wanted[k]), nullptr);
+    }
+    EXPECT_NE(reader.find(word), nullptr);
+}
+
+TEST_F(PromptReading, always_an_answer_waits_for_it) {
+    PromptReader reader(PromptReader::Answer::Always);
+    const SharedRecording english = in_pack("en");
+    EXPECT_EQ(reader.find(english), nullptr);
+    reader.want(SpokenUse::Description, english);
+    ASSERT_NE(reader.find(english), nullptr);
+    EXPECT_TRUE(reader.find(english)->prompt);
+}
+
+TEST_F(PromptReading, ends_in_the_middle_of_its_work) {
+    for (int k = 0; k < 20; ++k) {
+        PromptReader reader;
+        reader.want(SpokenUse::Description, in_pack("en"));
+        reader.want(SpokenUse::Word, in_memory("word", fixture("tone.opus")));
+    }
+}

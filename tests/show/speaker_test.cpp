@@ -1,0 +1,201 @@
+// What the exhibit decides to say, as it is heard: in a WAV's samples, with prompts that nothing else resembles.
+#include "app/show/speaker.h"
+#include "firmware_host/sound/mixer.h"
+#include "firmware_host/sound/opus_reader.h"
+#include "tests/render/counted_new.h"
+
+#include <gtest/gtest.h>
+
+using namespace frustumscreen;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using State = Narration::State;
+
+namespace {
+
+Bytes fixture(const std::string& name) {
+    return read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/") + name).value_or(Bytes());
+}
+
+SharedRecording recording_of(const std::string& name) {
+    return std::make_shared<const Recording>(
+        Recording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
+}
+
+/// One word of advice and one description; the second artifact has none.
+class SpeakingStage final : public Stage {
+public:
+    DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&, const RenderTarget&,
+                    Redraw) override {
+        return {};
+    }
+    [[nodiscard]] ShowState state(const Presentation&) const override { return {"", "", {}}; }
+    [[nodiscard]] bool speaks() const override { return true; }
+    [[nodiscard]] SharedRecording recording(const WordIndex&) const override { return word; }
+    [[nodiscard]] SharedRecording recording(const DescriptionIndex& index) const override {
+        return index.artifact == 0 ? description : nullptr;
+    }
+    SharedRecording word = recording_of("tone.opus");
+    SharedRecording description = recording_of("speech.opus");
+};
+
+class Speaking : public ::testing::Test {
+protected:
+    void SetUp() override { speaker.begin(PromptReader::Answer::Always); }
+    void frame() {
+        speaker.step(presentation, stage);
+        presentation.says.reset();
+        presentation.falls_silent = false;
+        std::vector<std::int16_t> block(sample_rate_hz / 50);
+        mixer.mix(block); // as WavSound does: first what is due, then the new wish
+        mixer.follow(speaker.wish());
+        heard.insert(heard.end(), block.begin(), block.end());
+        speaker.hear(mixer.report(Nanoseconds(0)));
+    }
+    void frames(int count) {
+        for (int k = 0; k < count; ++k) {
+            frame();
+        }
+    }
+    void tell() { presentation.tells = presentation.prepares = DescriptionIndex{}; }
+    void leave(bool at_pause) {
+        presentation.tells.reset();
+        presentation.leaves = at_pause;
+    }
+    [[nodiscard]] bool sounds() const {
+        return std::any_of(heard.end() - sample_rate_hz / 50, heard.end(),
+                           [](std::int16_t s) { return s != 0; });
+    }
+
+    SpeakingStage stage;
+    Speaker speaker;
+    Mixer mixer;
+    Presentation presentation;
+    std::vector<std::int16_t> heard;
+};
+
+} // namespace
+
+TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
+    const Prompt truth = *read_opus(fixture("speech.opus"));
+    frame();
+    tell();
+    frame();
+    EXPECT_EQ(speaker.narration(), (Narration{State::Coming, 0}));
+    frames(3);
+    EXPECT_EQ(speaker.narration().state, State::Heard);
+    while (speaker.narration().state == State::Heard) {
+        frame();
+    }
+    EXPECT_EQ(speaker.narration().state, State::Over);
+    const std::size_t begin = 2 * sample_rate_hz / 50;
+    for (std::size_t k = Mixer::fade_samples; k + Mixer::fade_samples < truth.samples.size(); ++k) {
+        ASSERT_EQ(heard[begin + k], truth.samples[k]) << k;
+    }
+    frames(200);
+    EXPECT_FALSE(sounds()) << "it is said once";
+}
+
+TEST_F(Speaking, its_portions_follow_what_is_heard) {
+    tell();
+    frames(3);
+    std::size_t portion = 0;
+    while (speaker.narration().state == State::Heard) {
+        EXPECT_GE(speaker.narration().portion, portion);
+        portion = speaker.narration().portion;
+        frame();
+    }
+    EXPECT_EQ(portion, 1U);
+}
+
+TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
+    tell();
+    frames(10);
+    EXPECT_TRUE(sounds());
+    leave(false);
+    frames(3);
+    EXPECT_FALSE(sounds());
+    EXPECT_EQ(speaker.narration().state, State::Over);
+
+    tell();
+    frames(10);
+    leave(true);
+    frame();
+    EXPECT_EQ(speaker.narration().state, State::Heard) << "not in the middle of a word";
+    frames(200);
+    EXPECT_EQ(speaker.narration().state, State::Over);
+
+    tell();
+    frames(10);
+    leave(true);
+    frame();
+    leave(false); // it took too long
+    frames(3);
+    EXPECT_EQ(speaker.narration().state, State::Over);
+}
+
+TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
+    presentation.prepares_word = WordIndex{};
+    tell();
+    frames(20);
+    leave(false);
+    presentation.says = WordIndex{};
+    frames(5);
+    const Prompt truth = *read_opus(fixture("tone.opus"));
+    EXPECT_TRUE(speaker.speaks());
+    EXPECT_NE(speaker.narration().state, State::Heard);
+    frames(100);
+    const std::size_t from = heard.size() - std::min<std::size_t>(heard.size(), 105 * sample_rate_hz / 50);
+    const auto at = std::search(heard.begin() + static_cast<std::ptrdiff_t>(from), heard.end(),
+                                truth.samples.begin() + 1000, truth.samples.begin() + 3000);
+    EXPECT_NE(at, heard.end()) << "the advice is not there";
+}
+
+TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_description) {
+    tell();
+    frames(20);
+    presentation.falls_silent = true;
+    frames(10);
+    EXPECT_EQ(speaker.narration().state, State::Heard) << "silence for advice is none for the description";
+}
+
+TEST_F(Speaking, what_has_no_sound_is_silent) {
+    presentation.tells = presentation.prepares = DescriptionIndex{1, 0};
+    frames(2);
+    EXPECT_EQ(speaker.narration().state, State::Silent);
+    stage.description = std::make_shared<const Recording>(Recording{"bad", Bytes(9), {}, "", "", {}});
+    ::testing::internal::CaptureStderr();
+    tell();
+    frames(2);
+    EXPECT_EQ(speaker.narration().state, State::Silent);
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find("bad is silent: "), std::string::npos);
+}
+
+TEST_F(Speaking, a_step_allocates_nothing) {
+    presentation.prepares = DescriptionIndex{};
+    presentation.prepares_word = WordIndex{};
+    presentation.says = WordIndex{};
+    frames(2);
+    tell();
+    frames(2); // both are read now
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "a sanitizer allocates by itself";
+    }
+    const long before = synthetic::allocations_so_far();
+    for (int k = 0; k < 300; ++k) {
+        k % 100 < 50 ? tell() : leave(k % 3 == 0);
+        presentation.says = k % 40 == 0 ? std::optional(WordIndex{}) : std::nullopt;
+        speaker.step(presentation, stage);
+        mixer.follow(speaker.wish());
+        speaker.hear(mixer.report(Nanoseconds(0)));
+    }
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
+}
+
+TEST_F(Speaking, the_staff_are_left_in_peace) {
+    tell();
+    frames(10);
+    presentation.staff = true;
+    frames(3);
+    EXPECT_FALSE(sounds());
+}
