@@ -14,6 +14,10 @@ enum Shown : std::size_t { Prop, Turning };
 Attract::Attract(const glm::dvec2& place_m, bool known, MonotonicTime now)
     : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {}
 
+bool Attract::lost() const {
+    return fade_.goal() == Turning;
+}
+
 Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTransform& table_from_prop) {
     const bool never = !known && age == Nanoseconds::zero();
     if (known && fade_.goal() == Turning) {

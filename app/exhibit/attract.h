@@ -32,6 +32,8 @@ public:
     /// `known`: the prop's pose is good; else its age counts; 0 = there was no pose yet.
     [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
                            const RigidTransform& table_from_prop);
+    /// As of the latest `at`: nobody has known where the prop is for a while, and the picture leaves it or has left it.
+    [[nodiscard]] bool lost() const;
 
 private:
     glm::dvec2 place_m_;

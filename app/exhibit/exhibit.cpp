@@ -45,11 +45,9 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
+      state_since_(now), next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      advice_placer_(place.picture_m), placer_(place.picture_m) {
-    for (const AdviceLanguage& words : place_.words) {
-        word_languages_.push_back(words.language);
-    }
+      sentences_(place.words, place.picture_m), placer_(place.picture_m) {
     if (place.table_pictures) {
         table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
                                   .picture_m = place.picture_m,
@@ -61,9 +59,11 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
 }
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
-    if (staff_until_ && now >= *staff_until_) {
-        staff_until_.reset();
-    }
+    const State before = state_;
+    const bool there = presence_.update(now, situation, !commands.empty());
+    const bool rests =
+        state_ == State::Staff ? now - state_since_ >= staff_time : presence_.rests(now, place_.rest);
+    go_to(next(state_, rests ? Event::Rest : Event::VisitorComes), now);
     for (const Command command : commands) {
         take(command, now);
     }
@@ -73,14 +73,17 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const Stand stand =
         attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
     side_.update(situation.eye_m);
-    step_table(now, situation, stand);
+    go_to(state_after(state_, observe(now, situation, stand, there)), now);
+    follow_state(before, now);
     const Shown shown = selection_.at(now);
 
     Presentation presentation;
+    presentation.state = state_;
+    presentation.state_before = state_before_;
     presentation.artifact = shown.artifact;
     presentation.brightness = shown.brightness * stand.brightness;
     presentation.language = language_of(shown.artifact);
-    guide(now, situation, stand, !commands.empty(), presentation);
+    present_words(now, situation, stand, presentation);
     presentation.caption = caption(now, shown, situation, stand);
     if (presentation.caption && presentation.advice) {
         // One text at a time, or the two would lie on each other.
@@ -95,7 +98,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled =
         !table_changes && !shown.changing && !stand.changing && (opacity <= 0.0 || opacity >= 1.0);
-    presentation.staff = staff_until_.has_value();
+    presentation.staff = state_ == State::Staff;
     presentation.lamps = lamps();
     return presentation;
 }
@@ -105,12 +108,12 @@ void Exhibit::take(Command command, MonotonicTime now) {
         take_chord(now);
         return;
     }
-    selected_.at(static_cast<std::size_t>(button_of(command))) = !staff_until_;
-    if (staff_until_) {
-        staff_until_.reset();
-    } else {
+    const bool counts = state_ != State::Staff;
+    selected_.at(static_cast<std::size_t>(button_of(command))) = counts;
+    if (counts) {
         selection_.take(command, now);
     }
+    go_to(next(state_, Event::Press), now);
 }
 
 /// Undoes the presses of the first and the last button, with which the chord began, and switches the staff's
@@ -121,24 +124,62 @@ void Exhibit::take_chord(MonotonicTime now) {
             selection_.undo(button_commands[button], now);
         }
     }
-    staff_until_ = staff_until_ ? std::nullopt : std::optional(now + staff_time);
+    go_to(next(state_, Event::Chord), now);
+}
+
+void Exhibit::go_to(State state, MonotonicTime now) {
+    if (state != state_) {
+        state_before_ = std::exchange(state_, state);
+        state_since_ = now;
+    }
+}
+
+void Exhibit::follow_state(State before, MonotonicTime now) {
+    if (state_ != State::Attract) {
+        return;
+    }
+    if (before != State::Attract) { // the visitor has gone
+        selection_.reset_language(now);
+        sensed_.forget();
+        if (guide_) {
+            guide_->forget();
+        }
+        next_turn_ = now + turn_time;
+    } else if (now >= next_turn_ && catalogue_.size() > 1) {
+        selection_.choose((selection_.artifact() + 1) % catalogue_.size(), now);
+        next_turn_ = now + turn_time;
+    }
+}
+
+Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const Stand& stand, bool there) {
+    Observed seen;
+    seen.nothing_to_show = catalogue_.empty();
+    seen.tracker_lost = attract_->lost();
+    step_table(now, situation, stand, seen);
+    guidance_ = step_guide(now, situation, stand, there);
+    seen.advice_due = guidance_ != nullptr;
+    return seen;
 }
 
 /// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
-void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand) {
+void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen) {
     if (!table_) {
         return;
     }
     TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
                               hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m),
                               std::nullopt};
-    if (situation.prop_known && !staff_until_) {
+    if (situation.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, situation.table_from_prop);
     }
-    if (const std::optional<std::size_t> chosen = table_->step(now, input)) {
+    const std::optional<std::size_t> chosen = table_->step(now, input);
+    seen.prop_rests = table_->presented().ring.has_value();
+    seen.artifact_chosen = chosen.has_value();
+    if (chosen && state_ != State::Attract) { // there a prop that stands on a picture is nobody's wish
         selection_.choose(*chosen, now);
     }
     placer_.set_obstacles(table_->obstacles());
+    sentences_.set_obstacles(table_->obstacles());
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
@@ -165,67 +206,79 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     return PresentedCaption{language, place.shape, place.rectangle, brightness};
 }
 
-/// The sentence in the visitor's language, once it is more than a sign.
-std::optional<WordIndex> Exhibit::word_of(const Guidance& guidance) const {
-    if (place_.words.empty() || guidance.stage < GuidanceStage::Text) {
-        return std::nullopt;
+const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situation, const Stand& stand,
+                                    bool there) {
+    const bool lost = attract_->lost();
+    const Sensing sensing = sensed_.update(now, situation, lost, presence_.touched());
+    const bool can_be_guided = lost || (situation.prop_known && !stand.attracts);
+    if (!guide_ || !there || !can_be_guided || state_ == State::Attract || state_ == State::Staff) {
+        return nullptr;
     }
-    const std::size_t language = caption_for(selection_.language(), word_languages_);
-    const std::vector<AdviceText>& texts = place_.words[language].texts;
-    const std::string_view key = words_key(guidance);
-    const auto found =
-        std::find_if(texts.begin(), texts.end(), [&](const AdviceText& text) { return text.key == key; });
-    return found != texts.end()
-               ? std::optional(WordIndex{language, static_cast<std::size_t>(found - texts.begin())})
-               : std::nullopt;
+    const bool may_speak = !speaking_ && state_ != State::Browse && state_ != State::Describe;
+    const Guidance& guidance =
+        guide_->step(now, {situation.table_from_prop, situation.eye_m}, sensing, may_speak);
+    return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
-void Exhibit::place_advice(MonotonicTime now, const std::optional<WordIndex>& word,
-                           const TablePolygon& around, const Situation& situation,
-                           Presentation& presentation) {
-    if (word != advice_) {
-        advice_ = word;
-        advice_placer_.set_shapes(
-            word ? std::span<const glm::dvec2>(place_.words[word->language].texts[word->text].sizes_m)
-                 : std::span<const glm::dvec2>());
+/// The sentence that this state has on the table, in the visitor's language.
+std::optional<WordIndex> Exhibit::word() const {
+    switch (note_of(state_).words) {
+    case Words::Invitation:
+        return sentences_.find("attract_line", selection_.language());
+    case Words::Fault:
+        return sentences_.find("fault.no_artifact", selection_.language());
+    case Words::Advice: // once it is more than a sign
+        return guidance_ != nullptr && guidance_->stage >= GuidanceStage::Text
+                   ? sentences_.find(words_key(*guidance_), selection_.language())
+                   : std::nullopt;
+    case Words::Telling:
+    case Words::None:
+        break;
     }
-    if (!word) {
-        return;
-    }
-    advice_placer_.update(now, around,
-                          hidden_by_prop(place_.prop, situation.table_from_prop, situation.eye_m),
-                          glm::dvec2(situation.table_from_prop.translation), side_.quarter_turns());
-    const CaptionPlace place = advice_placer_.at(now);
-    if (place.opacity > 0.0) {
-        presentation.advice = {*word, place.shape, place.rectangle, place.opacity};
-    }
+    return std::nullopt;
 }
 
-void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
-                    Presentation& presentation) {
-    const bool there = presence_.update(now, situation, pressed);
-    const bool was_advised = std::exchange(advised_, false);
-    if (guide_ && there && !stand.attracts && situation.prop_known) {
-        const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
-        const Guidance& guidance = guide_->step(now, guided, Sensing::Good, !speaking_);
-        const std::optional<TablePolygon> shadow =
-            guidance.stage != GuidanceStage::Quiet
-                ? hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m)
-                : std::nullopt;
-        if (shadow) {
-            advised_ = true;
-            presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
-            const TablePolygon around =
-                presentation.sign ? hull_of(*shadow, presentation.sign->corners_m) : *shadow;
-            const std::optional<WordIndex> word = word_of(guidance);
-            place_advice(now, word, around, situation, presentation);
-            presentation.says = guidance.speak ? word : std::nullopt;
+void Exhibit::present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+                            Presentation& presentation) {
+    const StateNote& note = note_of(state_);
+    const std::optional<WordIndex> wanted = word();
+    const bool signs = note.sign && guidance_ != nullptr;
+    SentenceSurroundings surroundings;
+    if (signs || wanted || sentences_.busy()) {
+        const RigidTransform& pose = stand.table_from_prop;
+        surroundings = {hidden_by_prop(place_.prop, pose, place_.lens_m),
+                        hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
+                        side_.quarter_turns()};
+    }
+    if (signs && surroundings.around) {
+        presentation.sign =
+            place_sign(*guidance_, now, *surroundings.around, place_.picture_m, side_.quarter_turns());
+        if (presentation.sign) {
+            surroundings.around = hull_of(*surroundings.around, presentation.sign->corners_m);
         }
     }
-    if (!advised_) {
-        place_advice(now, std::nullopt, {}, situation, presentation);
+    presentation.advice = sentences_.place(now, wanted, surroundings);
+    speak(now, wanted, presentation);
+}
+
+/// Nothing is heard whose words do not lie on the table.
+void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation) {
+    if (spoken_ && spoken_ != word) {
+        spoken_.reset();
+        presentation.falls_silent = true;
     }
-    presentation.falls_silent = was_advised && !advised_;
+    if (guidance_ != nullptr && guidance_->speak && word && note_of(state_).voice &&
+        sentences_.shows(now, *word)) {
+        presentation.says = word;
+        spoken_ = word;
+    }
+}
+
+void Exhibit::hear(bool speaking) {
+    if (speaking_ && !speaking) {
+        spoken_.reset();
+    }
+    speaking_ = speaking;
 }
 
 /// The language of the artifact's caption; without captions the chosen one.

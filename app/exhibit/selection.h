@@ -44,6 +44,8 @@ public:
     void take(Command command, MonotonicTime now);
     /// Chooses one artifact; one that there is not changes nothing.
     void choose(std::size_t artifact, MonotonicTime now);
+    /// Goes back to the language that it began with.
+    void reset_language(MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
     /// Whether the command has something to change to.
@@ -60,6 +62,7 @@ private:
     std::size_t count_;
     std::vector<std::string> languages_; ///< and one more, where it begins in none of them
     std::size_t language_count_;
+    std::size_t first_language_;
     std::size_t language_before_; ///< the language before the latest command for another
     Fade artifact_;
     Fade language_; ///< indices into `languages_`

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace frustumscreen {
 
@@ -452,18 +453,22 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
             presentation.settled,
             presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt,
             left_out_,
-            presentation.lamps};
+            presentation.lamps,
+            presentation.state};
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
     const RigidTransform& table_from_projector = settings.projector.table_from_projector;
-    return {artifacts.catalogue(),
-            {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
-             artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
-             guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-             artifacts.words()},
-            settings.exhibit.language,
-            now};
+    ExhibitPlace place{make_prop(settings.prop),
+                       table_from_projector.translation,
+                       picture_on_table(settings, 0.0),
+                       artifacts.zone(),
+                       artifacts.attract_place_m(),
+                       settings.panel.buttons(),
+                       guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
+                       artifacts.words()};
+    place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
+    return {artifacts.catalogue(), place, settings.exhibit.language, now};
 }
 
 } // namespace frustumscreen

@@ -28,6 +28,7 @@ struct ShowState {
     std::optional<RigidTransform> stands = {};
     std::span<const PackLeftOut> left_out = {};
     std::uint32_t lamps = 0; ///< the buttons that do something, bit k = button k
+    State state = State::Staff;
 };
 
 class Show {
