@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace frustumscreen {
@@ -38,6 +39,25 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
         }
     }
     return largest;
+}
+
+/// What the artifact's place hides from a point. An artifact that turns at a place of its own hides the same at any angle, so
+/// that nothing beside it moves.
+std::optional<TablePolygon> hidden_by(const PropShape& prop, const Stand& stand, const glm::dvec3& from_m) {
+    std::optional<TablePolygon> hidden = hidden_by_prop(prop, stand.table_from_prop, from_m);
+    if (!hidden || !stand.attracts) {
+        return hidden;
+    }
+    constexpr double eighth = 0.25 * std::numbers::pi;
+    TablePolygon all;
+    for (const double yaw : {0.0, eighth}) {
+        const RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
+                                  stand.table_from_prop.translation};
+        if (const std::optional<TablePolygon> one = hidden_by_prop(prop, pose, from_m)) {
+            all = hull_of(all, one->corners());
+        }
+    }
+    return all;
 }
 
 } // namespace
@@ -167,8 +187,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
         return;
     }
     TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
-                              hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m),
-                              std::nullopt};
+                              hidden_by(place_.prop, stand, place_.lens_m), std::nullopt};
     if (situation.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, situation.table_from_prop);
     }
@@ -195,8 +214,8 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
         placer_.set_shapes(sizes);
     }
     const RigidTransform& pose = stand.table_from_prop;
-    placer_.update(now, hidden_by_prop(place_.prop, pose, place_.lens_m),
-                   hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
+    placer_.update(now, hidden_by(place_.prop, stand, place_.lens_m),
+                   hidden_by(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
                    side_.quarter_turns());
     const CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * (shown.caption_brightness * stand.brightness);
@@ -246,8 +265,8 @@ void Exhibit::present_words(MonotonicTime now, const Situation& situation, const
     SentenceSurroundings surroundings;
     if (signs || wanted || sentences_.busy()) {
         const RigidTransform& pose = stand.table_from_prop;
-        surroundings = {hidden_by_prop(place_.prop, pose, place_.lens_m),
-                        hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
+        surroundings = {hidden_by(place_.prop, stand, place_.lens_m),
+                        hidden_by(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
                         side_.quarter_turns()};
     }
     if (signs && surroundings.around) {

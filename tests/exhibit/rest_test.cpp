@@ -165,6 +165,23 @@ TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
     EXPECT_EQ(text(), "");
 }
 
+/// The artifact turns, and the words beside it lie still.
+TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    lose();
+    wait(seconds(6));
+    ASSERT_EQ(text(), "uncover");
+    const glm::dvec2 place = shown.advice->rectangle.centre_m;
+    for (int k = 0; k < 20; ++k) {
+        wait(seconds(1));
+        ASSERT_EQ(text(), "uncover");
+        EXPECT_EQ(shown.advice->rectangle.centre_m, place);
+        EXPECT_EQ(shown.advice->brightness, 1.0);
+    }
+}
+
 TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
     wait(seconds(1));
     slide(0.02);
