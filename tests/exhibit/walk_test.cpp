@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 const std::vector<std::string> languages{"en", "de", "ar"};
-constexpr std::size_t artifacts = 6;
+constexpr std::size_t artifacts = 4;
 
 const std::vector<std::string> keys{"attract_line",
                                     "slide_left",
@@ -61,7 +61,7 @@ ExhibitPlace walked_place() {
 }
 
 Exhibit walked_exhibit() {
-    const CatalogueEntry entry{languages, {languages.size(), {{0.2, 0.05}, {0.1, 0.1}}}};
+    const CatalogueEntry entry{languages, {languages.size(), {{0.14, 0.04}}}};
     return {Catalogue(artifacts, entry), walked_place(), "en", sample::start};
 }
 
