@@ -14,6 +14,10 @@ enum Shown : std::size_t { Prop, Turning };
 Attract::Attract(const glm::dvec2& place_m, bool known, MonotonicTime now)
     : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {}
 
+bool Attract::lost() const {
+    return fade_.goal() == Turning;
+}
+
 Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTransform& table_from_prop) {
     const bool never = !known && age == Nanoseconds::zero();
     if (known && fade_.goal() == Turning) {
@@ -33,6 +37,23 @@ Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTra
     const glm::dquat rotation =
         glm::angleAxis(2.0 * std::numbers::pi * (turns - std::floor(turns)), glm::dvec3(0.0, 0.0, 1.0));
     return {{rotation, glm::dvec3(place_m_, 0.0)}, faded.brightness, faded.changing, true};
+}
+
+std::optional<TablePolygon> stand_hides(const PropShape& prop, const Stand& stand, const glm::dvec3& from_m) {
+    std::optional<TablePolygon> hidden = hidden_by_prop(prop, stand.table_from_prop, from_m);
+    if (!hidden || !stand.attracts) {
+        return hidden;
+    }
+    constexpr double eighth = 0.25 * std::numbers::pi;
+    TablePolygon all;
+    for (const double yaw : {0.0, eighth}) {
+        const RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
+                                  stand.table_from_prop.translation};
+        if (const std::optional<TablePolygon> one = hidden_by_prop(prop, pose, from_m)) {
+            all = hull_of(all, one->corners());
+        }
+    }
+    return all;
 }
 
 } // namespace frustumscreen

@@ -8,8 +8,12 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
+#include "app/exhibit/captions.h"
 #include "app/exhibit/fade.h"
+#include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+
+#include <optional>
 
 namespace frustumscreen {
 
@@ -32,11 +36,18 @@ public:
     /// `known`: the prop's pose is good; else its age counts; 0 = there was no pose yet.
     [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
                            const RigidTransform& table_from_prop);
+    /// As of the latest `at`: nobody has known where the prop is for a while, and the picture leaves it or has left it.
+    [[nodiscard]] bool lost() const;
 
 private:
     glm::dvec2 place_m_;
     Fade fade_;
     MonotonicTime turns_since_;
 };
+
+/// What the artifact's place hides from a point. An artifact that turns at a place of its own hides the same at any angle, so
+/// that nothing beside it moves.
+[[nodiscard]] std::optional<TablePolygon> stand_hides(const PropShape& prop, const Stand& stand,
+                                                      const glm::dvec3& from_m);
 
 } // namespace frustumscreen

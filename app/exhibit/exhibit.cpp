@@ -1,10 +1,8 @@
 #include "app/exhibit/exhibit.h"
 
 #include "app/exhibit/languages.h"
-#include "app/geometry/time_curves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace frustumscreen {
@@ -45,12 +43,9 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
-      states_(catalogue_.size(), ArtifactState::Ready),
+      ready_(catalogue_.size(), ArtifactState::Ready), state_since_(now), next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      advice_placer_(place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
-    for (const AdviceLanguage& words : place_.words) {
-        word_languages_.push_back(words.language);
-    }
+      sentences_(place.words, place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
     if (place.table_pictures) {
         table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
                                   .picture_m = place.picture_m,
@@ -62,9 +57,13 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
 }
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
-    if (staff_until_ && now >= *staff_until_) {
-        staff_until_.reset();
-    }
+    const State before = state_;
+    // Who is told something is there, also without moving.
+    const bool telling = tells();
+    there_ = presence_.update(now, situation, !commands.empty() || telling);
+    const bool rests =
+        state_ == State::Staff ? now - state_since_ >= staff_time : presence_.rests(now, place_.rest);
+    go_to(next(state_, rests ? Event::Rest : Event::VisitorComes), now);
     leave_out_the_bad(now);
     for (const Command command : commands) {
         take(command, now);
@@ -75,43 +74,13 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const Stand stand =
         attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
     side_.update(situation.eye_m);
-    step_table(now, situation, stand);
-    const Shown shown = selection_.at(now);
-
-    Presentation presentation;
-    presentation.artifact = shown.artifact;
-    const StandIn::Output comes = stand_in(now, shown, stand);
-    presentation.brightness = comes.brightness * stand.brightness;
-    presentation.stand_in = comes.picture;
-    presentation.wanted = wanted();
-    presentation.language = language_of(shown.artifact);
-    guide(now, situation, stand, !commands.empty(), presentation);
-    tell(now, situation, shown, stand, !commands.empty(), presentation);
-    presentation.caption = caption(now, shown, situation, stand);
-    if (presentation.caption && presentation.advice) {
-        // One text at a time, or the two would lie on each other.
-        presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
-    }
-    presentation.hotspot = label(now, shown, situation, stand, presentation);
-    presentation.table = table_ ? &table_->presented() : nullptr;
-    presentation.table_language = shown.language;
-    presentation.title_brightness = shown.language_brightness;
-    // Pictures invite out of the zone, and its frame would cross them.
-    const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
-    presentation.zone_share = framed ? place_.zone.share(stand.table_from_prop) * stand.brightness : 0.0;
-    presentation.table_from_prop = stand.table_from_prop;
-    presentation.attracts = stand.attracts;
-    const double opacity = placer_.at(now).opacity;
-    const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
-                           !comes.waits && !teller_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
-    presentation.staff = staff_until_.has_value();
-    presentation.lamps = lamps();
-    return presentation;
+    go_to(state_after(state_, observe(now, situation, stand)), now);
+    follow_state(before, now);
+    return present(now, situation, stand, !commands.empty());
 }
 
 void Exhibit::note(std::span<const ArtifactState> states) {
-    std::copy_n(states.begin(), std::min(states.size(), states_.size()), states_.begin());
+    std::copy_n(states.begin(), std::min(states.size(), ready_.size()), ready_.begin());
 }
 
 void Exhibit::note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
@@ -126,13 +95,13 @@ void Exhibit::note_triangles(std::size_t artifact, ArtifactTriangles triangles) 
 }
 
 void Exhibit::leave_out_the_bad(MonotonicTime now) {
-    const auto bad = std::count(states_.begin(), states_.end(), ArtifactState::LeftOut);
+    const auto bad = std::count(ready_.begin(), ready_.end(), ArtifactState::LeftOut);
     if (static_cast<std::size_t>(bad) == left_out_) {
         return;
     }
     left_out_ = static_cast<std::size_t>(bad);
-    for (std::size_t artifact = 0; artifact < states_.size(); ++artifact) {
-        if (states_[artifact] == ArtifactState::LeftOut) {
+    for (std::size_t artifact = 0; artifact < ready_.size(); ++artifact) {
+        if (ready_[artifact] == ArtifactState::LeftOut) {
             selection_.leave_out(artifact, now);
             if (table_) {
                 table_->leave_out(artifact);
@@ -142,55 +111,7 @@ void Exhibit::leave_out_the_bad(MonotonicTime now) {
 }
 
 bool Exhibit::ready(std::size_t artifact) const {
-    return artifact < states_.size() && states_[artifact] == ArtifactState::Ready;
-}
-
-WantedArtifacts Exhibit::wanted() const {
-    WantedArtifacts wanted;
-    if (catalogue_.empty()) {
-        return wanted;
-    }
-    wanted.add(selection_.artifact());
-    if (table_ && table_->presented().ring) {
-        if (const std::optional<std::size_t> rested =
-                table_->presented().places[*table_->presented().ring].artifact) {
-            wanted.add(*rested);
-        }
-    }
-    wanted.add(selection_.next());
-    wanted.add(selection_.previous());
-    return wanted;
-}
-
-/// The prop's place is as large as its bottom, upright for the reader.
-StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
-    if (catalogue_.empty()) {
-        return {0.0, std::nullopt, false};
-    }
-    const std::size_t chosen = selection_.artifact();
-    double half_side_m = 0.0;
-    for (const glm::dvec3& corner : std::span(place_.prop.corners).first(place_.prop.corners.size() / 2)) {
-        half_side_m = std::max({half_side_m, std::abs(corner.x), std::abs(corner.y)});
-    }
-    StandIn::Input input{shown,
-                         chosen,
-                         ready(shown.artifact),
-                         ready(chosen),
-                         std::nullopt,
-                         {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
-                          side_.quarter_turns()}};
-    if (table_) {
-        for (const PlacedPicture& picture : table_->presented().pictures()) {
-            if (picture.artifact == chosen) {
-                input.from = picture.place.picture;
-            }
-        }
-    }
-    StandIn::Output comes = stand_in_.step(now, input);
-    if (comes.picture) {
-        comes.picture->brightness *= stand.brightness;
-    }
-    return comes;
+    return artifact < ready_.size() && ready_[artifact] == ArtifactState::Ready;
 }
 
 void Exhibit::take(Command command, MonotonicTime now) {
@@ -198,14 +119,14 @@ void Exhibit::take(Command command, MonotonicTime now) {
         take_chord(now);
         return;
     }
-    selected_.at(static_cast<std::size_t>(button_of(command))) = !staff_until_;
-    if (staff_until_) {
-        staff_until_.reset();
-    } else {
+    const bool counts = state_ != State::Staff;
+    selected_.at(static_cast<std::size_t>(button_of(command))) = counts;
+    if (counts) {
         selection_.take(command, now);
         choose_ = choose_ || command == Command::Choose;
         help_ = help_ || command == Command::Help;
     }
+    go_to(next(state_, Event::Press), now);
 }
 
 /// Undoes the presses of the first and the last button, with which the chord began, and switches the staff's
@@ -216,223 +137,97 @@ void Exhibit::take_chord(MonotonicTime now) {
             selection_.undo(button_commands[button], now);
         }
     }
-    staff_until_ = staff_until_ ? std::nullopt : std::optional(now + staff_time);
+    go_to(next(state_, Event::Chord), now);
+}
+
+void Exhibit::go_to(State state, MonotonicTime now) {
+    if (state != state_) {
+        state_before_ = std::exchange(state_, state);
+        state_since_ = now;
+    }
+}
+
+void Exhibit::follow_state(State before, MonotonicTime now) {
+    if (state_ != State::Attract) {
+        return;
+    }
+    if (before != State::Attract) { // the visitor has gone
+        selection_.reset_language(now);
+        sensed_.forget();
+        if (guide_) {
+            guide_->forget();
+        }
+        next_turn_ = now + turn_time;
+    } else if (now >= next_turn_) {
+        selection_.choose(selection_.next(), now);
+        next_turn_ = now + turn_time;
+    }
+}
+
+Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const Stand& stand) {
+    Observed seen;
+    seen.nothing_to_show = left_out_ == catalogue_.size();
+    seen.tracker_lost = attract_->lost();
+    step_table(now, situation, stand, seen);
+    guidance_ = step_guide(now, situation, stand);
+    seen.telling = tells();
+    seen.advice_due = guidance_ != nullptr;
+    return seen;
 }
 
 /// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
-void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand) {
+void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen) {
     if (!table_) {
         return;
     }
     TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
-                              hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m), std::nullopt,
-                              choose_};
-    if (situation.prop_known && !staff_until_) {
+                              stand_hides(place_.prop, stand, place_.lens_m), std::nullopt, choose_};
+    if (situation.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, situation.table_from_prop);
     }
-    if (const std::optional<std::size_t> chosen = table_->step(now, input)) {
+    const std::optional<std::size_t> chosen = table_->step(now, input);
+    seen.prop_rests = table_->presented().ring.has_value();
+    seen.artifact_chosen = chosen.has_value();
+    if (chosen && state_ != State::Attract) { // there a prop that stands on a picture is nobody's wish
         selection_.choose(*chosen, now);
     }
     choose_ = choose_ && !table_->chose();
     placer_.set_obstacles(table_->obstacles());
-    advice_placer_.set_obstacles(table_->obstacles());
+    sentences_.set_obstacles(table_->obstacles());
 }
 
-std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
-                                                 const Situation& situation, const Stand& stand) {
-    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
-        return std::nullopt;
-    }
-    const CatalogueEntry& entry = catalogue_[shown.artifact];
-    const std::size_t language = caption_for(shown.language, entry.languages);
-    const CaptionText text = teller_.text();
-    const std::vector<glm::dvec2>& sizes =
-        text.portion ? entry.descriptions[language].largest_m : entry.caption_sizes_m[language];
-    if (placed_ != &sizes) {
-        placed_ = &sizes;
-        placer_.set_shapes(sizes);
-    }
-    const RigidTransform& pose = stand.table_from_prop;
-    placer_.update(now, hidden_by_prop(place_.prop, pose, place_.lens_m),
-                   hidden_by_prop(place_.prop, pose, situation.eye_m), glm::dvec2(pose.translation),
-                   side_.quarter_turns());
-    const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness) * text.brightness;
-    if (brightness <= 0.0) {
-        return std::nullopt;
-    }
-    PresentedCaption caption{language, place.shape, place.rectangle, brightness, text.portion};
-    if (text.portion) {
-        const DescriptionShape& description = entry.descriptions[language];
-        caption.rectangle = portion_place(place.rectangle, description.sizes_m[*text.portion][place.shape],
-                                          description.flush_right);
-    }
-    return caption;
-}
-
-/// Beside the pictures and the caption; without words of advice, which say what to do first.
-std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
-                                               const Situation& situation, const Stand& stand,
-                                               const Presentation& presentation) {
-    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
-        return std::nullopt;
-    }
-    const CatalogueEntry& entry = catalogue_[shown.artifact];
-    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
-    std::size_t count = 0;
-    for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
-        obstacles.at(count++) = place;
-    }
-    if (presentation.caption) {
-        obstacles.at(count++) = presentation.caption->rectangle;
-    }
-    const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
-    return labels_.step(
-        now, {&entry.hotspots, shown.artifact,
-              stand.attracts ? std::nullopt : (presentation.tells_of ? presentation.tells_of : hotspot_),
-              caption_for(shown.language, entry.languages),
-              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
-              stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
-              presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
-              side_.quarter_turns()});
-}
-
-DescriptionIndex Exhibit::description_of(std::size_t artifact, std::string_view language) const {
-    const bool named = artifact < catalogue_.size() && !catalogue_[artifact].languages.empty();
-    return {artifact, named ? caption_for(language, catalogue_[artifact].languages) : 0};
-}
-
-const Tellable* Exhibit::tellable(const DescriptionIndex& description) const {
-    if (description.artifact >= catalogue_.size()) {
+const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situation, const Stand& stand) {
+    const bool lost = attract_->lost();
+    const Sensing sensing = sensed_.update(now, situation, lost, presence_.touched());
+    const bool can_be_guided = lost || (situation.prop_known && !stand.attracts);
+    if (!guide_ || !there_ || !can_be_guided || state_ == State::Attract || state_ == State::Staff) {
         return nullptr;
     }
-    const std::vector<Tellable>& tellables = catalogue_[description.artifact].tellables;
-    return description.language < tellables.size() && tellables[description.language].count() > 0
-               ? &tellables[description.language]
-               : nullptr;
-}
-
-void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
-                   bool pressed, Presentation& presentation) {
-    TellerInput input;
-    input.subject = description_of(selection_.artifact(), selection_.language());
-    input.visible = description_of(shown.artifact, shown.language);
-    input.tellable = tellable(input.subject);
-    input.fades = shown.changing || stand.changing;
-    input.attracts = stand.attracts;
-    input.there = there_;
-    input.pressed = pressed;
-    input.next = std::exchange(choose_, false);
-    input.help = std::exchange(help_, false);
-    input.staff = staff_until_.has_value();
-    input.stage = stage_;
-    input.narration = narration_;
-    const Told& told = teller_.step(now, situation, input);
-    presentation.tells_of = told.hotspot;
-    presentation.leaves = told.leaves;
-    if (told.speaks) {
-        presentation.tells = input.subject;
-    }
-    if (input.tellable != nullptr && !input.tellable->portions.empty()) {
-        presentation.prepares = input.subject;
-    }
-}
-
-/// The sentence in the visitor's language.
-std::optional<WordIndex> Exhibit::word_of(const Guidance& guidance) const {
-    if (place_.words.empty() || guidance.stage == GuidanceStage::Quiet) {
-        return std::nullopt;
-    }
-    const std::size_t language = caption_for(selection_.language(), word_languages_);
-    const std::vector<AdviceText>& texts = place_.words[language].texts;
-    const std::string_view key = words_key(guidance);
-    const auto found =
-        std::find_if(texts.begin(), texts.end(), [&](const AdviceText& text) { return text.key == key; });
-    return found != texts.end()
-               ? std::optional(WordIndex{language, static_cast<std::size_t>(found - texts.begin())})
-               : std::nullopt;
-}
-
-void Exhibit::place_advice(MonotonicTime now, const std::optional<WordIndex>& word,
-                           const TablePolygon& around, const Situation& situation,
-                           Presentation& presentation) {
-    if (word != advice_) {
-        advice_ = word;
-        advice_placer_.set_shapes(
-            word ? std::span<const glm::dvec2>(place_.words[word->language].texts[word->text].sizes_m)
-                 : std::span<const glm::dvec2>());
-    }
-    if (!word) {
-        return;
-    }
-    advice_placer_.update(now, around,
-                          hidden_by_prop(place_.prop, situation.table_from_prop, situation.eye_m),
-                          glm::dvec2(situation.table_from_prop.translation), side_.quarter_turns());
-    const CaptionPlace place = advice_placer_.at(now);
-    if (place.opacity > 0.0) {
-        presentation.advice = {*word, place.shape, place.rectangle, place.opacity};
-    }
-}
-
-void Exhibit::guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
-                    Presentation& presentation) {
-    there_ = presence_.update(now, situation, pressed);
-    stage_ = GuidanceStage::Quiet;
-    const bool was_advised = std::exchange(advised_, false);
-    if (guide_ && table_ && table_->prop_is_on_picture()) {
+    if (table_ && table_->prop_is_on_picture()) {
         guide_->rest(now); // what is being chosen is no mistake
-    } else if (guide_ && there_ && !stand.attracts && situation.prop_known) {
-        const GuidedSituation guided{situation.table_from_prop, situation.eye_m};
-        // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
-        const bool describes = teller_.told().portion.has_value();
-        if (help_) {
-            guide_->ask();
-        }
-        const Guidance& guidance =
-            guide_->step(now, guided, Sensing::Good, !speaking_ || (help_ && describes));
-        stage_ = guidance.stage;
-        const std::optional<TablePolygon> shadow =
-            guidance.stage != GuidanceStage::Quiet
-                ? hidden_by_prop(place_.prop, stand.table_from_prop, place_.lens_m)
-                : std::nullopt;
-        if (shadow) {
-            advised_ = true;
-            presentation.sign = place_sign(guidance, now, *shadow, place_.picture_m, side_.quarter_turns());
-            const TablePolygon around =
-                presentation.sign ? hull_of(*shadow, presentation.sign->corners_m) : *shadow;
-            const std::optional<WordIndex> word = word_of(guidance);
-            presentation.prepares_word = word;
-            const bool in_words = guidance.stage >= GuidanceStage::Text && (!describes || help_);
-            place_advice(now, in_words ? word : std::nullopt, around, situation, presentation);
-            presentation.says = guidance.speak ? word : std::nullopt;
-        }
+        return nullptr;
     }
-    if (!advised_) {
-        place_advice(now, std::nullopt, {}, situation, presentation);
+    if (help_) {
+        guide_->ask();
     }
-    presentation.falls_silent = was_advised && !advised_;
+    // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
+    const bool may_speak =
+        (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
+    const Guidance& guidance =
+        guide_->step(now, {situation.table_from_prop, situation.eye_m}, sensing, may_speak);
+    return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
-/// The language of the artifact's caption; without captions the chosen one.
-std::string_view Exhibit::language_of(std::size_t artifact) const {
-    if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
-        return selection_.language();
-    }
-    const std::vector<std::string>& languages = catalogue_[artifact].languages;
-    return languages[caption_for(selection_.language(), languages)];
+bool Exhibit::tells() const {
+    return teller_.told().portion.has_value() || teller_.told().hotspot.has_value();
 }
 
-std::uint32_t Exhibit::lamps() const {
-    std::uint32_t lamps = 0;
-    for (std::size_t button = 0; button < button_commands.size(); ++button) {
-        lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
+void Exhibit::hear(bool speaking, const Narration& narration) {
+    if (speaking_ && !speaking) {
+        spoken_.reset();
     }
-    const Tellable* const told = tellable(description_of(selection_.artifact(), selection_.language()));
-    const bool rests_on_picture = table_ && table_->presented().ring;
-    const bool helps = stage_ != GuidanceStage::Quiet || (told != nullptr && !told->portions.empty());
-    lamps |= told != nullptr || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
-    lamps |= helps ? 1U << button_of(Command::Help) : 0U;
-    return lamps;
+    speaking_ = speaking;
+    narration_ = narration;
 }
 
 } // namespace frustumscreen

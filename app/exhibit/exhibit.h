@@ -1,9 +1,12 @@
 /// Decides what the exhibit shows, from what was pressed and from where the prop and the eye are.
 ///
-///     commands, situation -> step -> Presentation
+///     commands, situation -> step -> events -> state -> Presentation
 ///
 /// A Presentation is plain values: the code that draws, lights lamps or reports needs nothing else.
 ///
+/// States   app/exhibit/states.h has them all; what is said, and where, follows from the state.
+/// Rest     after `ExhibitPlace::rest` without anybody the artifacts come in turn, in the house's language. The first touch ends
+///          it, and the artifact on show stays.
 /// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed; that
 ///          press does nothing else. Presses take effect at once, since a visitor's must. If they turn out to
 ///          be the beginning of the staff's chord they are undone, so the pattern leaves no trace.
@@ -21,7 +24,10 @@
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
+#include "app/exhibit/sensed.h"
+#include "app/exhibit/sentences.h"
 #include "app/exhibit/stand_in.h"
+#include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/teller.h"
 #include "app/exhibit/visitor_side.h"
@@ -54,16 +60,6 @@ struct CatalogueEntry {
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
-/// A sentence of the exhibit's own words.
-struct AdviceText {
-    std::string key;                 ///< as words_key gives it
-    std::vector<glm::dvec2> sizes_m; ///< as CatalogueEntry::caption_sizes_m
-};
-struct AdviceLanguage {
-    std::string language; ///< BCP 47
-    std::vector<AdviceText> texts;
-};
-
 /// The exhibit's place: prop, projector and table.
 struct ExhibitPlace {
     PropShape prop;
@@ -75,6 +71,7 @@ struct ExhibitPlace {
     std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
     std::vector<AdviceLanguage> words;            ///< none: guidance has no words
     bool table_pictures = false;                  ///< the set's artifacts lie on the table, to choose from
+    Nanoseconds rest = std::chrono::seconds(60);  ///< nobody has been there for so long: attract
 };
 
 struct PresentedCaption {
@@ -84,19 +81,6 @@ struct PresentedCaption {
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
     /// Of the description, which is shown in place of the short text.
     std::optional<std::size_t> portion = std::nullopt;
-};
-
-/// One of ExhibitPlace::words.
-struct WordIndex {
-    std::size_t language = 0;
-    std::size_t text = 0;
-    [[nodiscard]] bool operator==(const WordIndex&) const = default;
-};
-struct PresentedAdvice {
-    WordIndex word;
-    std::size_t shape = 0; ///< index into its sizes
-    TableRectangle rectangle;
-    double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
 
 /// Artifacts that a visitor may see next, the most urgent first: the chosen one, the one that is rested on, the next, the
@@ -114,16 +98,18 @@ private:
 };
 
 struct Presentation {
-    std::size_t artifact = 0; ///< index into the catalogue
-    double brightness = 0.0;  ///< of the artifact: 0..1, a factor on linear light; 0 while it is not ready
-    WantedArtifacts wanted;   ///< to load ahead
+    State state = State::Attract;
+    State state_before = State::Attract; ///< the latest other one
+    std::size_t artifact = 0;            ///< index into the catalogue
+    double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 while it is not ready
+    WantedArtifacts wanted;  ///< to load ahead
     std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
     std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
     std::optional<PlacedSign> sign;           ///< what the visitor should do
-    std::optional<PresentedAdvice> advice;    ///< the same in words
+    std::optional<PresentedAdvice> advice;    ///< the same in words; an invitation; why nothing is shown
     std::optional<WordIndex> says;            ///< what begins to be spoken at this step
-    bool falls_silent = false;                ///< no advice need be said any more
+    bool falls_silent = false;                ///< what was spoken of it holds no more
     std::optional<WordIndex> prepares_word;   ///< what may be spoken next
     std::optional<DescriptionIndex> tells;    ///< whose description is to be heard, from its beginning on
     bool leaves = false;                      ///< what it told before ends at its next pause, else at once
@@ -137,15 +123,17 @@ struct Presentation {
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
     bool settled = true;            ///< nothing fades: a good moment for a picture
-    bool staff = false;             ///< the alignment pattern is shown instead
+    bool staff = false;             ///< State::Staff: the alignment pattern is shown instead
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
 };
 
 class Exhibit {
 public:
     static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
+    /// Of an artifact, while they come in turn.
+    static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
 
-    /// Begins with the first artifact, and with the caption that `caption_for` chooses for `language`.
+    /// Begins in State::Attract with the first artifact, and with the caption that `caption_for` chooses for `language`.
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
 
     /// `commands`: those since the step before, in their order.
@@ -156,33 +144,43 @@ public:
     /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
-    void hear(bool speaking, const Narration& narration = {}) {
-        speaking_ = speaking;
-        narration_ = narration;
-    }
+    void hear(bool speaking, const Narration& narration = {});
+    /// The label of this hotspot is shown while none is told of; nothing, and an index that there is not: no label.
+    void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
     /// Ends the staff's mode early: there is no pattern to show.
-    void end_staff_mode() { staff_until_.reset(); }
+    void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
     void leave_out_the_bad(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
+    void go_to(State state, MonotonicTime now);
+    /// What a state does as it begins, and as it goes on.
+    void follow_state(State before, MonotonicTime now);
+    [[nodiscard]] Observed observe(MonotonicTime now, const Situation& situation, const Stand& stand);
+    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen);
+    /// Nothing where nobody is there, or there is nothing to mend.
+    [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const Situation& situation,
+                                             const Stand& stand);
+    /// Something of the artifact is being told.
+    [[nodiscard]] bool tells() const;
+
+    // What is shown in the state that it is in: exhibit_shows.cpp.
+    [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,
+                                       bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;
     [[nodiscard]] StandIn::Output stand_in(MonotonicTime now, const Shown& shown, const Stand& stand);
-    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const Situation& situation, const Stand& stand);
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
                                                         const Situation& situation, const Stand& stand,
                                                         const Presentation& presentation);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
-    [[nodiscard]] std::optional<WordIndex> word_of(const Guidance& guidance) const;
-    /// `around`: the shadow, and the sign beside it.
-    void place_advice(MonotonicTime now, const std::optional<WordIndex>& word, const TablePolygon& around,
-                      const Situation& situation, Presentation& presentation);
-    void guide(MonotonicTime now, const Situation& situation, const Stand& stand, bool pressed,
-               Presentation& presentation);
+    [[nodiscard]] std::optional<WordIndex> word() const;
+    void present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+                       Presentation& presentation);
+    void speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation);
     void tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
               bool pressed, Presentation& presentation);
     [[nodiscard]] DescriptionIndex description_of(std::size_t artifact, std::string_view language) const;
@@ -193,25 +191,29 @@ private:
     Catalogue catalogue_;
     ExhibitPlace place_;
     Selection selection_;
-    std::vector<ArtifactState> states_;
+    std::vector<ArtifactState> ready_;
     std::size_t left_out_ = 0;     ///< how many of them the selection knows to be left out
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
     StandIn stand_in_;
+    State state_ = State::Attract;
+    State state_before_ = State::Attract;
+    MonotonicTime state_since_;
+    MonotonicTime next_turn_;        ///< when the next artifact comes, in State::Attract
     std::optional<Attract> attract_; ///< from the first step on
+    Presence presence_;
+    Sensed sensed_;
     std::optional<Guide> guide_;
-    std::vector<std::string> word_languages_;
-    CaptionPlacer advice_placer_;
-    std::optional<WordIndex> advice_; ///< that the placer has
-    bool speaking_ = false;
+    const Guidance* guidance_ = nullptr; ///< of this step
+    Sentences sentences_;
+    bool speaking_ = false;           ///< somebody hears something
+    bool speech_due_ = false;         ///< until the words lie on the table
+    std::optional<WordIndex> spoken_; ///< what they may still hear
+    VisitorSide side_;                ///< what lies on the table is turned to it
     Narration narration_;
     Teller teller_;
-    bool choose_ = false;                        ///< pressed, and not taken yet
-    bool help_ = false;                          ///< the same
-    bool there_ = false;                         ///< somebody is
-    GuidanceStage stage_ = GuidanceStage::Quiet; ///< of the latest step
-    bool advised_ = false;                       ///< at the step before
-    Presence presence_;                          ///< guidance is for somebody who is there
-    VisitorSide side_;                           ///< what lies on the table is turned to it
+    bool choose_ = false; ///< pressed, and not taken yet
+    bool help_ = false;   ///< the same
+    bool there_ = false;  ///< somebody is
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     HotspotLabels labels_;
@@ -219,7 +221,6 @@ private:
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.
     std::array<bool, button_commands.size()> selected_{};
-    std::optional<MonotonicTime> staff_until_;
 };
 
 } // namespace frustumscreen

@@ -1,36 +1,32 @@
 #include "app/exhibit/presence.h"
 
-#include <algorithm>
-#include <cmath>
+#include "app/geometry/rotation_angle.h"
 
 namespace frustumscreen {
 
 namespace {
 
-bool has_moved(const Situation& now, const Situation& then) {
+bool prop_has_moved(const Situation& now, const Situation& then) {
     const RigidTransform& a = now.table_from_prop;
     const RigidTransform& b = then.table_from_prop;
-    const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
-    const bool prop = now.prop_known &&
-                      (!then.prop_known || glm::distance(a.translation, b.translation) > Presence::moved_m ||
-                       2.0 * std::acos(cosine) > Presence::turned_rad);
+    return now.prop_known &&
+           (!then.prop_known || glm::distance(a.translation, b.translation) > Presence::moved_m ||
+            rotation_angle(a.rotation, b.rotation) > Presence::turned_rad);
+}
+
+bool head_has_moved(const Situation& now, const Situation& then) {
     constexpr double nodded_m = 0.05; // nobody holds their head still
-    const bool head = now.head_known && (!then.head_known || glm::distance(now.eye_m, then.eye_m) > nodded_m);
-    return prop || head;
+    return now.head_known && (!then.head_known || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
 } // namespace
 
-bool Presence::update(MonotonicTime now, const Situation& situation, bool pressed) {
-    if (!rested_) {
-        rested_ = situation;
-    } else if (has_moved(situation, *rested_)) {
-        rested_ = situation;
-        moved_ = now;
-    }
-    if (pressed) {
-        moved_ = now;
-    }
+bool Presence::update(MonotonicTime now, const Situation& situation, bool active) {
+    const bool prop = rested_ && prop_has_moved(situation, *rested_);
+    const bool moved = prop || (rested_ && head_has_moved(situation, *rested_));
+    rested_ = moved || !rested_ ? situation : rested_;
+    moved_ = moved || active ? now : moved_;
+    touched_ = prop || active ? now : touched_;
     return moved_ && now - *moved_ < stays;
 }
 

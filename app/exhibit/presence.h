@@ -1,4 +1,5 @@
-/// Whether somebody is at the table: the prop or the head moved, or a button was pressed, within half a minute.
+/// Whether somebody is at the table: the prop or the head moved, or a button was pressed, within half a minute; and for how long
+/// nobody has been.
 ///
 /// A prop that was left out of the light overnight is not told all night to come back.
 ///
@@ -20,12 +21,19 @@ public:
     static constexpr double moved_m = 0.004;
     static constexpr double turned_rad = 0.05;
 
-    /// Returns whether somebody is there.
-    bool update(MonotonicTime now, const Situation& situation, bool pressed);
+    /// `active`: a button was pressed, or somebody is being told something. Returns whether somebody is there.
+    bool update(MonotonicTime now, const Situation& situation, bool active);
+    /// Nobody has been there for so long, or ever.
+    [[nodiscard]] bool rests(MonotonicTime now, Nanoseconds rest) const {
+        return !moved_ || now - *moved_ >= rest;
+    }
+    /// When the prop moved last or a button was pressed; nothing: never.
+    [[nodiscard]] const std::optional<MonotonicTime>& touched() const { return touched_; }
 
 private:
     std::optional<Situation> rested_; ///< where prop and head were at the latest movement
     std::optional<MonotonicTime> moved_;
+    std::optional<MonotonicTime> touched_;
 };
 
 } // namespace frustumscreen

@@ -17,9 +17,10 @@ std::size_t place_of(std::string_view language, std::span<const std::string> lan
 Selection::Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
                      MonotonicTime now)
     : count_(artifact_count), left_out_(artifact_count), languages_(std::move(languages)),
-      language_count_(languages_.size()), language_before_(place_of(language, languages_)),
-      artifact_(0, fade_time, now), language_(language_before_, fade_time, now) {
-    if (language_before_ == languages_.size()) {
+      language_count_(languages_.size()), first_language_(place_of(language, languages_)),
+      language_before_(first_language_), artifact_(0, fade_time, now),
+      language_(first_language_, fade_time, now) {
+    if (first_language_ == languages_.size()) {
         languages_.push_back(std::move(language));
     }
 }
@@ -70,6 +71,11 @@ void Selection::change_language(std::size_t which, MonotonicTime now) {
         language_.change_to(which, now,
                             now < artifact_.dark() ? artifact_.begins() : std::max(now, artifact_.ends()));
     }
+}
+
+void Selection::reset_language(MonotonicTime now) {
+    language_before_ = first_language_;
+    change_language(first_language_, now);
 }
 
 void Selection::undo(Command command, MonotonicTime now) {

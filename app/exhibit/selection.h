@@ -52,6 +52,8 @@ public:
     /// other.
     [[nodiscard]] std::size_t next() const { return neighbour(1); }
     [[nodiscard]] std::size_t previous() const { return neighbour(count_ - 1); }
+    /// Goes back to the language that it began with.
+    void reset_language(MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
     /// Whether the command has something to change to.
@@ -72,6 +74,7 @@ private:
     std::vector<bool> left_out_;
     std::vector<std::string> languages_; ///< and one more, where it begins in none of them
     std::size_t language_count_;
+    std::size_t first_language_;
     std::size_t language_before_; ///< the language before the latest command for another
     Fade artifact_;
     Fade language_; ///< indices into `languages_`

@@ -1,5 +1,7 @@
 #include "app/guidance/advice.h"
 
+#include "app/geometry/rotation_angle.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,9 +87,9 @@ bool Standing::holds(const GuidedSituation& situation) const {
     constexpr double walked_m = 0.1;
     const RigidTransform& now = situation.table_from_prop;
     const RigidTransform& then = given.table_from_prop;
-    const double cosine = std::min(1.0, std::abs(glm::dot(now.rotation, then.rotation)));
     return glm::distance(now.translation, then.translation) < begun_m &&
-           2.0 * std::acos(cosine) < begun_rad && glm::distance(situation.eye_m, given.eye_m) < walked_m;
+           rotation_angle(now.rotation, then.rotation) < begun_rad &&
+           glm::distance(situation.eye_m, given.eye_m) < walked_m;
 }
 
 } // namespace frustumscreen

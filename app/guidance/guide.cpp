@@ -1,5 +1,7 @@
 #include "app/guidance/guide.h"
 
+#include "app/geometry/rotation_angle.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,20 +35,17 @@ bool has_moved(const GuidedSituation& now, const GuidedSituation& then) {
     constexpr double looked_around_m = 0.02;
     const RigidTransform& a = now.table_from_prop;
     const RigidTransform& b = then.table_from_prop;
-    const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
-    return glm::distance(a.translation, b.translation) > moved_m || 2.0 * std::acos(cosine) > turned_rad ||
+    return glm::distance(a.translation, b.translation) > moved_m ||
+           rotation_angle(a.rotation, b.rotation) > turned_rad ||
            glm::distance(now.eye_m, then.eye_m) > looked_around_m;
 }
 
 } // namespace
 
 /// A prop of the table that lies so that the visitor sees none of its faces shows nothing, though nothing is unlit.
-bool Guide::needs_help(const GuidedSituation& situation, Sensing sensing) {
-    if (sensing != Sensing::Good) {
-        return true;
-    }
+bool Guide::whole(const GuidedSituation& situation) {
     faces_ = advisor_.reader().read(situation);
-    return !faces_.valid() || (faces_.seen == 0 && !advisor_.reader().setup().in_hand);
+    return faces_.valid() && (faces_.seen != 0 || advisor_.reader().setup().in_hand);
 }
 
 void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
@@ -61,6 +60,8 @@ void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing se
         guidance_.move = advice ? advice->move : Move{Action::Upright};
         guidance_.steps = advice ? advice->steps : 1;
     }
+    guidance_.left_light = sensing == Sensing::PropLost && !advisor_.reader().setup().in_hand &&
+                           !advisor_.reader().valid(situation);
     const double left = effort_left(guidance_.move);
     if (guidance_.stage == GuidanceStage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
         // Another advice begins as a picture, however far the one before had come.
@@ -121,7 +122,10 @@ void Guide::answer(MonotonicTime now, bool may_speak) {
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
     guidance_.speak = false;
-    if (!needs_help(situation, sensing)) {
+    const bool lost = sensing == Sensing::PropLost || sensing == Sensing::TrackerAway;
+    const bool dark = !lost && !whole(situation);
+    sensing = dark ? Sensing::Good : sensing;
+    if (!dark && sensing == Sensing::Good) {
         rest(now);
         return guidance_;
     }
@@ -159,6 +163,16 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
         take(now, *looks_at_, sensing);
         looks_at_.reset();
     }
+}
+
+void Guide::forget() {
+    guidance_ = {};
+    asked_ = false;
+    needed_since_.reset();
+    next_look_.reset();
+    looks_at_.reset();
+    spoken_.reset();
+    pause_ = first_pause;
 }
 
 namespace {
@@ -201,8 +215,17 @@ std::string_view walk_key(const Guidance& guidance) {
 } // namespace
 
 std::string_view words_key(const Guidance& guidance) {
-    if (guidance.sensing != Sensing::Good) {
-        return guidance.sensing == Sensing::PropLost ? "uncover" : "show_your_head";
+    switch (guidance.sensing) {
+    case Sensing::PropLost:
+        return guidance.left_light ? "slide_back_to_light" : "uncover";
+    case Sensing::TrackerAway:
+        return "wait_tracker";
+    case Sensing::HeadLost:
+        return "show_your_head";
+    case Sensing::MetalNear:
+        return "away_from_metal";
+    case Sensing::Good:
+        break;
     }
     switch (guidance.move.action) {
     case Action::Slide:

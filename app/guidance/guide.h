@@ -19,8 +19,15 @@
 
 namespace frustumscreen {
 
-/// How well the tracker knows the prop and the visitor.
-enum class Sensing : std::uint8_t { Good, PropLost, HeadLost };
+/// How well the tracker knows the prop and the visitor. Without the prop nothing else can be said; a lost head and metal are
+/// spoken of where every seen face is lit.
+enum class Sensing : std::uint8_t {
+    Good,
+    PropLost,    ///< it is covered or out of reach
+    TrackerAway, ///< the tracker itself does not answer
+    HeadLost,
+    MetalNear
+};
 
 enum class GuidanceStage : std::uint8_t { Quiet, Picture, Text, Voice };
 
@@ -29,6 +36,7 @@ struct Guidance {
     Move move; ///< of what is advised; Wait if only `sensing` says why
     int steps = 0;
     Sensing sensing = Sensing::Good;
+    bool left_light = false;   ///< a prop of the table was lost where it was not lit
     bool speak = false;        ///< at this step the sentence begins to be spoken
     MonotonicTime since;       ///< when the picture appeared
     GuidedSituation situation; ///< that the advice was found for
@@ -49,19 +57,22 @@ public:
 
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
 
-    /// `may_speak`: false while something else is being said.
+    /// `situation`: of a lost prop the latest that was known. `may_speak`: false while something else is being said, or the
+    /// words do not lie on the table.
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                                        bool may_speak);
     /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
     /// Somebody asks what to do: where there is advice, the next step gives all of it at once.
     void ask() { asked_ = true; }
+    /// The visitor has gone: the next one is told everything anew.
+    void forget();
     /// The faces of the latest step.
     [[nodiscard]] const FaceSets& faces() const { return faces_; }
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
 
 private:
-    [[nodiscard]] bool needs_help(const GuidedSituation& situation, Sensing sensing);
+    [[nodiscard]] bool whole(const GuidedSituation& situation);
     void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);

@@ -9,14 +9,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace frustumscreen {
 
 namespace {
 
 constexpr std::string_view advice_prefix = "advice.";
+/// What else is shown of the exhibit's own words.
+constexpr std::array<std::string_view, 2> other_keys{"attract_line", "fault.no_artifact"};
 /// Widths that a sentence is wrapped to, in falling preference: narrower than a caption, as it lies beside a sign.
 constexpr std::array<double, 2> widths_m{0.24, 0.12};
 
@@ -42,16 +47,27 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key)
         fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}});
 }
 
+/// The key that the exhibit asks for; nothing: it asks for none.
+std::optional<std::string> key_of(const PlainWord& word) {
+    if (word.key.starts_with(advice_prefix)) {
+        return word.key.substr(advice_prefix.size());
+    }
+    return std::find(other_keys.begin(), other_keys.end(), word.key) != other_keys.end()
+               ? std::optional(word.key)
+               : std::nullopt;
+}
+
 Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& request, GpuStore& store,
                           AdviceWords& all) {
     AdviceLanguage language{words.language, {}};
     std::vector<AdviceWord> made;
     for (const PlainWord& word : words.words) {
         const GlyphText* const set = words.runs.find(word.key);
-        if (!word.key.starts_with(advice_prefix) || set == nullptr) {
+        const std::optional<std::string> key = key_of(word);
+        if (!key || set == nullptr) {
             continue;
         }
-        AdviceText text{word.key.substr(advice_prefix.size()), {}};
+        AdviceText text{*key, {}};
         AdviceWord one;
         for (const double width_m : widths_m) {
             const CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
@@ -64,7 +80,7 @@ Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& 
             text.sizes_m.push_back(image.size_m);
             one.textures.push_back(*texture);
         }
-        if (request.spoken) {
+        if (request.spoken && word.key.starts_with(advice_prefix)) {
             one.recording = recording_of(words, word.key);
         }
         language.texts.push_back(std::move(text));

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace frustumscreen {
@@ -434,18 +435,23 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
             residents_->left_out(),
             presentation.lamps,
             residents_->ready(),
-            residents_->bytes()};
+            residents_->bytes(),
+            presentation.state};
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
     const RigidTransform& table_from_projector = settings.projector.table_from_projector;
-    return {artifacts.catalogue(),
-            {make_prop(settings.prop), table_from_projector.translation, picture_on_table(settings, 0.0),
-             artifacts.zone(), artifacts.attract_place_m(), settings.panel.buttons(),
-             guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-             artifacts.words(), chooses_on_table(settings)},
-            settings.exhibit.language,
-            now};
+    ExhibitPlace place{make_prop(settings.prop),
+                       table_from_projector.translation,
+                       picture_on_table(settings, 0.0),
+                       artifacts.zone(),
+                       artifacts.attract_place_m(),
+                       settings.panel.buttons(),
+                       guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
+                       artifacts.words(),
+                       chooses_on_table(settings)};
+    place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
+    return {artifacts.catalogue(), place, settings.exhibit.language, now};
 }
 
 } // namespace frustumscreen

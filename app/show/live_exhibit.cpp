@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver) {
+std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver, State before) {
     const auto state = [](std::string_view device, const Sentence& sentence) {
         return fmt::format("{}: {}", device, sentence.view().empty() ? "nothing to say" : sentence.view());
     };
@@ -20,8 +20,8 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
         state("display", status.display),
         state("tracker", status.tracker),
         state("panel", status.panel),
-        fmt::format("prop {}, head {}", status.prop_known ? "known" : "lost",
-                    status.head_known ? "known" : "not known"),
+        fmt::format("state {}, before it {}; prop {}, head {}", status.state, name_of(before),
+                    status.prop_known ? "known" : "lost", status.head_known ? "known" : "not known"),
         fmt::format("shows {} ({}), {} of {}, {} samples a pixel, error {:.2f} mm mean, {:.2f} mm at most in "
                     "95 of 100 places",
                     status.artifact, status.language, status.level, status.technique, status.samples,
@@ -82,7 +82,7 @@ void LiveExhibit::follow_staff_mode() {
 
 void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
-        pattern_->set_lines(lines_of(status, driver_));
+        pattern_->set_lines(lines_of(status, driver_, presentation_.state_before));
     }
     speaker_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }

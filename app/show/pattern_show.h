@@ -24,11 +24,18 @@ public:
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
                                   Redraw redraw) override;
-    [[nodiscard]] ShowState state() const override { return {}; }
+    /// The pattern stands in for artifacts that cannot be shown.
+    void is_fault() { state_ = State::Fault; }
+    [[nodiscard]] ShowState state() const override {
+        ShowState state;
+        state.state = state_;
+        return state;
+    }
 
 private:
     PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload);
 
+    State state_ = State::Staff;
     PatternScene scene_;
     Typesetter typesetter_;
     PictureUpload upload_;

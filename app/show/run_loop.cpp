@@ -89,6 +89,7 @@ private:
         watch_.enters("draws");
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
+        situation.tracker = inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
         show_.step(now, commands_, situation);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
@@ -217,6 +218,7 @@ private:
         RunStatus& status = result_.status;
         const ShowState state = show_.state();
         status.left_out = state.left_out;
+        status.state = name_of(state.state);
         status.artifact = state.artifact;
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;

@@ -118,6 +118,7 @@ std::string status_json(const RunStatus& status) {
         {"presented", json_of(status.presented)},
         {"shown_code", json_of(status.shown_code)},
         {"left_out", left_out},
+        {"state", status.state},
         {"artifact", status.artifact},
         {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},
         {"technique", status.technique},

@@ -81,6 +81,7 @@ struct RunStatus {
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     TrackerCounts tracker_counts;
     std::span<const PackLeftOut> left_out; ///< lives as long as the show
+    std::string_view state;                ///< name_of(State)
     std::string_view artifact;
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;

@@ -31,6 +31,7 @@ struct ShowState {
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
+    State state = State::Staff;
 };
 
 class Show {

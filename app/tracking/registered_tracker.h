@@ -28,6 +28,7 @@ public:
     [[nodiscard]] std::string name() const override { return device_->name(); }
     [[nodiscard]] bool reports_table_frame() const override { return true; }
     [[nodiscard]] std::string_view state() const override { return device_->state(); }
+    [[nodiscard]] TrackerHealth health() const override { return device_->health(); }
     [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 

@@ -21,6 +21,7 @@ struct Situation {
     bool prop_known = false; ///< a usable pose of the prop was seen, and it is not too old
     bool head_known = false; ///< else `eye_m` is the default eye, or live on its way there
     Nanoseconds prop_age{0}; ///< of the pose used
+    TrackerHealth tracker = TrackerHealth::Well;
 };
 
 struct SituationLimits {

@@ -28,6 +28,13 @@ struct PoseSample {
     bool ok = true;                          ///< false: the device says that this pose is not to be used
 };
 
+/// How the tracker is, as far as a visitor meets it.
+enum class TrackerHealth : std::uint8_t {
+    Well,      ///< it may still not know where the prop is: that is covered or out of reach
+    MetalNear, ///< metal bends its field: poses are wrong by some millimetres
+    Away       ///< it sends nothing of the prop: unplugged, booting, faulty, or without the prop's sensor
+};
+
 /// What a device's driver has counted since the exhibit started; zeros where there is no device.
 struct TrackerCounts {
     std::uint64_t connections = 0;    ///< times that a device was opened
@@ -68,6 +75,7 @@ public:
     /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    [[nodiscard]] virtual TrackerHealth health() const { return TrackerHealth::Well; }
     /// As they stood at the latest `poll`.
     [[nodiscard]] virtual TrackerCounts counts() const { return {}; }
     /// Until when its thread has promised to be heard from again; nothing: it has none.

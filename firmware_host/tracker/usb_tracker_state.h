@@ -3,6 +3,8 @@
 /// Threads  values.
 #pragma once
 
+#include "firmware_host/tracker/tracker.h"
+
 #include <string_view>
 
 namespace frustumscreen {
@@ -79,6 +81,21 @@ enum class UsbTrackerState {
         return "the tracker's field is distorted; take metal away from its source and sensors";
     }
     return "";
+}
+
+[[nodiscard]] constexpr TrackerHealth health_of(UsbTrackerState state) {
+    switch (state) {
+    case UsbTrackerState::Streaming:
+    case UsbTrackerState::FilterStaysOn:
+    case UsbTrackerState::SetUpDoubtful:
+    case UsbTrackerState::PosesUnusable:
+    case UsbTrackerState::PosesLate:
+        return TrackerHealth::Well;
+    case UsbTrackerState::MetalNear:
+        return TrackerHealth::MetalNear;
+    default:
+        return TrackerHealth::Away;
+    }
 }
 
 /// Poses come in, good or less good.

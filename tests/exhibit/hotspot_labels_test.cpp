@@ -74,7 +74,7 @@ HotspotSet hotspots_of(const Blocks& blocks) {
 }
 
 Exhibit make_exhibit(const HotspotSet& set) {
-    CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, set};
+    CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, {}, {}, set};
     ExhibitPlace place = sample::place();
     place.lens_m = {0.0, 0.0, 1.4};
     return {{entry}, place, "en", start};

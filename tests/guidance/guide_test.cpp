@@ -116,6 +116,22 @@ TEST_F(GuideTest, SaysWhatIsMissing) {
     EXPECT_EQ(at(seconds(7), good).stage, GuidanceStage::Quiet);
 }
 
+TEST_F(GuideTest, SaysWhatTheTrackerLacksWhereThePictureIsWhole) {
+    EXPECT_EQ(words_key(at(seconds(3), good, Sensing::MetalNear)), "away_from_metal");
+    EXPECT_EQ(words_key(at(seconds(6), right_of_the_beam, Sensing::MetalNear)), "slide_left");
+    EXPECT_EQ(words_key(at(seconds(9), right_of_the_beam, Sensing::HeadLost)), "slide_left");
+    EXPECT_EQ(words_key(at(seconds(12), right_of_the_beam, Sensing::TrackerAway)), "wait_tracker");
+    EXPECT_EQ(words_key(at(seconds(15), right_of_the_beam, Sensing::PropLost)), "slide_back_to_light");
+}
+
+TEST_F(GuideTest, TellsTheNextVisitorAnew) {
+    at(seconds(120), right_of_the_beam);
+    const int before = spoken_;
+    guide_.forget();
+    at(seconds(126), right_of_the_beam);
+    EXPECT_EQ(spoken_, before + 1); // and not after the long pause that the one before had come to
+}
+
 TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {
     GuidedSituation upside_down = good;
     upside_down.table_from_prop = {glm::angleAxis(3.1, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.155}};

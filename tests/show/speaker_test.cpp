@@ -9,7 +9,6 @@
 using namespace frustumscreen;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using State = Narration::State;
 
 namespace {
 
@@ -81,13 +80,13 @@ TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
     frame();
     tell();
     frame();
-    EXPECT_EQ(speaker.narration(), (Narration{State::Coming, 0}));
+    EXPECT_EQ(speaker.narration(), (Narration{Narration::State::Coming, 0}));
     frames(3);
-    EXPECT_EQ(speaker.narration().state, State::Heard);
-    while (speaker.narration().state == State::Heard) {
+    EXPECT_EQ(speaker.narration().state, Narration::State::Heard);
+    while (speaker.narration().state == Narration::State::Heard) {
         frame();
     }
-    EXPECT_EQ(speaker.narration().state, State::Over);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
     const std::size_t begin = 2 * sample_rate_hz / 50;
     for (std::size_t k = Mixer::fade_samples; k + Mixer::fade_samples < truth.samples.size(); ++k) {
         ASSERT_EQ(heard[begin + k], truth.samples[k]) << k;
@@ -100,7 +99,7 @@ TEST_F(Speaking, its_portions_follow_what_is_heard) {
     tell();
     frames(3);
     std::size_t portion = 0;
-    while (speaker.narration().state == State::Heard) {
+    while (speaker.narration().state == Narration::State::Heard) {
         EXPECT_GE(speaker.narration().portion, portion);
         portion = speaker.narration().portion;
         frame();
@@ -115,15 +114,15 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     leave(false);
     frames(3);
     EXPECT_FALSE(sounds());
-    EXPECT_EQ(speaker.narration().state, State::Over);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
 
     tell();
     frames(10);
     leave(true);
     frame();
-    EXPECT_EQ(speaker.narration().state, State::Heard) << "not in the middle of a word";
+    EXPECT_EQ(speaker.narration().state, Narration::State::Heard) << "not in the middle of a word";
     frames(200);
-    EXPECT_EQ(speaker.narration().state, State::Over);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
 
     tell();
     frames(10);
@@ -131,7 +130,7 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     frame();
     leave(false); // it took too long
     frames(3);
-    EXPECT_EQ(speaker.narration().state, State::Over);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
 }
 
 TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
@@ -143,7 +142,7 @@ TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
     frames(5);
     const Prompt truth = *read_opus(fixture("tone.opus"));
     EXPECT_TRUE(speaker.speaks());
-    EXPECT_NE(speaker.narration().state, State::Heard);
+    EXPECT_NE(speaker.narration().state, Narration::State::Heard);
     frames(100);
     const std::size_t from = heard.size() - std::min<std::size_t>(heard.size(), 105 * sample_rate_hz / 50);
     const auto at = std::search(heard.begin() + static_cast<std::ptrdiff_t>(from), heard.end(),
@@ -156,18 +155,19 @@ TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_descripti
     frames(20);
     presentation.falls_silent = true;
     frames(10);
-    EXPECT_EQ(speaker.narration().state, State::Heard) << "silence for advice is none for the description";
+    EXPECT_EQ(speaker.narration().state, Narration::State::Heard)
+        << "silence for advice is none for the description";
 }
 
 TEST_F(Speaking, what_has_no_sound_is_silent) {
     presentation.tells = presentation.prepares = DescriptionIndex{1, 0};
     frames(2);
-    EXPECT_EQ(speaker.narration().state, State::Silent);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Silent);
     stage.description = std::make_shared<const Recording>(Recording{"bad", Bytes(9), {}, "", "", {}});
     ::testing::internal::CaptureStderr();
     tell();
     frames(2);
-    EXPECT_EQ(speaker.narration().state, State::Silent);
+    EXPECT_EQ(speaker.narration().state, Narration::State::Silent);
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("bad is silent: "), std::string::npos);
 }
 

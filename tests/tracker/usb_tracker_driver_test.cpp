@@ -220,6 +220,7 @@ TEST(UsbTrackerDriver, MetalAndAMissingSensorAreSaid) {
         bench.device.distortion = 200;
         bench.run(seconds(1));
         EXPECT_EQ(bench.state(), UsbTrackerState::MetalNear);
+        EXPECT_EQ(health_of(bench.state()), TrackerHealth::MetalNear);
         bench.device.distortion = 0;
         bench.run(seconds(1));
         EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);

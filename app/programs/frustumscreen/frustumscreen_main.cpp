@@ -6,6 +6,7 @@
 #include "app/programs/frustumscreen/record_command.h"
 #include "app/programs/frustumscreen/render_command.h"
 #include "app/programs/frustumscreen/run_command.h"
+#include "app/programs/frustumscreen/states_command.h"
 
 #include <fmt/format.h>
 
@@ -19,11 +20,12 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen run|record|render|guide|plan|config [--help] ...\n"
+    fmt::print(to, "usage: frustumscreen run|record|render|guide|states|plan|config [--help] ...\n"
                    "  run     the exhibit\n"
                    "  record  what the tracker sends, into a file\n"
                    "  render  a pose file into pictures, without devices\n"
                    "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
+                   "  states  what the exhibit does, and what leads from one thing to the other\n"
                    "  plan    what a scene needs, what it leaves out, and what that saves\n"
                    "  config  the resolved, checked settings; what they mean on the table\n"
                    "  --version\n");
@@ -33,10 +35,11 @@ struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 6> commands{{{"run", run_command},
+constexpr std::array<Command, 7> commands{{{"run", run_command},
                                            {"record", record_command},
                                            {"render", render_command},
                                            {"guide", guide_command},
+                                           {"states", states_command},
                                            {"plan", plan_command},
                                            {"config", config_command}}};
 

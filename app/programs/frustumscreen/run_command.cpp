@@ -202,6 +202,7 @@ Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journa
         return tl::unexpected<Error>(why);
     }
     (*pattern)->set_lines({why.message});
+    (*pattern)->is_fault();
     return std::move(*pattern);
 }
 

@@ -1,5 +1,6 @@
 #include "app/programs/sheet/sheet_frames.h"
 
+#include "app/geometry/rotation_angle.h"
 #include "app/tracking/pose_frames.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -73,10 +74,9 @@ bool looks_like(const SheetFrame& a, const SheetFrame& b) {
     constexpr double near_deg = 8.0;
     const RigidTransform& pose_a = a.situation.table_from_prop;
     const RigidTransform& pose_b = b.situation.table_from_prop;
-    const double half_turn = std::min(std::abs(glm::dot(pose_a.rotation, pose_b.rotation)), 1.0);
     return a.label == b.label && glm::distance(pose_a.translation, pose_b.translation) < near_m &&
            glm::distance(a.situation.eye_m, b.situation.eye_m) < near_eye_m &&
-           glm::degrees(2.0 * std::acos(half_turn)) < near_deg;
+           glm::degrees(rotation_angle(pose_a.rotation, pose_b.rotation)) < near_deg;
 }
 
 Result<void> check_folder(const std::filesystem::path& folder, const std::filesystem::path& pose_file) {

@@ -1,0 +1,276 @@
+// What the exhibit shows and says in the state that it is in.
+#include "app/exhibit/exhibit.h"
+#include "app/exhibit/languages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace frustumscreen {
+
+Presentation Exhibit::present(MonotonicTime now, const Situation& situation, const Stand& stand,
+                              bool pressed) {
+    const Shown shown = selection_.at(now);
+    Presentation presentation;
+    presentation.state = state_;
+    presentation.state_before = state_before_;
+    presentation.artifact = shown.artifact;
+    const StandIn::Output comes = stand_in(now, shown, stand);
+    presentation.brightness = comes.brightness * stand.brightness;
+    presentation.stand_in = comes.picture;
+    presentation.wanted = wanted();
+    presentation.language = language_of(shown.artifact);
+    present_words(now, situation, stand, presentation);
+    tell(now, situation, shown, stand, pressed, presentation);
+    presentation.caption = caption(now, shown, situation, stand);
+    if (presentation.caption && presentation.advice) {
+        // One text at a time, or the two would lie on each other.
+        presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
+    }
+    presentation.hotspot = label(now, shown, situation, stand, presentation);
+    presentation.table = table_ ? &table_->presented() : nullptr;
+    presentation.table_language = shown.language;
+    presentation.title_brightness = shown.language_brightness;
+    // Pictures invite out of the zone, and its frame would cross them.
+    const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
+    presentation.zone_share = framed ? place_.zone.share(stand.table_from_prop) * stand.brightness : 0.0;
+    presentation.table_from_prop = stand.table_from_prop;
+    presentation.attracts = stand.attracts;
+    const double opacity = placer_.at(now).opacity;
+    const bool table_changes = table_ && table_->presented().changing;
+    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
+                           !comes.waits && !teller_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
+    presentation.staff = state_ == State::Staff;
+    presentation.lamps = lamps();
+    return presentation;
+}
+
+WantedArtifacts Exhibit::wanted() const {
+    WantedArtifacts wanted;
+    if (catalogue_.empty()) {
+        return wanted;
+    }
+    wanted.add(selection_.artifact());
+    if (table_ && table_->presented().ring) {
+        if (const std::optional<std::size_t> rested =
+                table_->presented().places[*table_->presented().ring].artifact) {
+            wanted.add(*rested);
+        }
+    }
+    wanted.add(selection_.next());
+    wanted.add(selection_.previous());
+    return wanted;
+}
+
+/// The prop's place is as large as its bottom, upright for the reader.
+StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
+    if (catalogue_.empty()) {
+        return {0.0, std::nullopt, false};
+    }
+    const std::size_t chosen = selection_.artifact();
+    double half_side_m = 0.0;
+    for (const glm::dvec3& corner : std::span(place_.prop.corners).first(place_.prop.corners.size() / 2)) {
+        half_side_m = std::max({half_side_m, std::abs(corner.x), std::abs(corner.y)});
+    }
+    StandIn::Input input{shown,
+                         chosen,
+                         ready(shown.artifact),
+                         ready(chosen),
+                         std::nullopt,
+                         {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
+                          side_.quarter_turns()}};
+    if (table_) {
+        for (const PlacedPicture& picture : table_->presented().pictures()) {
+            if (picture.artifact == chosen) {
+                input.from = picture.place.picture;
+            }
+        }
+    }
+    StandIn::Output comes = stand_in_.step(now, input);
+    if (comes.picture) {
+        comes.picture->brightness *= stand.brightness;
+    }
+    return comes;
+}
+
+std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
+                                                 const Situation& situation, const Stand& stand) {
+    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+        return std::nullopt;
+    }
+    const CatalogueEntry& entry = catalogue_[shown.artifact];
+    const std::size_t language = caption_for(shown.language, entry.languages);
+    const CaptionText text = teller_.text();
+    const std::vector<glm::dvec2>& sizes =
+        text.portion ? entry.descriptions[language].largest_m : entry.caption_sizes_m[language];
+    if (placed_ != &sizes) {
+        placed_ = &sizes;
+        placer_.set_shapes(sizes);
+    }
+    const RigidTransform& pose = stand.table_from_prop;
+    placer_.update(now, stand_hides(place_.prop, stand, place_.lens_m),
+                   stand_hides(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
+                   side_.quarter_turns());
+    const CaptionPlace place = placer_.at(now);
+    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness) * text.brightness;
+    if (brightness <= 0.0) {
+        return std::nullopt;
+    }
+    PresentedCaption caption{language, place.shape, place.rectangle, brightness, text.portion};
+    if (text.portion) {
+        const DescriptionShape& description = entry.descriptions[language];
+        caption.rectangle = portion_place(place.rectangle, description.sizes_m[*text.portion][place.shape],
+                                          description.flush_right);
+    }
+    return caption;
+}
+
+/// Beside the pictures and the caption; without words of advice, which say what to do first.
+std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
+                                               const Situation& situation, const Stand& stand,
+                                               const Presentation& presentation) {
+    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+        return std::nullopt;
+    }
+    const CatalogueEntry& entry = catalogue_[shown.artifact];
+    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::size_t count = 0;
+    for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
+        obstacles.at(count++) = place;
+    }
+    if (presentation.caption) {
+        obstacles.at(count++) = presentation.caption->rectangle;
+    }
+    const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
+    return labels_.step(
+        now, {&entry.hotspots, shown.artifact,
+              stand.attracts ? std::nullopt : (presentation.tells_of ? presentation.tells_of : hotspot_),
+              caption_for(shown.language, entry.languages),
+              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
+              stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
+              presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
+              side_.quarter_turns()});
+}
+
+DescriptionIndex Exhibit::description_of(std::size_t artifact, std::string_view language) const {
+    const bool named = artifact < catalogue_.size() && !catalogue_[artifact].languages.empty();
+    return {artifact, named ? caption_for(language, catalogue_[artifact].languages) : 0};
+}
+
+const Tellable* Exhibit::tellable(const DescriptionIndex& description) const {
+    if (description.artifact >= catalogue_.size()) {
+        return nullptr;
+    }
+    const std::vector<Tellable>& tellables = catalogue_[description.artifact].tellables;
+    return description.language < tellables.size() && tellables[description.language].count() > 0
+               ? &tellables[description.language]
+               : nullptr;
+}
+
+void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
+                   bool pressed, Presentation& presentation) {
+    TellerInput input;
+    input.subject = description_of(selection_.artifact(), selection_.language());
+    input.visible = description_of(shown.artifact, shown.language);
+    input.tellable = tellable(input.subject);
+    input.fades = shown.changing || stand.changing;
+    input.attracts = stand.attracts;
+    input.there = there_;
+    input.pressed = pressed;
+    input.next = std::exchange(choose_, false);
+    input.help = std::exchange(help_, false);
+    input.staff = state_ == State::Staff;
+    input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;
+    input.narration = narration_;
+    const Told& told = teller_.step(now, situation, input);
+    presentation.tells_of = told.hotspot;
+    presentation.leaves = told.leaves;
+    if (told.speaks) {
+        presentation.tells = input.subject;
+    }
+    if (input.tellable != nullptr && !input.tellable->portions.empty()) {
+        presentation.prepares = input.subject;
+    }
+}
+
+/// The sentence that this state has on the table, in the visitor's language.
+std::optional<WordIndex> Exhibit::word() const {
+    switch (note_of(state_).words) {
+    case Words::Invitation:
+        return sentences_.find("attract_line", selection_.language());
+    case Words::Fault:
+        return sentences_.find("fault.no_artifact", selection_.language());
+    case Words::Advice: // once it is more than a sign
+        return guidance_ != nullptr && guidance_->stage >= GuidanceStage::Text
+                   ? sentences_.find(words_key(*guidance_), selection_.language())
+                   : std::nullopt;
+    case Words::Telling:
+    case Words::None:
+        break;
+    }
+    return std::nullopt;
+}
+
+void Exhibit::present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+                            Presentation& presentation) {
+    const StateNote& note = note_of(state_);
+    const std::optional<WordIndex> wanted = word();
+    const bool signs = note.sign && guidance_ != nullptr;
+    SentenceSurroundings surroundings;
+    if (signs || wanted || sentences_.busy()) {
+        const RigidTransform& pose = stand.table_from_prop;
+        surroundings = {stand_hides(place_.prop, stand, place_.lens_m),
+                        stand_hides(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
+                        side_.quarter_turns()};
+    }
+    if (signs && surroundings.around) {
+        presentation.sign =
+            place_sign(*guidance_, now, *surroundings.around, place_.picture_m, side_.quarter_turns());
+        if (presentation.sign) {
+            surroundings.around = hull_of(*surroundings.around, presentation.sign->corners_m);
+        }
+    }
+    presentation.advice = sentences_.place(now, wanted, surroundings);
+    if (guidance_ != nullptr) {
+        presentation.prepares_word = sentences_.find(words_key(*guidance_), selection_.language());
+    }
+    speak(now, wanted, presentation);
+}
+
+/// Nothing is heard whose words do not lie on the table: what is due waits for them.
+void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation) {
+    if (spoken_ && spoken_ != word) {
+        spoken_.reset();
+        presentation.falls_silent = true;
+    }
+    speech_due_ = guidance_ != nullptr && (speech_due_ || guidance_->speak);
+    if (speech_due_ && word && note_of(state_).voice && sentences_.shows(now, *word)) {
+        presentation.says = word;
+        spoken_ = word;
+        speech_due_ = false;
+    }
+}
+
+/// The language of the artifact's caption; without captions the chosen one.
+std::string_view Exhibit::language_of(std::size_t artifact) const {
+    if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
+        return selection_.language();
+    }
+    const std::vector<std::string>& languages = catalogue_[artifact].languages;
+    return languages[caption_for(selection_.language(), languages)];
+}
+
+std::uint32_t Exhibit::lamps() const {
+    std::uint32_t lamps = 0;
+    for (std::size_t button = 0; button < button_commands.size(); ++button) {
+        lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
+    }
+    const Tellable* const told = tellable(description_of(selection_.artifact(), selection_.language()));
+    const bool rests_on_picture = table_ && table_->presented().ring;
+    const bool helps = guidance_ != nullptr || (told != nullptr && !told->portions.empty());
+    lamps |= told != nullptr || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
+    lamps |= helps ? 1U << button_of(Command::Help) : 0U;
+    return lamps;
+}
+
+} // namespace frustumscreen

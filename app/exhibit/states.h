@@ -1,0 +1,255 @@
+/// The exhibit's states, and what leads from one to the other: one table, from which the program runs and docs/states.md
+/// is written.
+///
+///     next(State::View, Event::AdviceDue) == State::Guide
+///
+/// Rules    An event that a state has no row for changes nothing there. Most events say what is the case, and are raised in
+///          every step in which it is: so none can be missed. Within a step they are raised in the order of `Event`.
+/// Rest     leads from every state to Attract, in two rests at most: the compiler checks it, and that each state can be
+///          reached.
+/// Threads  pure; any.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace frustumscreen {
+
+enum class State : std::uint8_t { Attract, View, Browse, Guide, Describe, Degraded, Fault, Staff };
+inline constexpr std::size_t state_count = 8;
+
+enum class Event : std::uint8_t {
+    Rest,
+    VisitorComes,
+    Chord,
+    Press,
+    NothingToShow,
+    SomethingToShow,
+    TrackerLost,
+    TrackerBack,
+    PropRests,
+    PropGoesOn,
+    ArtifactChosen,
+    TellingBegins,
+    TellingEnds,
+    AdviceDue,
+    AdviceOver
+};
+inline constexpr std::size_t event_count = 15;
+
+/// The words that lie on the table beside the caption, or in its place.
+enum class Words : std::uint8_t { None, Invitation, Advice, Telling, Fault };
+
+/// What a state shows and says; `shows` says it to people.
+struct StateNote {
+    State state;
+    std::string_view name;
+    bool artifact; ///< it is shown
+    bool sign;     ///< a dark face brings the sign of the move that mends it
+    Words words;
+    bool voice; ///< its words may be spoken
+    std::string_view shows;
+};
+inline constexpr std::array<StateNote, state_count> state_notes{{
+    {State::Attract, "attract", true, false, Words::Invitation, false,
+     "nobody is there: the artifacts in turn, a line that invites; silent"},
+    {State::View, "view", true, false, Words::None, false, "the artifact in the prop, and its caption"},
+    {State::Browse, "browse", true, false, Words::None, false,
+     "the same; the ring of the picture that the prop rests on"},
+    {State::Guide, "guide", true, true, Words::Advice, true,
+     "the same; what to do, as a sign, in words, aloud"},
+    {State::Describe, "describe", true, true, Words::Telling, true,
+     "the same; what is told of the artifact, in words and aloud; signs"},
+    {State::Degraded, "degraded", true, false, Words::Advice, true,
+     "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
+    {State::Fault, "fault", false, false, Words::Fault, false,
+     "no artifact can be shown: words that say so; silent"},
+    {State::Staff, "staff", false, false, Words::None, false, "the alignment pattern; silent"},
+}};
+
+struct EventNote {
+    Event event;
+    std::string_view name;
+    std::string_view when;
+};
+inline constexpr std::array<EventNote, event_count> event_notes{{
+    {Event::Rest, "rest", "nobody has been there for `exhibit.rest_s`; in staff: its minute is over"},
+    {Event::VisitorComes, "visitor comes",
+     "prop or head has moved, or something was pressed or told, since then"},
+    {Event::Chord, "chord", "the staff's two buttons were held"},
+    {Event::Press, "press", "a button was pressed"},
+    {Event::NothingToShow, "nothing to show", "no artifact can be shown"},
+    {Event::SomethingToShow, "something to show", "one can"},
+    {Event::TrackerLost, "tracker lost", "the prop's place has not been known for two seconds"},
+    {Event::TrackerBack, "tracker back", "it is known"},
+    {Event::PropRests, "prop rests", "it rests on a picture, and the ring fills"},
+    {Event::PropGoesOn, "prop goes on", "it rests on none"},
+    {Event::ArtifactChosen, "artifact chosen", "on the table: the ring is full"},
+    {Event::TellingBegins, "telling begins", "something of the artifact is being told"},
+    {Event::TellingEnds, "telling ends", "nothing is"},
+    {Event::AdviceDue, "advice due", "a face is dark, the head is lost or metal is near"},
+    {Event::AdviceOver, "advice over", "nothing is to be mended, or nobody is there to do it"},
+}};
+
+struct Transition {
+    State from;
+    Event on;
+    State to;
+};
+inline constexpr std::array transitions{
+    Transition{State::Attract, Event::VisitorComes, State::View},
+    Transition{State::Attract, Event::Chord, State::Staff},
+    Transition{State::Attract, Event::Press, State::View},
+    Transition{State::Attract, Event::NothingToShow, State::Fault},
+
+    Transition{State::View, Event::Rest, State::Attract},
+    Transition{State::View, Event::Chord, State::Staff},
+    Transition{State::View, Event::NothingToShow, State::Fault},
+    Transition{State::View, Event::TrackerLost, State::Degraded},
+    Transition{State::View, Event::PropRests, State::Browse},
+    Transition{State::View, Event::TellingBegins, State::Describe},
+    Transition{State::View, Event::AdviceDue, State::Guide},
+
+    // A ring that fills is not disturbed: what the prop stands on is no place to be mended.
+    Transition{State::Browse, Event::Rest, State::Attract},
+    Transition{State::Browse, Event::Chord, State::Staff},
+    Transition{State::Browse, Event::NothingToShow, State::Fault},
+    Transition{State::Browse, Event::TrackerLost, State::Degraded},
+    Transition{State::Browse, Event::PropGoesOn, State::View},
+    Transition{State::Browse, Event::ArtifactChosen, State::View},
+
+    Transition{State::Guide, Event::Rest, State::Attract},
+    Transition{State::Guide, Event::Chord, State::Staff},
+    Transition{State::Guide, Event::NothingToShow, State::Fault},
+    Transition{State::Guide, Event::TrackerLost, State::Degraded},
+    Transition{State::Guide, Event::PropRests, State::Browse},
+    Transition{State::Guide, Event::TellingBegins, State::Describe},
+    Transition{State::Guide, Event::AdviceOver, State::View},
+
+    // What is told is told to its end, also without the prop and with a dark face.
+    Transition{State::Describe, Event::Rest, State::Attract},
+    Transition{State::Describe, Event::Chord, State::Staff},
+    Transition{State::Describe, Event::NothingToShow, State::Fault},
+    Transition{State::Describe, Event::ArtifactChosen, State::View},
+    Transition{State::Describe, Event::TellingEnds, State::View},
+
+    Transition{State::Degraded, Event::Rest, State::Attract},
+    Transition{State::Degraded, Event::Chord, State::Staff},
+    Transition{State::Degraded, Event::NothingToShow, State::Fault},
+    Transition{State::Degraded, Event::TrackerBack, State::View},
+    Transition{State::Degraded, Event::TellingBegins, State::Describe},
+
+    // The next rest begins anew; while there is still nothing to show, that step leads back.
+    Transition{State::Fault, Event::Rest, State::Attract},
+    Transition{State::Fault, Event::Chord, State::Staff},
+    Transition{State::Fault, Event::SomethingToShow, State::View},
+
+    // The press that ends it does nothing else. What is the case is looked at afterwards.
+    Transition{State::Staff, Event::Rest, State::View},
+    Transition{State::Staff, Event::Chord, State::View},
+    Transition{State::Staff, Event::Press, State::View},
+};
+
+/// The same state where the table has no row.
+[[nodiscard]] constexpr State next(State from, Event event) {
+    for (const Transition& transition : transitions) {
+        if (transition.from == from && transition.on == event) {
+            return transition.to;
+        }
+    }
+    return from;
+}
+
+[[nodiscard]] constexpr const StateNote& note_of(State state) {
+    return state_notes[static_cast<std::size_t>(state)];
+}
+[[nodiscard]] constexpr const EventNote& note_of(Event event) {
+    return event_notes[static_cast<std::size_t>(event)];
+}
+[[nodiscard]] constexpr std::string_view name_of(State state) {
+    return note_of(state).name;
+}
+
+/// What is the case in a step, as far as it moves states.
+struct Observed {
+    bool nothing_to_show = false;
+    bool tracker_lost = false;
+    bool prop_rests = false;
+    bool artifact_chosen = false; ///< in this step
+    bool telling = false;
+    bool advice_due = false;
+};
+/// The state after the events of what is the case, in their order: those from NothingToShow on.
+[[nodiscard]] constexpr State state_after(State state, const Observed& seen) {
+    state = next(state, seen.nothing_to_show ? Event::NothingToShow : Event::SomethingToShow);
+    state = next(state, seen.tracker_lost ? Event::TrackerLost : Event::TrackerBack);
+    state = next(state, seen.prop_rests ? Event::PropRests : Event::PropGoesOn);
+    state = seen.artifact_chosen ? next(state, Event::ArtifactChosen) : state;
+    state = next(state, seen.telling ? Event::TellingBegins : Event::TellingEnds);
+    return next(state, seen.advice_due ? Event::AdviceDue : Event::AdviceOver);
+}
+
+inline constexpr int most_rests = 2;
+/// How many rests lead to Attract; more than `most_rests`: none do.
+[[nodiscard]] constexpr int rests_to_attract(State state) {
+    int rests = 0;
+    for (; state != State::Attract && rests <= most_rests; ++rests) {
+        state = next(state, Event::Rest);
+    }
+    return rests;
+}
+
+namespace states_check {
+
+consteval bool notes_are_in_order() {
+    for (std::size_t k = 0; k < state_count; ++k) {
+        if (state_notes[k].state != static_cast<State>(k)) {
+            return false;
+        }
+    }
+    for (std::size_t k = 0; k < event_count; ++k) {
+        if (event_notes[k].event != static_cast<Event>(k)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// One row for a state and an event, and it leads elsewhere.
+consteval bool rows_are_unique() {
+    for (std::size_t k = 0; k < transitions.size(); ++k) {
+        const Transition& row = transitions[k];
+        if (row.from == row.to || next(row.from, row.on) != row.to) {
+            return false;
+        }
+        for (std::size_t other = 0; other < k; ++other) {
+            if (transitions[other].from == row.from && transitions[other].on == row.on) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+consteval bool each_is_reached_and_rests() {
+    std::array<bool, state_count> reached{true};
+    for (std::size_t round = 0; round < state_count; ++round) {
+        for (const Transition& row : transitions) {
+            reached[static_cast<std::size_t>(row.to)] |= reached[static_cast<std::size_t>(row.from)];
+        }
+    }
+    return std::all_of(state_notes.begin(), state_notes.end(), [&](const StateNote& note) {
+        return reached[static_cast<std::size_t>(note.state)] && rests_to_attract(note.state) <= most_rests;
+    });
+}
+
+static_assert(notes_are_in_order());
+static_assert(rows_are_unique());
+static_assert(each_is_reached_and_rests());
+
+} // namespace states_check
+
+} // namespace frustumscreen

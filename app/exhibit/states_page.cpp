@@ -1,0 +1,114 @@
+#include "app/exhibit/states_page.h"
+
+#include "app/exhibit/states.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The events that lead from one state to another, in their order.
+std::vector<Event> events_between(State from, State to) {
+    std::vector<Event> events;
+    for (const Transition& row : transitions) {
+        if (row.from == from && row.to == to) {
+            events.push_back(row.on);
+        }
+    }
+    std::sort(events.begin(), events.end());
+    return events;
+}
+
+/// What leads to staff or fault from nearly everywhere is drawn from attract alone.
+bool is_drawn(State from, State to) {
+    return from == State::Attract || (to != State::Staff && to != State::Fault);
+}
+
+/// On white, so that no line runs through the letters.
+std::string label_of(const std::vector<Event>& events) {
+    std::string rows;
+    for (const Event event : events) {
+        rows += fmt::format("<tr><td bgcolor=\"white\">{}</td></tr>", note_of(event).name);
+    }
+    return fmt::format(
+        "<<table border=\"0\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"1\">{}</table>>", rows);
+}
+
+/// How the states stand to each other, so that few lines cross.
+constexpr std::string_view layout = "  rankdir=TB; nodesep=1.0; ranksep=0.9; bgcolor=white;\n"
+                                    "  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3f8\", "
+                                    "color=\"#334455\", fontname=\"Noto Sans\", "
+                                    "fontsize=16, margin=\"0.2,0.1\"];\n"
+                                    "  edge [color=\"#334455\", fontname=\"Noto Sans\", fontsize=13];\n"
+                                    "  {rank=same; staff; attract; fault}\n"
+                                    "  {rank=same; browse; guide; degraded}\n"
+                                    "  staff -> attract -> fault [style=invis];\n"
+                                    "  browse -> guide -> degraded [style=invis];\n";
+
+} // namespace
+
+std::string states_page() {
+    std::string page =
+        "# States\n\n"
+        "What the exhibit is doing, as one table; `app/exhibit/states.h` has it, and the exhibit runs by "
+        "it. Rest alone leads from\n"
+        "every state to attract. The status file and the staff's picture name the state.\n"
+        "`frustumscreen states` writes this page, `frustumscreen states --dot` the diagram's source for "
+        "Graphviz.\n\n"
+        "![The states and the events that lead from one to the other](states.svg)\n\n"
+        "In the diagram rest is grey. A chord leads to staff from every other state, and nothing to show "
+        "to fault from every state\n"
+        "but staff; both are drawn from attract alone.\n\n"
+        "| state | what is shown and said |\n|---|---|\n";
+    auto out = std::back_inserter(page);
+    for (const StateNote& state : state_notes) {
+        fmt::format_to(out, "| {} | {} |\n", state.name, state.shows);
+    }
+    page += "\nMost events say what is the case, and count in every step in which it is. Within a step they "
+            "count in this "
+            "order:\n\n| event | when |\n|---|---|\n";
+    for (const EventNote& event : event_notes) {
+        fmt::format_to(out, "| {} | {} |\n", event.name, event.when);
+    }
+    page += "\nWhere the state leads; an empty place: it stays as it is.\n\n|";
+    for (const StateNote& state : state_notes) {
+        fmt::format_to(out, " | {}", state.name);
+    }
+    page += " |\n|---|";
+    for (std::size_t k = 0; k < state_count; ++k) {
+        page += "---|";
+    }
+    page += "\n";
+    for (const EventNote& event : event_notes) {
+        fmt::format_to(out, "| {}", event.name);
+        for (const StateNote& state : state_notes) {
+            const State to = next(state.state, event.event);
+            fmt::format_to(out, " | {}", to == state.state ? std::string_view() : name_of(to));
+        }
+        page += " |\n";
+    }
+    return page;
+}
+
+std::string states_graph() {
+    std::string graph = fmt::format("digraph states {{\n{}", layout);
+    for (const StateNote& from : state_notes) {
+        for (const StateNote& to : state_notes) {
+            const std::vector<Event> events = events_between(from.state, to.state);
+            if (events.empty() || !is_drawn(from.state, to.state)) {
+                continue;
+            }
+            const bool rest = events == std::vector{Event::Rest};
+            graph += fmt::format("  {} -> {} [{}];\n", from.name, to.name,
+                                 rest ? "color=\"#b8b8b8\"" : "label=" + label_of(events));
+        }
+    }
+    return graph + "}\n";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,15 @@
+/// The table of states for people: docs/states.md, and the diagram drawn from it.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include <string>
+
+namespace frustumscreen {
+
+/// Markdown, for `frustumscreen states`.
+[[nodiscard]] std::string states_page();
+/// The language of Graphviz, for `frustumscreen states --dot`.
+[[nodiscard]] std::string states_graph();
+
+} // namespace frustumscreen

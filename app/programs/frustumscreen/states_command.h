@@ -1,0 +1,8 @@
+/// frustumscreen states: the exhibit's states, as a page or as a graph.
+#pragma once
+
+namespace frustumscreen {
+
+int states_command(int argc, char** argv);
+
+} // namespace frustumscreen

@@ -1,0 +1,282 @@
+// What the exhibit does for nobody, and what it does when the tracker fails a visitor.
+
+#include "app/exhibit/guidance_setup.h"
+#include "tests/exhibit/exhibits.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+using sample::start;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const std::vector<std::string> keys{"attract_line",     "uncover",         "slide_back_to_light",
+                                    "show_your_head",   "away_from_metal", "wait_tracker",
+                                    "fault.no_artifact"};
+
+AdviceLanguage words_in(const std::string& language) {
+    AdviceLanguage words{language, {}};
+    for (const std::string& key : keys) {
+        words.texts.push_back({key, {{0.1, 0.02}}});
+    }
+    return words;
+}
+
+class RestTest : public ::testing::Test {
+protected:
+    static Exhibit make(std::size_t artifacts) {
+        const Settings shipped;
+        const std::vector<std::string> languages{"en", "de"};
+        ExhibitPlace place;
+        place.prop = make_prop(shipped.prop);
+        place.lens_m = shipped.projector.table_from_projector.translation;
+        place.picture_m = picture_on_table(shipped, 0.0);
+        place.guidance = guidance_setup(shipped);
+        place.words = {words_in("de"), words_in("en")};
+        place.rest = seconds(30);
+        const CatalogueEntry entry{languages, {languages.size(), {{0.2, 0.05}, {0.1, 0.1}}}};
+        return {Catalogue(artifacts, entry), place, "en", start};
+    }
+    void SetUp() override { situation.eye_m = {0.0, -0.55, 0.5}; }
+
+    /// Goes on for so long; `lost`: nobody knows where the prop is.
+    void wait(Nanoseconds time, std::span<const Command> commands = {}) {
+        const MonotonicTime end = now + time;
+        for (std::span<const Command> pressed = commands; now < end; pressed = {}) {
+            now += milliseconds(20);
+            situation.time = now;
+            situation.prop_age = lost ? now - *lost : Nanoseconds(0);
+            situation.prop_known = situation.prop_age <= seconds(1);
+            before = shown;
+            shown = exhibit.step(now, pressed, situation);
+            said += shown.says ? 1 : 0;
+            EXPECT_TRUE(!shown.says || (shown.advice && shown.advice->word == *shown.says));
+        }
+    }
+    void slide(double x_m) { situation.table_from_prop.translation.x = x_m; }
+    void lose() { lost = now; }
+    /// The key of the sentence on the table; empty: there is none.
+    [[nodiscard]] std::string text() const { return shown.advice ? keys.at(shown.advice->word.text) : ""; }
+
+    Situation situation;
+    MonotonicTime now = start;
+    std::optional<MonotonicTime> lost;
+    Presentation before;
+    Presentation shown;
+    int said = 0;
+    Exhibit exhibit = make(3);
+};
+
+TEST_F(RestTest, NobodyIsThereAtFirst) {
+    wait(seconds(1));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_EQ(text(), "attract_line");
+    EXPECT_EQ(shown.advice->word.language, 1U); // the house's
+    EXPECT_EQ(shown.advice->brightness, 1.0);
+}
+
+TEST_F(RestTest, TheArtifactsComeInTurnAndInSilence) {
+    std::vector<std::size_t> turns;
+    for (int k = 0; k < 7; ++k) {
+        turns.push_back(shown.artifact);
+        wait(Exhibit::turn_time);
+        EXPECT_EQ(text(), "attract_line");
+    }
+    EXPECT_EQ(turns, (std::vector<std::size_t>{0, 0, 1, 2, 0, 1, 2}));
+    EXPECT_EQ(said, 0);
+}
+
+TEST_F(RestTest, TheFirstTouchKeepsTheArtifactAndItsPlaceAndTheLineFades) {
+    wait(seconds(50));
+    ASSERT_EQ(shown.artifact, 2U);
+    slide(0.01);
+    double line = shown.advice->brightness;
+    for (int k = 0; k < 100; ++k) {
+        wait(milliseconds(20));
+        EXPECT_EQ(shown.state, State::View);
+        EXPECT_EQ(shown.artifact, 2U);
+        EXPECT_EQ(shown.brightness, 1.0);
+        EXPECT_EQ(shown.table_from_prop.translation, situation.table_from_prop.translation);
+        const double next = shown.advice ? shown.advice->brightness : 0.0;
+        EXPECT_LE(next, line);
+        EXPECT_GE(next, line - 0.13); // 1.5 times 20 of 250 ms
+        line = next;
+    }
+    EXPECT_EQ(line, 0.0);
+    EXPECT_TRUE(shown.caption);
+    EXPECT_EQ(shown.caption->brightness, 1.0);
+}
+
+TEST_F(RestTest, TheFirstPressDoesWhatItSays) {
+    wait(seconds(1));
+    wait(seconds(1), std::array{Command::NextArtifact});
+    EXPECT_EQ(shown.state, State::View);
+    EXPECT_EQ(shown.artifact, 1U);
+}
+
+TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
+    wait(seconds(1), std::array{Command::NextLanguage});
+    EXPECT_EQ(shown.language, "de");
+    wait(seconds(28));
+    EXPECT_EQ(shown.language, "de");
+    wait(seconds(3));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_EQ(shown.language, "en");
+    EXPECT_EQ(shown.advice->word.language, 1U);
+}
+
+/// A tracker's noise at rest is nobody; a sentence that is spoken while the visitor goes is left.
+TEST_F(RestTest, WhoeverGoesIsNotCalledBack) {
+    wait(seconds(1));
+    slide(0.3); // dark
+    wait(seconds(7));
+    EXPECT_EQ(shown.state, State::Guide);
+    wait(seconds(30));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_FALSE(shown.sign);
+    const int before_rest = said;
+    wait(seconds(120));
+    EXPECT_EQ(said, before_rest);
+}
+
+TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    lose();
+    wait(milliseconds(1900));
+    EXPECT_EQ(shown.state, State::View);
+    wait(seconds(3));
+    EXPECT_EQ(shown.state, State::Degraded);
+    EXPECT_TRUE(shown.attracts);
+    EXPECT_EQ(text(), "uncover");
+    EXPECT_EQ(said, 0);
+    wait(seconds(4));
+    EXPECT_EQ(said, 1);
+    lost.reset();
+    wait(seconds(2));
+    EXPECT_EQ(shown.state, State::View);
+    EXPECT_FALSE(shown.attracts);
+    EXPECT_EQ(text(), "");
+}
+
+/// The artifact turns, and the words beside it lie still.
+TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    lose();
+    wait(seconds(6));
+    ASSERT_EQ(text(), "uncover");
+    const glm::dvec2 place = shown.advice->rectangle.centre_m;
+    for (int k = 0; k < 20; ++k) {
+        wait(seconds(1));
+        ASSERT_EQ(text(), "uncover");
+        EXPECT_EQ(shown.advice->rectangle.centre_m, place);
+        EXPECT_EQ(shown.advice->brightness, 1.0);
+    }
+}
+
+TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    lose();
+    wait(seconds(31));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_TRUE(shown.attracts);
+    EXPECT_EQ(text(), "attract_line");
+    wait(seconds(1),
+         std::array{Command::NextArtifact}); // nobody knows where the prop is, but somebody is there
+    EXPECT_EQ(shown.state, State::Degraded);
+}
+
+TEST_F(RestTest, APropThatWasLostOutOfTheLightIsAskedBack) {
+    wait(seconds(1));
+    slide(0.36);
+    wait(milliseconds(100));
+    lose();
+    wait(seconds(6));
+    EXPECT_EQ(text(), "slide_back_to_light");
+}
+
+TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(milliseconds(100));
+    lose();
+    situation.tracker = TrackerHealth::Away;
+    wait(seconds(6));
+    EXPECT_EQ(text(), "wait_tracker");
+}
+
+TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
+    wait(seconds(1));
+    slide(0.02);
+    situation.tracker = TrackerHealth::MetalNear;
+    wait(seconds(3));
+    EXPECT_EQ(shown.state, State::Guide);
+    EXPECT_EQ(text(), "away_from_metal");
+    EXPECT_FALSE(shown.sign);
+    slide(0.3);
+    wait(seconds(1));
+    EXPECT_TRUE(shown.sign); // a dark face goes first
+}
+
+TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
+    situation.head_known = true;
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    situation.head_known = false;
+    wait(seconds(10));
+    EXPECT_EQ(shown.state, State::View); // gone, or waiting
+    slide(0.04);
+    wait(seconds(3));
+    EXPECT_EQ(shown.state, State::Guide);
+    EXPECT_EQ(text(), "show_your_head");
+    situation.head_known = true;
+    wait(seconds(1));
+    EXPECT_EQ(shown.state, State::View);
+}
+
+TEST_F(RestTest, NobodyMissesAHeadThatNeverWasKnown) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(10));
+    EXPECT_EQ(shown.state, State::View);
+}
+
+TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
+    wait(seconds(1));
+    slide(0.02);
+    wait(seconds(1));
+    wait(seconds(1), std::array{Command::StaffMode});
+    EXPECT_EQ(shown.state, State::Staff);
+    EXPECT_EQ(shown.state_before, State::View);
+    lose();
+    wait(seconds(5));
+    EXPECT_EQ(shown.state, State::Staff);
+    wait(milliseconds(20), std::array{Command::NextArtifact});
+    EXPECT_EQ(shown.state, State::Degraded);
+    wait(seconds(1));
+    EXPECT_EQ(shown.artifact, 0U);
+}
+
+TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
+    exhibit = make(0);
+    wait(seconds(1));
+    EXPECT_EQ(shown.state, State::Fault);
+    EXPECT_EQ(text(), "fault.no_artifact");
+    wait(seconds(120), std::array{Command::StaffMode});
+    EXPECT_EQ(shown.state, State::Fault);
+    EXPECT_EQ(said, 0);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,152 @@
+// The table of states, held against one written by hand for this test, and against the page of the documents.
+
+#include "app/exhibit/states.h"
+#include "app/exhibit/states_page.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+/// Where each event leads, in the order of the heads; '.' stays.
+constexpr const char* by_hand =
+    "                  attract  view     browse   guide    describe degraded fault    staff\n"
+    "rest              .        attract  attract  attract  attract  attract  attract  view\n"
+    "visitor_comes     view     .        .        .        .        .        .        .\n"
+    "chord             staff    staff    staff    staff    staff    staff    staff    view\n"
+    "press             view     .        .        .        .        .        .        view\n"
+    "nothing_to_show   fault    fault    fault    fault    fault    fault    .        .\n"
+    "something_to_show .        .        .        .        .        .        view     .\n"
+    "tracker_lost      .        degraded degraded degraded .        .        .        .\n"
+    "tracker_back      .        .        .        .        .        view     .        .\n"
+    "prop_rests        .        browse   .        browse   .        .        .        .\n"
+    "prop_goes_on      .        .        view     .        .        .        .        .\n"
+    "artifact_chosen   .        .        view     .        view     .        .        .\n"
+    "telling_begins    .        describe .        describe .        describe .        .\n"
+    "telling_ends      .        .        .        .        view     .        .        .\n"
+    "advice_due        .        guide    .        .        .        .        .        .\n"
+    "advice_over       .        .        .        view     .        .        .        .\n";
+
+std::string with_spaces(std::string name) {
+    for (char& c : name) {
+        c = c == '_' ? ' ' : c;
+    }
+    return name;
+}
+
+TEST(States, EveryEventLeadsFromEveryStateWhereItShould) {
+    std::istringstream lines(by_hand);
+    std::string line;
+    std::getline(lines, line);
+    std::istringstream heads(line);
+    const std::vector<std::string> states{std::istream_iterator<std::string>(heads), {}};
+    ASSERT_EQ(states.size(), state_count);
+    std::size_t events = 0;
+    for (; std::getline(lines, line); ++events) {
+        std::istringstream row(line);
+        std::string event;
+        row >> event;
+        ASSERT_LT(events, event_count);
+        EXPECT_EQ(note_of(static_cast<Event>(events)).name, with_spaces(event));
+        for (std::size_t from = 0; from < state_count; ++from) {
+            std::string to;
+            row >> to;
+            EXPECT_EQ(name_of(static_cast<State>(from)), states[from]);
+            EXPECT_EQ(name_of(next(static_cast<State>(from), static_cast<Event>(events))),
+                      to == "." ? states[from] : to)
+                << states[from] << " " << event;
+        }
+    }
+    EXPECT_EQ(events, event_count);
+}
+
+TEST(States, RestAloneLeadsFromEachToAttract) {
+    for (const StateNote& note : state_notes) {
+        State state = note.state;
+        for (int rest = 0; rest < most_rests; ++rest) {
+            state = next(state, Event::Rest);
+        }
+        EXPECT_EQ(state == State::Attract || next(state, Event::Rest) == State::Attract, true) << note.name;
+        EXPECT_LE(rests_to_attract(note.state), most_rests) << note.name;
+    }
+}
+
+Observed observed(unsigned bits) {
+    return {(bits & 1U) != 0, (bits & 2U) != 0, (bits & 4U) != 0, false, (bits & 8U) != 0, (bits & 16U) != 0};
+}
+
+/// While nothing changes on the table, no state takes turns with another.
+TEST(States, WhatStaysTheCaseComesToRest) {
+    for (const StateNote& note : state_notes) {
+        for (unsigned bits = 0; bits < 32; ++bits) {
+            for (const Event visitor : {Event::Rest, Event::VisitorComes}) {
+                const auto step = [&](State state) {
+                    const bool staff_goes_on = state == State::Staff;
+                    return state_after(staff_goes_on ? state : next(state, visitor), observed(bits));
+                };
+                State state = note.state;
+                for (int k = 0; k < 3; ++k) {
+                    state = step(state);
+                }
+                EXPECT_EQ(step(state), state) << note.name << " " << bits;
+                const bool nothing = (bits & 1U) != 0;
+                if (visitor == Event::Rest && !nothing && note.state != State::Staff) {
+                    EXPECT_EQ(state, State::Attract) << note.name << " " << bits;
+                }
+                if (nothing && note.state != State::Staff) {
+                    EXPECT_EQ(state, State::Fault) << note.name << " " << bits;
+                }
+            }
+        }
+    }
+}
+
+TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
+    for (const StateNote& note : state_notes) {
+        EXPECT_EQ(note.artifact, note.state != State::Fault && note.state != State::Staff) << note.name;
+        EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::Telling) << note.name;
+    }
+    EXPECT_FALSE(note_of(State::Attract).voice); // nobody is there to hear it
+}
+
+TEST(StatesPage, IsTheOneInTheDocuments) {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/states.md", std::ios::binary);
+    const std::string committed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    EXPECT_EQ(states_page(), committed) << "write it again: frustumscreen states > docs/states.md";
+}
+
+/// The picture's edges are those of the graph that it was drawn from.
+TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/states.svg", std::ios::binary);
+    const std::string svg{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::istringstream graph(states_graph());
+    std::size_t edges = 0;
+    for (std::string line; std::getline(graph, line);) {
+        const std::size_t arrow = line.find(" -> ");
+        if (arrow == std::string::npos || line.find("style=invis") != std::string::npos) {
+            continue;
+        }
+        ++edges;
+        const std::string from = line.substr(2, arrow - 2);
+        const std::string to = line.substr(arrow + 4, line.find(' ', arrow + 4) - arrow - 4);
+        EXPECT_NE(svg.find("<title>" + from + "&#45;&gt;" + to + "</title>"), std::string::npos) << line;
+    }
+    std::size_t drawn = 0;
+    for (std::size_t at = svg.find("class=\"edge\""); at != std::string::npos;
+         at = svg.find("class=\"edge\"", at + 1)) {
+        ++drawn;
+    }
+    EXPECT_EQ(drawn, edges);
+    EXPECT_GT(edges, 15U);
+}
+
+} // namespace
+} // namespace frustumscreen
