@@ -194,7 +194,9 @@ TEST_F(TellingExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
     run(milliseconds(100));
     run(milliseconds(20), {Command::Help});
     EXPECT_FALSE(shown.tells || shown.leaves);
-    EXPECT_TRUE(shown.says);
+    run(milliseconds(40)); // the advice has its words first
+    EXPECT_TRUE(shown.advice);
+    EXPECT_EQ(advised_, 1);
 }
 
 TEST_F(TellingExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {

@@ -1,11 +1,10 @@
 #include "tests/render/counted_new.h"
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
 
 namespace {
-std::atomic<long> allocations{0};
+thread_local long allocations = 0;
 }
 
 long frustumscreen::synthetic::allocations_so_far() {

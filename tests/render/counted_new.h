@@ -1,4 +1,4 @@
-/// Counts every C++ allocation of the test program; not under the sanitizers, which bring their own.
+/// Counts the C++ allocations of the calling thread; not under the sanitizers, which bring their own.
 #pragma once
 
 namespace frustumscreen::synthetic {
