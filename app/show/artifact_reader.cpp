@@ -1,5 +1,7 @@
 #include "app/show/artifact_reader.h"
 
+#include "firmware_host/base/device_thread.h"
+
 #include <sys/resource.h>
 
 #include <utility>
@@ -34,6 +36,7 @@ std::unique_ptr<ArtifactReader::Answer> ArtifactReader::take() {
 }
 
 void ArtifactReader::work() {
+    begin_device_thread("artifacts");
     // On Linux this is about the calling thread alone. Where it is not allowed, it reads at the usual priority.
     static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
     while (true) {

@@ -2,6 +2,7 @@
 
 #include "app/pack/pack_texts.h"
 #include "app/show/portion_times.h"
+#include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "firmware_host/sound/pauses.h"
@@ -108,6 +109,7 @@ SharedReading PromptReader::read(const Recording& recording) {
 }
 
 void PromptReader::work(const std::stop_token& stop) {
+    begin_device_thread("prompts");
     while (!stop.stop_requested()) {
         SharedRecording recording;
         Kept unwanted; // freed when the lock is gone

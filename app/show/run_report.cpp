@@ -82,12 +82,12 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
 }
 
 std::string frames_csv(const std::vector<FrameRow>& rows) {
-    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n";
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state\n";
     auto out = std::back_inserter(csv);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const FrameRow& row = rows[k];
-        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{}\n", k, row.t_us, row.ms, row.technique,
-                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact));
+        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{},{}\n", k, row.t_us, row.ms, row.technique,
+                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact), row.state);
     }
     return csv;
 }

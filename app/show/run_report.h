@@ -35,9 +35,10 @@ struct FrameRow {
     bool drawn = false;
     std::string_view artifact;
     std::string_view technique;
+    std::string_view state; ///< of the exhibit (states.h)
 };
 
-/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact.
+/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state.
 [[nodiscard]] std::string frames_csv(const std::vector<FrameRow>& rows);
 
 /// The latest frames' times, in memory taken at the start.

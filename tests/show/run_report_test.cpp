@@ -31,9 +31,9 @@ TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
 }
 
 TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
-    const std::string csv = frames_csv({{1000, 2.5F, 0.25F, true, "Bowl, \"blue\"", "level2"}});
-    EXPECT_EQ(csv, "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n"
-                   "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\"\n");
+    const std::string csv = frames_csv({{1000, 2.5F, 0.25F, true, "Bowl, \"blue\"", "level2", "view"}});
+    EXPECT_EQ(csv, "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state\n"
+                   "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\",view\n");
 }
 
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {

@@ -65,7 +65,10 @@ std::string label_of(const std::vector<FrameRecord>& records, std::int64_t t_us,
                      const std::string& otherwise) {
     const auto found = std::find_if(records.begin(), records.end(),
                                     [&](const FrameRecord& record) { return record.t_us == t_us; });
-    return found == records.end() || found->artifact.empty() ? otherwise : found->artifact;
+    if (found == records.end() || found->artifact.empty()) {
+        return otherwise;
+    }
+    return found->state.empty() ? found->artifact : found->artifact + ": " + found->state;
 }
 
 bool looks_like(const SheetFrame& a, const SheetFrame& b) {
@@ -126,7 +129,8 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         }
         records.push_back({static_cast<std::int64_t>(*t_us), *ms, columns->of(fields, "technique"),
                            number(columns->of(fields, "estimated_error_mm")).value_or(0.0),
-                           columns->of(fields, "drawn") != "0", columns->of(fields, "artifact")});
+                           columns->of(fields, "drawn") != "0", columns->of(fields, "artifact"),
+                           columns->of(fields, "state")});
     }
     return records;
 }

@@ -25,6 +25,7 @@ struct FrameRecord {
     double estimated_error_mm = 0.0;
     bool drawn = true;
     std::string artifact; ///< empty if the file does not say
+    std::string state;    ///< of the exhibit; the same
 };
 
 struct SheetFrame {
