@@ -178,7 +178,8 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
         return;
     }
     const int reader = table.pictures()[*table.ring].place.picture.quarter_turns;
-    for (const RingPiece& piece : ring_around(*shadow, table.ring_full, reader, room_).pieces()) {
+    const Ring ring = ring_around(*shadow, table.ring_full, reader, room_);
+    for (const RingPiece& piece : ring.pieces()) {
         on_table.add({flat_corners(piece.corners_m),
                       ring_brightness(table.ring_full) * (piece.filled ? 1.0 : empty_ring_brightness),
                       band_});
