@@ -128,6 +128,9 @@ public:
 
     [[nodiscard]] Result<std::size_t> room() override {
         snd_pcm_sframes_t free = ::snd_pcm_avail(pcm_.get());
+        if (free >= 0 && ::snd_pcm_state(pcm_.get()) == SND_PCM_STATE_SUSPENDED) {
+            free = -ESTRPIPE; // a plugin with a full queue does not say it by itself
+        }
         if (free < 0) {
             if (const int error = recover(static_cast<int>(free)); error < 0) {
                 return lost(name_, error);

@@ -13,7 +13,7 @@ import wave
 
 import screen
 from bench import UPRIGHT, eventually
-from hil_test import OtherSettings, long
+from hil_test import OtherSettings
 
 LEFT_OF_THE_LIGHT = (-0.28, 0.0, 0.0)
 HEADER_BYTES = 44
@@ -116,7 +116,6 @@ class Guidance(OtherSettings):
         self.assertFalse(any(abs(sample) > 300 for sample in after[24000:]), "it goes on talking")
         print(f"  {json.dumps({'sound_underruns': self.bench.status()['sound_underruns']})}", flush=True)
 
-    @long
     def test_sound_card_unplugged(self):
         expected = self.expected()
         self.bench.status_says("sound", SOUNDS)
