@@ -39,16 +39,9 @@ Pack full_pack() {
     pack.title = "Rings";
     pack.languages = {"en", "de"};
     pack.captions = {{"en", "Rings", "Three of them"}, {"de", "Ringe", "Drei Stück"}};
-    pack.provenance.source_name = "rings.glb";
-    pack.provenance.source_sha256 = std::string(64, 'a');
-    pack.relief_size = 512;
+    complete(pack);
     pack.samples = 2;
     pack.default_level = 2;
-    for (unsigned k = 0; k < 8; ++k) {
-        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
-                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
-                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
-    }
     return pack;
 }
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace frustumscreen::synthetic {
@@ -154,5 +155,17 @@ struct Stage {
                                       std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
     }
 };
+
+/// Adds what a file has besides what is drawn of it.
+inline void complete(Pack& pack) {
+    pack.provenance.source_name = "rings.glb";
+    pack.provenance.source_sha256 = std::string(64, 'a');
+    pack.relief_size = 512;
+    for (unsigned k = 0; k < 8; ++k) {
+        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
+    }
+}
 
 } // namespace frustumscreen::synthetic

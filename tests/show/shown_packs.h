@@ -24,15 +24,8 @@ inline Pack numbered_pack(std::size_t number) {
     pack.levels[1].error = {3e-4F, 1e-3F, 4e-3F, 0.0F};
     pack.textures[0] = Image8(64, 64, {250, 250, static_cast<std::uint8_t>(20 * number), 255});
     pack.title = fmt::format("Rings {}", number);
-    pack.provenance.source_name = "rings.glb";
-    pack.provenance.source_sha256 = std::string(64, 'a');
-    pack.relief_size = 512;
+    complete(pack);
     pack.samples = 1;
-    for (unsigned k = 0; k < 8; ++k) {
-        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
-                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
-                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
-    }
     return pack;
 }
 

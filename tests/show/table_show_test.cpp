@@ -39,15 +39,8 @@ Pack pack_of(std::size_t artifact, bool with_picture) {
     pack.languages = {"en", "de"};
     pack.captions = {{"en", pack.title, "A text"},
                      {"de", fmt::format("Das lange Werk Nummer {}", artifact), "Ein Text"}};
-    pack.provenance.source_name = "rings.glb";
-    pack.provenance.source_sha256 = std::string(64, 'a');
-    pack.relief_size = 512;
+    complete(pack);
     pack.samples = 1;
-    for (unsigned k = 0; k < 8; ++k) {
-        pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
-                                   ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
-                                   (k & 4U) != 0 ? pack.box_size.z : 0.0);
-    }
     if (with_picture) {
         pack.table_picture = Image8(256, 256, colour_of(artifact));
         for (int y = 0; y < 256; ++y) {
