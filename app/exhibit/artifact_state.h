@@ -10,7 +10,7 @@ namespace frustumscreen {
 enum class ArtifactState : std::uint8_t {
     Ready,
     Away,    ///< it comes if it is wanted
-    LeftOut, ///< it cannot be shown, and is not offered any more
+    LeftOut, ///< it cannot be shown, and is not offered
 };
 
 } // namespace frustumscreen

@@ -43,7 +43,8 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
-      ready_(catalogue_.size(), ArtifactState::Ready), state_since_(now), next_turn_(now + turn_time),
+      ready_(catalogue_.size(), ArtifactState::Ready), offered_(catalogue_.size(), true), state_since_(now),
+      next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       sentences_(place.words, place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
     if (place.table_pictures) {
@@ -64,7 +65,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const bool rests =
         state_ == State::Staff ? now - state_since_ >= staff_time : presence_.rests(now, place_.rest);
     go_to(next(state_, rests ? Event::Rest : Event::VisitorComes), now);
-    leave_out_the_bad(now);
+    offer_what_can_be_shown(now);
     for (const Command command : commands) {
         take(command, now);
     }
@@ -94,17 +95,14 @@ void Exhibit::note_triangles(std::size_t artifact, ArtifactTriangles triangles) 
     catalogue_[artifact].hotspots.triangles = std::move(triangles);
 }
 
-void Exhibit::leave_out_the_bad(MonotonicTime now) {
-    const auto bad = std::count(ready_.begin(), ready_.end(), ArtifactState::LeftOut);
-    if (static_cast<std::size_t>(bad) == left_out_) {
-        return;
-    }
-    left_out_ = static_cast<std::size_t>(bad);
+void Exhibit::offer_what_can_be_shown(MonotonicTime now) {
     for (std::size_t artifact = 0; artifact < ready_.size(); ++artifact) {
-        if (ready_[artifact] == ArtifactState::LeftOut) {
-            selection_.leave_out(artifact, now);
+        const bool offered = ready_[artifact] != ArtifactState::LeftOut;
+        if (offered != offered_[artifact]) {
+            offered_[artifact] = offered;
+            selection_.offer(artifact, offered, now);
             if (table_) {
-                table_->leave_out(artifact);
+                table_->offer(artifact, offered);
             }
         }
     }
@@ -166,7 +164,7 @@ void Exhibit::follow_state(State before, MonotonicTime now) {
 
 Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const Stand& stand) {
     Observed seen;
-    seen.nothing_to_show = left_out_ == catalogue_.size();
+    seen.nothing_to_show = std::find(offered_.begin(), offered_.end(), true) == offered_.end();
     seen.tracker_lost = attract_->lost();
     step_table(now, situation, stand, seen);
     guidance_ = step_guide(now, situation, stand);

@@ -153,7 +153,7 @@ public:
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
-    void leave_out_the_bad(MonotonicTime now);
+    void offer_what_can_be_shown(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
     void go_to(State state, MonotonicTime now);
     /// What a state does as it begins, and as it goes on.
@@ -192,7 +192,7 @@ private:
     ExhibitPlace place_;
     Selection selection_;
     std::vector<ArtifactState> ready_;
-    std::size_t left_out_ = 0;     ///< how many of them the selection knows to be left out
+    std::vector<bool> offered_;    ///< by artifact: selection and table offer it
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
     StandIn stand_in_;
     State state_ = State::Attract;

@@ -87,6 +87,9 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
         }
     }
     StandIn::Output comes = stand_in_.step(now, input);
+    if (state_ == State::Fault) {
+        return {0.0, std::nullopt, false};
+    }
     if (comes.picture) {
         comes.picture->brightness *= stand.brightness;
     }
@@ -95,7 +98,7 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
                                                  const Situation& situation, const Stand& stand) {
-    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+    if (state_ == State::Fault || catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
@@ -129,7 +132,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
                                                const Situation& situation, const Stand& stand,
                                                const Presentation& presentation) {
-    if (catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+    if (state_ == State::Fault || catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
@@ -172,7 +175,7 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     TellerInput input;
     input.subject = description_of(selection_.artifact(), selection_.language());
     input.visible = description_of(shown.artifact, shown.language);
-    input.tellable = tellable(input.subject);
+    input.tellable = state_ == State::Fault ? nullptr : tellable(input.subject);
     input.fades = shown.changing || stand.changing;
     input.attracts = stand.attracts;
     input.there = there_;

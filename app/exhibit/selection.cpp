@@ -46,9 +46,9 @@ void Selection::choose(std::size_t artifact, MonotonicTime now) {
     }
 }
 
-void Selection::leave_out(std::size_t artifact, MonotonicTime now) {
-    left_out_[artifact] = true;
-    if (artifact == artifact_.goal()) {
+void Selection::offer(std::size_t artifact, bool offered, MonotonicTime now) {
+    left_out_[artifact] = !offered;
+    if (left_out_[artifact_.goal()]) {
         choose(next(), now);
     }
 }

@@ -46,8 +46,8 @@ public:
     void take(Command command, MonotonicTime now);
     /// Chooses one artifact; one that there is not changes nothing.
     void choose(std::size_t artifact, MonotonicTime now);
-    /// The artifact is never chosen any more; where it is chosen now, the next one is.
-    void leave_out(std::size_t artifact, MonotonicTime now);
+    /// Whether the artifact can be chosen. Where the chosen one cannot, the next one that can is.
+    void offer(std::size_t artifact, bool offered, MonotonicTime now);
     /// The one that the button for the next artifact leads to, or for the previous one; the chosen one where there is no
     /// other.
     [[nodiscard]] std::size_t next() const { return neighbour(1); }

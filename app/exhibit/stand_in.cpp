@@ -19,8 +19,9 @@ double StandIn::light(const Input& input, double artifact) const {
 
 StandIn::Output StandIn::step(MonotonicTime now, const Input& input) {
     const bool other = shown_ != input.shown.artifact; // it is dark now
+    const bool gone = !other && !input.shown_ready && arrival_ >= 1.0;
     const bool leaves = input.shown.leaving && (other || !leaving_);
-    if (other) {
+    if (other || gone) {
         arrival_ = input.shown_ready ? 1.0 : 0.0;
         if (!input.shown_ready && picture_) {
             picture_ = input.shown.artifact; // something else was chosen on the way

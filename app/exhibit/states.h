@@ -120,6 +120,7 @@ inline constexpr std::array transitions{
     Transition{State::Browse, Event::TrackerLost, State::Degraded},
     Transition{State::Browse, Event::PropGoesOn, State::View},
     Transition{State::Browse, Event::ArtifactChosen, State::View},
+    Transition{State::Browse, Event::TellingBegins, State::Describe},
 
     Transition{State::Guide, Event::Rest, State::Attract},
     Transition{State::Guide, Event::Chord, State::Staff},

@@ -29,8 +29,9 @@ std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& in
     if (laid_out_ != faded.which) {
         lay_out(Arrangement::of(faded.which), input.artifact);
         laid_out_ = faded.which;
-        note_choosable(input.artifact);
-    } else if (other_artifact) {
+        choosable_holds_ = false;
+    }
+    if (other_artifact || !choosable_holds_) {
         note_choosable(input.artifact);
     }
     lighten(now, input, faded);
@@ -105,6 +106,7 @@ void TableBrowser::note_choosable(std::size_t artifact) {
         }
     }
     dwell_.pictures_changed(std::span(choosable_).first(choosable_count_));
+    choosable_holds_ = true;
 }
 
 } // namespace frustumscreen

@@ -52,8 +52,11 @@ public:
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
-    /// Its picture goes, and it cannot be chosen any more.
-    void leave_out(std::size_t artifact) { left_out_[artifact] = true; }
+    /// Whether the artifact can be chosen: its picture comes or goes.
+    void offer(std::size_t artifact, bool offered) {
+        left_out_[artifact] = !offered;
+        choosable_holds_ = false;
+    }
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
     /// Whether the prop is on a picture that resting there chooses.
     [[nodiscard]] bool prop_is_on_picture() const { return on_picture_ || presented_.ring; }
@@ -99,6 +102,7 @@ private:
     std::array<TableRectangle, most_table_places> choosable_{};
     std::array<std::size_t, most_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
+    bool choosable_holds_ = false; ///< the choosable pictures are those that lie there
     bool on_picture_ = false;
     std::array<TableRectangle, most_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;

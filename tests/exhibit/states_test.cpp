@@ -30,7 +30,7 @@ constexpr const char* by_hand =
     "prop_rests        .        browse   .        browse   .        .        .        .\n"
     "prop_goes_on      .        .        view     .        .        .        .        .\n"
     "artifact_chosen   .        .        view     .        view     .        .        .\n"
-    "telling_begins    .        describe .        describe .        describe .        .\n"
+    "telling_begins    .        describe describe describe .        describe .        .\n"
     "telling_ends      .        .        .        .        view     .        .        .\n"
     "advice_due        .        guide    .        .        .        .        .        .\n"
     "advice_over       .        .        .        view     .        .        .        .\n";
