@@ -58,12 +58,14 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
 }
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
-    const State before = state_;
     // Who is told something is there, also without moving.
     const bool telling = tells();
     there_ = presence_.update(now, situation, !commands.empty() || telling);
     const bool rests =
         state_ == State::Staff ? now - state_since_ >= staff_time : presence_.rests(now, place_.rest);
+    if (rests && state_ != State::Staff && state_ != State::Attract) {
+        rest(now);
+    }
     go_to(next(state_, rests ? Event::Rest : Event::VisitorComes), now);
     offer_what_can_be_shown(now);
     for (const Command command : commands) {
@@ -76,7 +78,10 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
     side_.update(situation.eye_m);
     go_to(state_after(state_, observe(now, situation, stand)), now);
-    follow_state(before, now);
+    if (state_ == State::Attract && now >= next_turn_) {
+        selection_.choose(selection_.next(), now);
+        next_turn_ = now + turn_time;
+    }
     return present(now, situation, stand, !commands.empty());
 }
 
@@ -145,21 +150,13 @@ void Exhibit::go_to(State state, MonotonicTime now) {
     }
 }
 
-void Exhibit::follow_state(State before, MonotonicTime now) {
-    if (state_ != State::Attract) {
-        return;
+void Exhibit::rest(MonotonicTime now) {
+    selection_.reset_language(now);
+    sensed_.forget();
+    if (guide_) {
+        guide_->forget();
     }
-    if (before != State::Attract) { // the visitor has gone
-        selection_.reset_language(now);
-        sensed_.forget();
-        if (guide_) {
-            guide_->forget();
-        }
-        next_turn_ = now + turn_time;
-    } else if (now >= next_turn_) {
-        selection_.choose(selection_.next(), now);
-        next_turn_ = now + turn_time;
-    }
+    next_turn_ = now + turn_time;
 }
 
 Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const Stand& stand) {

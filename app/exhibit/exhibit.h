@@ -156,8 +156,8 @@ private:
     void offer_what_can_be_shown(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
     void go_to(State state, MonotonicTime now);
-    /// What a state does as it begins, and as it goes on.
-    void follow_state(State before, MonotonicTime now);
+    /// The visitor has gone.
+    void rest(MonotonicTime now);
     [[nodiscard]] Observed observe(MonotonicTime now, const Situation& situation, const Stand& stand);
     void step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen);
     /// Nothing where nobody is there, or there is nothing to mend.

@@ -178,10 +178,11 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     input.tellable = state_ == State::Fault ? nullptr : tellable(input.subject);
     input.fades = shown.changing || stand.changing;
     input.attracts = stand.attracts;
-    input.there = there_;
+    input.there = there_ && state_ != State::Attract;
     input.pressed = pressed;
     input.next = std::exchange(choose_, false);
     input.help = std::exchange(help_, false);
+    input.text_has_place = placer_.at(now).opacity > 0.0;
     input.staff = state_ == State::Staff;
     input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;
     input.narration = narration_;
@@ -246,7 +247,8 @@ void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Pre
         spoken_.reset();
         presentation.falls_silent = true;
     }
-    speech_due_ = guidance_ != nullptr && (speech_due_ || guidance_->speak);
+    speech_due_ = guidance_ != nullptr &&
+                  (guidance_->speak || (speech_due_ && guidance_->stage == GuidanceStage::Voice));
     if (speech_due_ && word && note_of(state_).voice && sentences_.shows(now, *word)) {
         presentation.says = word;
         spoken_ = word;
@@ -271,7 +273,8 @@ std::uint32_t Exhibit::lamps() const {
     const Tellable* const told = tellable(description_of(selection_.artifact(), selection_.language()));
     const bool rests_on_picture = table_ && table_->presented().ring;
     const bool helps = guidance_ != nullptr || (told != nullptr && !told->portions.empty());
-    lamps |= told != nullptr || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
+    const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
+    lamps |= tells || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
     lamps |= helps ? 1U << button_of(Command::Help) : 0U;
     return lamps;
 }

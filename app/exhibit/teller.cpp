@@ -14,12 +14,13 @@ const Told& Teller::step(MonotonicTime now, const Situation& situation, const Te
     telling.tellable = input.tellable;
     telling.shown = !input.fades && input.subject == input.visible;
     telling.whole = !has_advice && situation.prop_known && !input.attracts;
+    telling.in_prop = !input.attracts;
     telling.there = input.there;
     telling.rested = stillness_.update(now, situation, input.pressed);
     telling.next = input.next;
     telling.describe = input.help && !has_advice;
     telling.gives_way = gives_way(now, situation, input);
-    telling.stops = input.staff || (input.help && has_advice);
+    telling.stops = input.staff || (input.help && has_advice) || is_unread(now, input);
     telling.narration = input.narration;
     told_ = telling_.step(now, telling);
     follow_text(now, input);
@@ -40,6 +41,14 @@ bool Teller::gives_way(MonotonicTime now, const Situation& situation, const Tell
         head_known_ = situation.head_known;
     }
     return comes_to_words || moved_away || goes;
+}
+
+/// The description is to lie on the table, and there has been no place for it.
+bool Teller::is_unread(MonotonicTime now, const TellerInput& input) {
+    const CaptionText shown = text();
+    const bool hidden = told_.portion && shown.portion && !shown.changing && !input.text_has_place;
+    hidden_since_ = !hidden ? std::nullopt : hidden_since_ ? hidden_since_ : now;
+    return hidden_since_ && now - *hidden_since_ >= lost;
 }
 
 /// With another artifact or language comes its short text; it is dark then.

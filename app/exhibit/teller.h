@@ -1,7 +1,7 @@
 /// Tells the visitor of the artifact: when telling goes on and when it gives way (telling.h), and which text the caption has.
 ///
 /// It gives way to advice that comes to words, to a prop or a head that is lost for longer than a tracker's dropout, and to the
-/// staff.
+/// staff; and it ends where its text has no place on the table.
 ///
 /// The caption changes between the artifact's short text and its description through darkness. While the artifact or the caption
 /// itself fades, this fade stands still, and it begins no sooner than a moment later: each alone flashes at most twice a second, and
@@ -33,6 +33,7 @@ struct TellerInput {
     bool pressed = false;               ///< anything
     bool next = false;                  ///< asked for the next thing
     bool help = false;                  ///< asked for help
+    bool text_has_place = true;         ///< the caption is seen, or fades
     bool staff = false;
     GuidanceStage stage = GuidanceStage::Quiet;
     Narration narration;
@@ -56,6 +57,7 @@ public:
 
 private:
     [[nodiscard]] bool gives_way(MonotonicTime now, const Situation& situation, const TellerInput& input);
+    [[nodiscard]] bool is_unread(MonotonicTime now, const TellerInput& input);
     void follow_text(MonotonicTime now, const TellerInput& input);
 
     Telling telling_;
@@ -65,6 +67,7 @@ private:
     bool attracts_ = false;                      ///< the same
     bool head_known_ = false;                    ///< the latest head that was not lost was known
     std::optional<MonotonicTime> lost_since_;
+    std::optional<MonotonicTime> hidden_since_; ///< the description has had no place
     DescriptionIndex visible_;
     MonotonicTime last_;             ///< the step before
     MonotonicTime fades_until_;      ///< the artifact or its caption did

@@ -15,6 +15,10 @@ std::size_t thing_of_hotspot(const Tellable& tellable, std::size_t hotspot) {
     return hotspot + (is_described(tellable) ? 1 : 0);
 }
 
+bool is_hotspot(const Tellable& tellable, std::size_t thing) {
+    return thing >= thing_of_hotspot(tellable, 0) && thing < tellable.count();
+}
+
 } // namespace
 
 Told Telling::step(MonotonicTime now, const TellingInput& input) {
@@ -22,10 +26,9 @@ Told Telling::step(MonotonicTime now, const TellingInput& input) {
     if (input.tellable == nullptr) {
         return {};
     }
-    const bool was_described = state_ == State::Description;
     give_way(now, input);
     take_presses(now, input);
-    if (state_ == State::Description && was_described) {
+    if (state_ == State::Description && since_ < now) { // what began now is not what was heard until now
         follow_speech(now, input);
     }
     follow_rest(now, input);
@@ -91,7 +94,8 @@ void Telling::take_presses(MonotonicTime now, const TellingInput& input) {
         (state_ != State::Description || leaves || over_since_)) {
         begin(0, now, *input.tellable);
     } else if (next_waits_) {
-        begin(next_thing(*input.tellable), now, *input.tellable);
+        const std::size_t thing = next_thing(*input.tellable);
+        is_hotspot(*input.tellable, thing) && !input.in_prop ? end(now) : begin(thing, now, *input.tellable);
     }
     next_waits_ = describe_waits_ = false;
 }
@@ -161,7 +165,7 @@ void Telling::follow_speech(MonotonicTime now, const TellingInput& input) {
     if (reads_ && !over_since_) {
         read_on(now, tellable);
     }
-    if (now - since_ >= longest_description) {
+    if (!reads_ && now - since_ >= longest_description) { // reading ends by itself
         end(now);
     }
 }

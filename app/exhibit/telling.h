@@ -55,6 +55,7 @@ struct TellingInput {
     const Tellable* tellable = nullptr; ///< none: nothing can be told
     bool shown = true;                  ///< it is there and nothing fades: presses wait for that
     bool whole = true;                  ///< the visitor sees all of it and needs no advice
+    bool in_prop = true;                ///< else no hotspot can be pointed out
     bool there = true;                  ///< somebody is there
     Nanoseconds rested{0};              ///< for how long nothing was moved or pressed
     bool next = false;                  ///< pressed: the next thing
@@ -88,7 +89,7 @@ public:
     static constexpr Nanoseconds longest_coming = std::chrono::seconds(1);
     /// A sentence's next pause comes sooner; a recording without pauses is cut off.
     static constexpr Nanoseconds longest_leaving = std::chrono::seconds(3);
-    /// A recording is no longer than three minutes.
+    /// What is heard: a recording is no longer than three minutes.
     static constexpr Nanoseconds longest_description = std::chrono::minutes(4);
     /// Who comes after so long is somebody else, and is told all again.
     static constexpr Nanoseconds forgets = std::chrono::seconds(30);

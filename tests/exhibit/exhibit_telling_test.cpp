@@ -79,6 +79,10 @@ protected:
     }
     [[nodiscard]] bool describes() const { return shown.caption && shown.caption->portion.has_value(); }
 
+    void with(const Catalogue& catalogue, const ExhibitPlace& place) {
+        exhibit_ = Exhibit(catalogue, place, "en", sample::start);
+    }
+
     Exhibit exhibit_{catalogue(), place(), "en", sample::start};
     Presentation shown;
     MonotonicTime now_ = sample::start;
@@ -215,6 +219,30 @@ TEST_F(TellingExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
     EXPECT_TRUE(shown.tells);
     run(milliseconds(300));
     EXPECT_FALSE(shown.tells);
+}
+
+TEST_F(TellingExhibit, NobodyIsToldAnythingAfterARest) {
+    ExhibitPlace hasty = place();
+    hasty.rest = seconds(10);
+    with(catalogue(), hasty);
+    run(seconds(1), {Command::NextLanguage});
+    for (int k = 0; k < 100; ++k) {
+        run(seconds(1));
+        EXPECT_TRUE(!shown.tells || shown.state == State::Describe);
+    }
+    EXPECT_EQ(shown.state, State::Attract);
+}
+
+TEST_F(TellingExhibit, WhatCannotBeReadIsNotHeardForLong) {
+    Catalogue catalogue_of_long_texts = catalogue();
+    const std::vector<std::vector<glm::dvec2>> too_large(3, {{2.0, 1.0}});
+    catalogue_of_long_texts[0].descriptions[0] = {too_large, largest_sizes(too_large), false};
+    with(catalogue_of_long_texts, place());
+    run(seconds(1), {Command::Help});
+    EXPECT_TRUE(shown.tells) << "the short text fades out";
+    run(seconds(3));
+    EXPECT_FALSE(shown.tells || describes());
+    EXPECT_TRUE(shown.caption) << "the short text is back";
 }
 
 TEST_F(TellingExhibit, TheStaffsPatternEndsIt) {

@@ -278,5 +278,23 @@ TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
     EXPECT_EQ(said, 0);
 }
 
+TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
+    wait(seconds(1), std::array{Command::NextLanguage});
+    exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::LeftOut, ArtifactState::LeftOut});
+    wait(seconds(2));
+    EXPECT_EQ(shown.state, State::Fault);
+    EXPECT_EQ(text(), "fault.no_artifact");
+    EXPECT_EQ(shown.advice->word.language, 0U);
+    EXPECT_EQ(shown.brightness, 0.0);
+    EXPECT_FALSE(shown.caption || shown.stand_in);
+    wait(seconds(30));
+    EXPECT_EQ(shown.advice->word.language, 1U);
+    exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::Ready, ArtifactState::LeftOut});
+    wait(seconds(2));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_EQ(shown.artifact, 1U);
+    EXPECT_EQ(shown.brightness, 1.0);
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -249,6 +249,54 @@ TEST_F(Telling_, HelpBeginsTheDescriptionAndDoesNotBeginItTwice) {
     EXPECT_TRUE(told.speaks);
 }
 
+/// How the speech before ended, or how far it is, says nothing of the one that begins.
+TEST(Telling, WhatIsToldAgainBeginsAtItsBeginning) {
+    for (const Narration& before : {Narration{State::Over, 0}, {State::Heard, 2}}) {
+        Telling telling;
+        MonotonicTime now{seconds(100)};
+        TellingInput input;
+        input.tellable = &both;
+        const auto step = [&](const Narration& narration, bool describe, bool gives_way = false) {
+            now += milliseconds(20);
+            input.narration = narration;
+            input.describe = describe;
+            input.gives_way = gives_way;
+            return telling.step(now, input);
+        };
+        EXPECT_TRUE(step({}, true).speaks);
+        step({State::Heard, 2}, false);
+        step(before, false, before.state == State::Heard);
+        const Told again = step(before, true);
+        EXPECT_TRUE(again.speaks);
+        EXPECT_EQ(again.portion, 0U);
+    }
+}
+
+TEST_F(Telling_, ALongDescriptionIsReadToItsEnd) {
+    const Tellable longest{std::vector<Nanoseconds>(32, seconds(11)), {}};
+    tellable = &longest;
+    voice = false;
+    press();
+    rest(32 * (seconds(11) + Telling::finds_text) - seconds(1));
+    EXPECT_EQ(told.portion, 31U);
+    rest(seconds(4));
+    EXPECT_TRUE(nothing());
+}
+
+TEST_F(Telling_, NoHotspotIsPointedOutWhereTheArtifactIsNotInTheProp) {
+    TellingInput input;
+    input.in_prop = false;
+    input.next = true;
+    tellable = &hotspots_alone;
+    step(input);
+    EXPECT_TRUE(nothing());
+    tellable = &both;
+    subject.artifact = 1;
+    EXPECT_TRUE(step(input).speaks);
+    step(input);
+    EXPECT_TRUE(nothing());
+}
+
 TEST_F(Telling_, AnEmptyRoomIsToldNothingAndSomebodyElseAll) {
     TellingInput nobody;
     nobody.there = false;
