@@ -21,6 +21,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.wanted = wanted();
     presentation.language = language_of(shown.artifact);
     present_words(now, situation, stand, presentation);
+    sign_ = presentation.sign;
     tell(now, situation, shown, stand, pressed, presentation);
     presentation.caption = caption(now, shown, situation, stand);
     if (presentation.caption && presentation.advice) {
