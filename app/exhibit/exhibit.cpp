@@ -175,8 +175,15 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
     if (!table_) {
         return;
     }
-    TableBrowser::Input input{selection_.artifact(), side_.quarter_turns(),
-                              stand_hides(place_.prop, stand, place_.lens_m), std::nullopt, choose_};
+    TableBrowser::Input input{selection_.artifact(),
+                              side_.quarter_turns(),
+                              stand_hides(place_.prop, stand, place_.lens_m),
+                              std::nullopt,
+                              choose_,
+                              std::nullopt};
+    if (sign_) {
+        input.sign = hull_of({}, sign_->corners_m);
+    }
     if (situation.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, situation.table_from_prop);
     }
@@ -194,6 +201,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
 const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situation, const Stand& stand) {
     const bool lost = attract_->lost();
     const Sensing sensing = sensed_.update(now, situation, lost, presence_.touched());
+    const bool on_way = sensing == Sensing::Good && is_on_way_to_picture(now);
     const bool can_be_guided = lost || (situation.prop_known && !stand.attracts);
     if (!guide_ || !there_ || !can_be_guided || state_ == State::Attract || state_ == State::Staff) {
         return nullptr;
@@ -204,6 +212,9 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
     }
     if (help_) {
         guide_->ask();
+    } else if (on_way) {
+        guide_->rest(now);
+        return nullptr;
     }
     // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
     const bool may_speak =
@@ -211,6 +222,19 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
     const Guidance& guidance =
         guide_->step(now, {situation.table_from_prop, situation.eye_m}, sensing, may_speak);
     return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
+}
+
+/// Who slides the prop among pictures is on the way to one, and back: advice that does not lie there yet waits until the prop
+/// stands, or is moved about for long.
+bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
+    constexpr Nanoseconds longest_way = std::chrono::seconds(4);
+    if (!presence_.prop_moves(now)) {
+        way_since_.reset();
+        return false;
+    }
+    way_since_ = way_since_ ? way_since_ : now;
+    const bool pictures = table_ && table_->presented().count > 0;
+    return pictures && guidance_ == nullptr && now - *way_since_ < longest_way;
 }
 
 bool Exhibit::tells() const {

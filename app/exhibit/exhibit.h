@@ -163,6 +163,7 @@ private:
     /// Nothing where nobody is there, or there is nothing to mend.
     [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const Situation& situation,
                                              const Stand& stand);
+    [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
     /// Something of the artifact is being told.
     [[nodiscard]] bool tells() const;
 
@@ -203,7 +204,9 @@ private:
     Presence presence_;
     Sensed sensed_;
     std::optional<Guide> guide_;
-    const Guidance* guidance_ = nullptr; ///< of this step
+    const Guidance* guidance_ = nullptr;     ///< of this step
+    std::optional<MonotonicTime> way_since_; ///< the prop moves
+    std::optional<PlacedSign> sign_;         ///< of the latest step
     Sentences sentences_;
     bool speaking_ = false;           ///< somebody hears something
     bool speech_due_ = false;         ///< until the words lie on the table

@@ -3,7 +3,7 @@
 #include "app/exhibit/languages.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace frustumscreen {
@@ -21,6 +21,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.wanted = wanted();
     presentation.language = language_of(shown.artifact);
     present_words(now, situation, stand, presentation);
+    sign_ = presentation.sign;
     tell(now, situation, shown, stand, pressed, presentation);
     presentation.caption = caption(now, shown, situation, stand);
     if (presentation.caption && presentation.advice) {
@@ -62,23 +63,31 @@ WantedArtifacts Exhibit::wanted() const {
     return wanted;
 }
 
-/// The prop's place is as large as its bottom, upright for the reader.
+namespace {
+
+/// Where a standing artifact is seen in the prop: as large as the prop is high, on the reader's half.
+TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_prop, int quarter_turns) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-low);
+    for (const glm::dvec3& corner : prop.corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    const glm::dvec2 to_reader(0.0, -0.2 * (high.x - low.x));
+    return {glm::dvec2(table_from_prop.translation) + turned(to_reader, quarter_turns),
+            glm::dvec2(high.z - low.z), quarter_turns};
+}
+
+} // namespace
+
 StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
     if (catalogue_.empty()) {
         return {0.0, std::nullopt, false};
     }
     const std::size_t chosen = selection_.artifact();
-    double half_side_m = 0.0;
-    for (const glm::dvec3& corner : std::span(place_.prop.corners).first(place_.prop.corners.size() / 2)) {
-        half_side_m = std::max({half_side_m, std::abs(corner.x), std::abs(corner.y)});
-    }
-    StandIn::Input input{shown,
-                         chosen,
-                         ready(shown.artifact),
-                         ready(chosen),
-                         std::nullopt,
-                         {glm::dvec2(stand.table_from_prop.translation), glm::dvec2(2.0 * half_side_m),
-                          side_.quarter_turns()}};
+    StandIn::Input input{
+        shown,         chosen,       ready(shown.artifact),
+        ready(chosen), std::nullopt, place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
     if (table_) {
         for (const PlacedPicture& picture : table_->presented().pictures()) {
             if (picture.artifact == chosen) {

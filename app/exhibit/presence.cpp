@@ -26,6 +26,7 @@ bool Presence::update(MonotonicTime now, const Situation& situation, bool active
     const bool moved = prop || (rested_ && head_has_moved(situation, *rested_));
     rested_ = moved || !rested_ ? situation : rested_;
     moved_ = moved || active ? now : moved_;
+    prop_moved_ = prop ? now : prop_moved_;
     touched_ = prop || active ? now : touched_;
     return moved_ && now - *moved_ < stays;
 }

@@ -29,11 +29,16 @@ public:
     }
     /// When the prop moved last or a button was pressed; nothing: never.
     [[nodiscard]] const std::optional<MonotonicTime>& touched() const { return touched_; }
+    /// Whether the prop is being moved, by 16 mm a second or more.
+    [[nodiscard]] bool prop_moves(MonotonicTime now) const {
+        return prop_moved_ && now - *prop_moved_ < std::chrono::milliseconds(250);
+    }
 
 private:
     std::optional<Situation> rested_; ///< where prop and head were at the latest movement
     std::optional<MonotonicTime> moved_;
     std::optional<MonotonicTime> touched_;
+    std::optional<MonotonicTime> prop_moved_;
 };
 
 } // namespace frustumscreen

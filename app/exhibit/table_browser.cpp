@@ -69,6 +69,8 @@ void TableBrowser::lay_out(const Arrangement& arrangement, std::size_t artifact)
         if (here || layout.leads_on(place)) {
             const PlacedPicture picture{here, layout.places[place], 0.0};
             presence_[presented_.count] = empty(picture, artifact) ? 0.0 : 1.0;
+            under_sign_[presented_.count] = 0.0;
+            signed_at_[presented_.count].reset();
             presented_.places[presented_.count++] = picture;
         }
     }
@@ -82,10 +84,24 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
         PlacedPicture& picture = presented_.places[k];
         const double goal = empty(picture, input.artifact) ? 0.0 : 1.0;
         presence_[k] += std::clamp(goal - presence_[k], -step, step);
-        presented_.changing = presented_.changing || presence_[k] != goal;
-        picture.brightness =
-            ease(presence_[k]) * faded.brightness * place_brightness(picture.place, input.shadow);
+        const double signed_goal = is_under_sign(now, input, k) ? 1.0 : 0.0;
+        under_sign_[k] += std::clamp(signed_goal - under_sign_[k], -step, step);
+        presented_.changing = presented_.changing || presence_[k] != goal || under_sign_[k] != signed_goal;
+        picture.brightness = ease(presence_[k]) * faded.brightness *
+                             place_brightness(picture.place, input.shadow) *
+                             (1.0 - (1.0 - dimmed) * ease(under_sign_[k]));
     }
+}
+
+/// A sign glides to and fro; what it comes back to stays dim.
+bool TableBrowser::is_under_sign(MonotonicTime now, const Input& input, std::size_t picture) {
+    constexpr Nanoseconds comes_back = std::chrono::seconds(2);
+    std::optional<MonotonicTime>& signed_at = signed_at_[picture];
+    const TableRectangle whole = presented_.places[picture].place.whole();
+    if (input.sign && clearance(whole.corners(), input.sign->corners()) <= 0.0) {
+        signed_at = now;
+    }
+    return input.sign && signed_at && now - *signed_at < comes_back;
 }
 
 bool TableBrowser::is_on_picture(const std::optional<glm::dvec2>& prop_m) const {

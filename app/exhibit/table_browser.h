@@ -40,6 +40,7 @@ struct PresentedTable {
 class TableBrowser {
 public:
     static constexpr Nanoseconds each_way = std::chrono::milliseconds(250); ///< of a fade
+    static constexpr double dimmed = 0.12; ///< light of a picture under a sign
 
     explicit TableBrowser(const TableSetUp& set_up);
 
@@ -49,6 +50,7 @@ public:
         std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
         std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
         bool choose = false;                ///< pressed: takes the picture whose ring has begun
+        std::optional<TablePolygon> sign;   ///< what the visitor should do; pictures under it dim
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
@@ -82,6 +84,7 @@ private:
     void lay_out(const Arrangement& arrangement, std::size_t artifact);
     void lighten(MonotonicTime now, const Input& input, const Faded& faded);
     void note_choosable(std::size_t artifact);
+    [[nodiscard]] bool is_under_sign(MonotonicTime now, const Input& input, std::size_t picture);
     [[nodiscard]] bool is_on_picture(const std::optional<glm::dvec2>& prop_m) const;
 
     /// Whether the place is empty: of what is in the prop, or left out.
@@ -97,7 +100,9 @@ private:
     std::optional<Fade> fade_;            ///< from the first step on
     std::optional<std::size_t> laid_out_; ///< the arrangement that lies there
     MonotonicTime last_;
-    std::array<double, most_table_places> presence_{}; ///< 0: the place is empty
+    std::array<double, most_table_places> presence_{};                        ///< 0: the place is empty
+    std::array<double, most_table_places> under_sign_{};                      ///< 1: dimmed
+    std::array<std::optional<MonotonicTime>, most_table_places> signed_at_{}; ///< when a sign last lay on it
     Dwell dwell_;
     std::array<TableRectangle, most_table_places> choosable_{};
     std::array<std::size_t, most_table_places> choosable_places_{};

@@ -6,9 +6,9 @@
 /// caption. The layout depends on the set-up, on how many artifacts there are and on the reader's side: nothing that moves
 /// on the table moves a place.
 ///
-/// Method   All pictures have one size. For each size from the largest on, lattices of rows and columns are tried, spread
-///          evenly or packed against both edges; the first size that has room for all is taken, and of its lattices the
-///          one whose places are nearest to the reader.
+/// Method   All pictures have one size. They lie in even rows, symmetric about the line from the reader to the prop
+///          (table_places.h), unless a lopsided page has room for half as many again. The most artifacts on a page come
+///          first, then the larger pictures.
 /// Frames   table T, metres.
 /// Threads  pure; any. `lay_out_table` takes some milliseconds and allocates: before the first frame, for each side.
 /// Errors   none: a table without room has no places.

@@ -10,7 +10,7 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
+    glBlendEquation(GL_MAX);
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     glEnable(GL_SCISSOR_TEST);
     glActiveTexture(GL_TEXTURE0);
@@ -25,6 +25,7 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
             (texture == nullptr && picture != TextureId::None)) {
             continue;
         }
+        (picture != TextureId::None ? glEnable : glDisable)(GL_BLEND);
         shader->use();
         // Black takes no texture: with whatever was bound before, a driver would compile for its format.
         glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->texels.get() : 0);
@@ -37,6 +38,8 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
     glBindVertexArray(0);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    glDisable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
     return calls;
 }
 

@@ -1,5 +1,5 @@
 /// Draws what lies flat on the table: the plan's quadrilaterals, in order. Captions and pictures come first, then the
-/// prop's faces in black, because nothing of them lies on the prop.
+/// prop's faces in black, because nothing of them lies on the prop. Of two pictures that overlap the brighter one shows.
 ///
 /// It draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
 ///

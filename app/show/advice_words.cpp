@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view advice_prefix = "advice.";
 /// What else is shown of the exhibit's own words.
 constexpr std::array<std::string_view, 2> other_keys{"attract_line", "fault.no_artifact"};
-/// Widths that a sentence is wrapped to, in falling preference: narrower than a caption, as it lies beside a sign.
-constexpr std::array<double, 2> widths_m{0.24, 0.12};
+/// Widths that a sentence is wrapped to, in type sizes and in falling preference: all that words are set for.
+constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
 
 /// Each language of the file that is the nearest one to some language that is shown.
 std::set<std::string> nearest(const std::vector<WordsLanguage>& listed,
@@ -69,9 +69,9 @@ Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& 
         }
         AdviceText text{*key, {}};
         AdviceWord one;
-        for (const double width_m : widths_m) {
+        for (const double width_em : widths_em) {
             const CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
-                                                    width_m, request.texels_per_m);
+                                                    width_em * request.em_m, request.texels_per_m);
             const Result<TextureId> texture = store.upload(image.coverage);
             if (!texture) {
                 return tl::unexpected<Error>(texture.error());

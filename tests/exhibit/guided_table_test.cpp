@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace frustumscreen {
 namespace {
@@ -43,13 +44,17 @@ struct Visit {
         situation.time = now;
         shown = exhibit->step(now, {}, situation);
     }
-    /// Slides there in half a second.
-    void slide_to(const glm::dvec2& goal) {
+    /// Slides there in half a second, or so many steps. Returns those with a sign.
+    int slide_to(const glm::dvec2& goal, int steps = 30) {
         const glm::dvec3 from = situation.table_from_prop.translation;
-        for (int k = 1; k <= 30; ++k) {
-            situation.table_from_prop.translation = glm::mix(from, glm::dvec3(goal, 0.0), k / 30.0);
+        int signs = 0;
+        for (int k = 1; k <= steps; ++k) {
+            situation.table_from_prop.translation =
+                glm::mix(from, glm::dvec3(goal, 0.0), static_cast<double>(k) / steps);
             step();
+            signs += shown.sign || shown.advice || shown.says ? 1 : 0;
         }
+        return signs;
     }
     /// Steps of this time with a sign.
     int signs_in(milliseconds time) {
@@ -94,6 +99,67 @@ TEST(GuidedTable, IsQuietWhileThePropIsOnAPictureAndGuidesAfterTheChoice) {
     without.signs_in(milliseconds(800));
     without.slide_to(goal);
     EXPECT_GT(without.signs_in(milliseconds(1600)), 30);
+}
+
+/// Two and a half seconds to a picture, through places where a face is dark, and back.
+TEST(GuidedTable, IsQuietOnTheWayToAPictureAndBack) {
+    for (const bool pictures : {true, false}) {
+        Visit visit(true);
+        visit.signs_in(milliseconds(800));
+        const glm::dvec2 goal = dark_picture(visit);
+        Visit slides(pictures);
+        slides.signs_in(milliseconds(800));
+        const int there = slides.slide_to(goal, 150);
+        const int meanwhile = slides.signs_in(milliseconds(1600));
+        const int back = slides.slide_to({0.0, 0.0}, 150);
+        EXPECT_EQ(there + meanwhile + back > 0, !pictures) << there << ", " << meanwhile << ", " << back;
+    }
+}
+
+TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
+    Visit stops(true);
+    stops.signs_in(milliseconds(800));
+    const glm::dvec2 goal = dark_picture(stops);
+    const double reach = 0.4 - 0.15;
+    const glm::dvec2 dark(std::copysign(reach, goal.x), -0.24); // beside all pictures
+    EXPECT_EQ(stops.slide_to(dark, 150), 0);
+    EXPECT_GT(stops.signs_in(milliseconds(1500)), 30);
+    // Whoever follows it keeps it.
+    EXPECT_GT(stops.slide_to(glm::mix(dark, glm::dvec2(0.0), 0.15), 60), 50);
+
+    Visit wanders(true);
+    wanders.signs_in(milliseconds(800));
+    int signs = wanders.slide_to(dark, 60);
+    for (int k = 0; k < 5; ++k) {
+        signs += wanders.slide_to(dark + glm::dvec2(0.0, k % 2 == 0 ? 0.04 : 0.0), 60);
+    }
+    EXPECT_GT(signs, 30);
+}
+
+/// However the sign lies over pictures, it is what is read.
+TEST(GuidedTable, PicturesUnderTheSignAreDim) {
+    int over_pictures = 0;
+    for (const glm::dvec3& eye : {glm::dvec3(0.0, -0.55, 0.5), glm::dvec3(0.75, 0.0, 0.5)}) {
+        for (const double x : {-0.3, -0.15, 0.15, 0.3}) {
+            for (const double y : {-0.2, 0.0, 0.2}) {
+                Visit visit(true);
+                visit.situation.eye_m = eye;
+                visit.signs_in(milliseconds(800));
+                visit.slide_to({x, y}, 10);
+                visit.signs_in(milliseconds(1400));
+                int here = 0;
+                for (const PlacedPicture& picture : visit.shown.table->pictures()) {
+                    if (visit.shown.sign && clearance(hull_of({}, visit.shown.sign->corners_m).corners(),
+                                                      picture.place.whole().corners()) <= 0.0) {
+                        ++here;
+                        EXPECT_LE(picture.brightness, 0.121);
+                    }
+                }
+                over_pictures += here;
+            }
+        }
+    }
+    EXPECT_GT(over_pictures, 2);
 }
 
 TEST(GuidedTable, WordsLieBesideThePictures) {

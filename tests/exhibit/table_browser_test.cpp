@@ -169,5 +169,33 @@ TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
     }
 }
 
+/// It glides to and fro over one picture: that one dims once, without a jump, and comes back when the sign goes.
+TEST(TableBrowser, PicturesUnderASignDim) {
+    Visitor visitor(6);
+    visitor.wait(0.6);
+    const TableRectangle under = visitor.picture_of(4).place.picture;
+    double before = 1.0;
+    int changes_of_way = 0;
+    for (int k = 0; k < 600; ++k) {
+        const bool signs = k < 420;
+        const double glides =
+            std::sin(k * 2.0 * 3.14159 / 108.0); // it is beside the picture for half of the time
+        const double below = 0.5 * under.size_m.y + 0.026 + 0.02 - 0.02 * glides;
+        const TableRectangle sign{under.centre_m - glm::dvec2(0.0, below), glm::dvec2(0.04)};
+        visitor.input.sign = signs ? std::optional(polygon_of(sign)) : std::nullopt;
+        visitor.wait(1.0 / 60.0);
+        const double now = visitor.picture_of(4).brightness;
+        EXPECT_LE(std::abs(now - before), 0.15);
+        changes_of_way += (k > 30 && k < 420 && std::abs(now - before) > 1e-9) ? 1 : 0;
+        before = now;
+        if (k == 419) {
+            EXPECT_NEAR(now, TableBrowser::dimmed, 1e-9);
+            EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{1, 2, 3, 5}));
+        }
+    }
+    EXPECT_LT(changes_of_way, 30);
+    EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{1, 2, 3, 4, 5}));
+}
+
 } // namespace
 } // namespace frustumscreen
