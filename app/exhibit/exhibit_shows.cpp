@@ -26,7 +26,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.caption = caption(now, shown, situation, stand);
     if (presentation.caption && presentation.advice) {
         // One text at a time, or the two would lie on each other.
-        presentation.caption->brightness *= 1.0 - presentation.advice->brightness;
+        presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
     presentation.hotspot = label(now, shown, situation, stand, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;

@@ -67,6 +67,11 @@ public:
             if (Result<void> drawn = frame(now); !drawn) {
                 return tl::unexpected<Error>(drawn.error());
             }
+            if (fault_since_ && now - *fault_since_ >= longest_fault) {
+                return fail(ErrorKind::BadConfiguration,
+                            "no artifact can be shown any more; the lines before this "
+                            "one say why, and a new start looks for packs again");
+            }
             if (now >= next_status) {
                 post_status(now);
                 next_status += between_statuses;
@@ -130,6 +135,7 @@ private:
         result_.status.prop_known = situation.prop_known;
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
+        fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
         if (inputs_.panel) {
             inputs_.panel->light(state.lamps);
         }
@@ -280,8 +286,9 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
-    std::vector<Command> commands_; ///< of this frame
-    MonotonicTime presented_;       ///< when the picture on show was
+    std::vector<Command> commands_;            ///< of this frame
+    MonotonicTime presented_;                  ///< when the picture on show was
+    std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     std::size_t stills_taken_ = 0;

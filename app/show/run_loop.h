@@ -3,7 +3,8 @@
 /// Time     every decision is made for one `now` a frame. In real time that is the monotonic clock; in a fast
 ///          run it steps by one period, so that the run is repeatable and as quick as the machine allows.
 /// Threads  the render thread, with the display's context current. Allocates nothing of its own in a frame.
-/// Errors   the display stops; devices that fail are counted and asked again.
+/// Errors   the display stops; no artifact can be shown any more, for `longest_fault`. Devices that fail are counted and asked
+///          again.
 #pragma once
 
 #include "app/settings/settings.h"
@@ -21,6 +22,9 @@
 #include <vector>
 
 namespace frustumscreen {
+
+/// Then the exhibit is to be started again, and looks for packs again.
+inline constexpr Nanoseconds longest_fault = std::chrono::minutes(1);
 
 struct LoopOptions {
     std::optional<Nanoseconds> length; ///< nothing = until told to stop
