@@ -141,7 +141,7 @@ class Guidance(HilTest):
         return any(abs(sample) > LOUD for sample in self.heard()[since:])
 
     def hears(self, language, since):
-        """This language's advice, whole, and nothing of the others'."""
+        """This language's advice, whole, and no other: at most the end of one that was being said before."""
         share = [0.0]
 
         def said():
@@ -151,7 +151,7 @@ class Guidance(HilTest):
         eventually(said, TALKS_S, lambda: f"the advice is not heard whole in '{language}': {100 * share[0]:.0f} % of it")
         for other in LANGUAGES:
             if other != language:
-                self.assertEqual(self.share_heard(other, since), 0.0, f"the advice is heard in '{other}' too")
+                self.assertLess(self.share_heard(other, since), 0.5, f"the advice is heard in '{other}' too")
 
     # What the visitor does.
 
@@ -164,11 +164,11 @@ class Guidance(HilTest):
 
     def test_advice_in_the_language_of_the_button(self):
         self.take_language("en")
-        since = len(self.heard())
         self.bench.place(LEFT_OF_THE_LIGHT)
         eventually(self.sign_is_there, TALKS_S, "no sign appears on the screen")
         self.sees_words("en")
         self.take_language("de")
+        since = len(self.heard())
         self.sees_words("de")
         self.hears("de", since)
         self.bench.place((0.0, 0.0, 0.0))
