@@ -18,6 +18,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double warm_up_step_m = 0.01;
+constexpr double sample_side_m = 0.05;
 /// Type size of what a visitor should do, in those of a caption.
 constexpr double advice_em = 1.5;
 
@@ -221,8 +222,8 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
     residents_->start(cost_of(first.times()), prop_, view, settings.eye.default_m);
 }
 
-/// Draws a whole picture and one that redraws what moved, each with a caption: drivers compile for what a
-/// frame does, and this should be done before the first frame.
+/// Draws a whole picture and one that redraws what moved, each with one of all that lies on the table: drivers compile for what
+/// a frame does, and this should be done before the first frame.
 void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     if (!texts_.front().captions.empty()) {
         const CaptionPicture& caption = texts_.front().captions.front().front();
@@ -231,6 +232,13 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     }
     on_table_.clear();
     table_.place_samples(attract_place_m_, on_table_);
+    const bool has_words = !words_.words.empty() && !words_.words.front().empty();
+    const TextureId word = has_words ? words_.words.front().front().textures.front() : TextureId::None;
+    for (const TextureId texture : {white_, signs_.front(), word}) {
+        if (texture != TextureId::None) {
+            on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
+        }
+    }
     view.on_table = on_table_.pictures();
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {

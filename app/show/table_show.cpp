@@ -241,6 +241,9 @@ void TableShow::place_samples(const glm::dvec2& at_m, OnTable& on_table) const {
     for (const Card& card : cards_) {
         if (card.picture.texture != TextureId::None) {
             on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, card.picture.texture});
+            if (!card.titles.empty() && card.titles.front().texture != TextureId::None) {
+                on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, card.titles.front().texture});
+            }
             break;
         }
     }

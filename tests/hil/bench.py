@@ -22,6 +22,7 @@ from vnc_viewer import VncViewer
 
 HERE = pathlib.Path(__file__).resolve().parent
 CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
+USUAL = CONFIG.read_text(encoding="utf-8")
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
 SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
 STATUS_FILE = "/run/frustumscreen/status.json"
@@ -93,6 +94,7 @@ class Bench:
         self.program = build / "bin" / "frustumscreen"
         self.packs = packs
         self._rendered = {}
+        self._settings, self._after = USUAL, "true"
         self._sockets = pathlib.Path(tempfile.mkdtemp(prefix="hil-"))
         self._shot = self._sockets / "screen.ppm"
         self.looked_at = "screen"  # or "second"
@@ -129,11 +131,22 @@ class Bench:
 
     # The exhibit's own words.
 
+    def configure(self, settings, before, after):
+        """Restarts the exhibit with these settings, unless it has them. `before`: what the guest does meanwhile; `after`: the
+        same when others come."""
+        if settings == self._settings:
+            return
+        # First stopped, then started: a handshake with the tracker is not cut off in the middle.
+        self.machine.check(f"systemctl stop {UNIT}; {self._after}")
+        self.machine.write(SETTINGS, settings)
+        self.machine.check(f"{before}; systemctl start --no-block {UNIT}")
+        self._settings, self._after = settings, after
+
     def status(self):
         """The status file; None: there is none now."""
-        ran = self.machine.run(f"cat {STATUS_FILE}")
+        text = self.machine.read(STATUS_FILE)
         try:
-            return json.loads(ran.output) if ran.status == 0 else None
+            return json.loads(text) if text else None
         except ValueError:
             return None
 

@@ -5,9 +5,10 @@ import unittest
 
 import screen
 import watch
-from bench import CONFIG, CONNECTOR, SETTINGS, UNIT, UPRIGHT, Bench
+from bench import CONNECTOR, UNIT, UPRIGHT, USUAL, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
+BUTTONS = 5
 PIXELS = 2.0  # largest distance between what is shown and what is rendered offline
 LIT = r"is lit, \d+ x \d+ at "  # the display's state; no sentence about a dark projector has this
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
@@ -24,21 +25,28 @@ def is_long(test):
 
 
 class HilTest(unittest.TestCase):
-    """All tests share one machine; each begins with all devices working, the first artifact, the prop at the centre."""
+    """All tests share one machine; each begins with all devices working, the first artifact, the prop at the centre. The
+    exhibit is restarted where a class has other settings than the one before it."""
 
     bench: Bench
+    settings = USUAL  # the whole file
+    before = after = "true"  # what the machine does while the exhibit stands: before it has these settings, after it had them
     longest_s = 0.0  # the longest time that a picture stood in any test while it should move
+
+    @classmethod
+    def setUpClass(cls):
+        cls.bench.configure(cls.settings, cls.before, cls.after)
 
     def setUp(self):
         bench = self.bench
         bench.tracker.tell("good")
         bench.buttons.tell("plug")
-        for pin in range(3):
+        for pin in range(BUTTONS):
             bench.buttons.tell("release", pin)
         bench.place(CENTRE_M)
         bench.place_head()
         bench.machine.run(f"rm -rf /run/hil; mkdir -m 777 /run/hil; echo detect > {CONNECTOR}")
-        if bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
+        if not bench.status() and bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
             bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start --no-block {UNIT}")
         bench.status_says("tracker", "is running", START_S)
         bench.status_says("panel", "buttons are there")
@@ -82,30 +90,3 @@ class HilTest(unittest.TestCase):
         reach = math.ceil(PIXELS)
         self.assertLess(screen.share_outside(seen, screen.grown(meant, reach, truth.width)), 0.002)
         self.assertLess(screen.share_outside(meant, screen.grown(seen, reach, truth.width)), 0.002)
-
-
-class OtherSettings(HilTest):
-    """Tests with settings of their own; after them the exhibit has its usual ones again."""
-
-    settings = CONFIG.read_text(encoding="utf-8")
-    before = after = "true"  # what the machine does while the exhibit is stopped
-
-    @classmethod
-    def other_settings(cls):
-        """The whole file."""
-        raise NotImplementedError
-
-    @classmethod
-    def setUpClass(cls):
-        cls.restart(cls.other_settings(), cls.before)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.restart(cls.settings, cls.after)
-
-    @classmethod
-    def restart(cls, settings, between):
-        # First stopped, then started: a handshake with the tracker is not cut off in the middle.
-        machine = cls.bench.machine
-        machine.write(SETTINGS, settings)
-        machine.check(f"systemctl stop {UNIT}; {between}; systemctl start --no-block {UNIT}")

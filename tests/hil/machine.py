@@ -230,6 +230,16 @@ class Machine:
             raise MachineError(f"in the guest: {command}: status {ran.status}: {ran.output.strip()}")
         return ran.output
 
+    def read(self, path):
+        """A small file of the guest; None: it cannot be opened. Starts no process there, as `run` does."""
+        try:
+            handle = self._agent.answer({"execute": "guest-file-open", "arguments": {"path": path}})
+        except MachineError:
+            return None
+        found = self._agent.answer({"execute": "guest-file-read", "arguments": {"handle": handle, "count": 1 << 16}})
+        self._agent.answer({"execute": "guest-file-close", "arguments": {"handle": handle}})
+        return base64.b64decode(found["buf-b64"]).decode(errors="replace")
+
     def write(self, path, text):
         """Writes a small file in the guest."""
         encoded = base64.b64encode(text.encode()).decode()

@@ -4,8 +4,8 @@ a viewer's window as the projector. The kernel reports it by uevent."""
 import time
 
 import screen
-from bench import CONNECTOR, HEIGHT, UNIT, UPRIGHT, WIDTH, eventually
-from hil_test import PIXELS, START_S, HilTest, OtherSettings, long
+from bench import CONNECTOR, HEIGHT, UNIT, UPRIGHT, USUAL, WIDTH, eventually
+from hil_test import PIXELS, START_S, HilTest, long
 from machine import SECOND_SLOT
 
 ARTIFACT = "amphora"
@@ -36,12 +36,9 @@ class OtherCard(HilTest):
                                f"systemctl start --no-block {UNIT}")
 
 
-class Display(OtherSettings):
+class Display(HilTest):
+    settings = f'{USUAL}\n[display]\ncard = "{CARD}"\n'
     after = "modprobe -r virtio_gpu"
-
-    @classmethod
-    def other_settings(cls):
-        return f'{cls.settings}\n[display]\ncard = "{CARD}"\n'
 
     @classmethod
     def setUpClass(cls):
@@ -52,7 +49,6 @@ class Display(OtherSettings):
     @classmethod
     def tearDownClass(cls):
         cls.viewer.close()
-        super().tearDownClass()
         cls.bench.looked_at = "screen"
 
     def setUp(self):

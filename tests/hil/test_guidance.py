@@ -1,73 +1,134 @@
-"""A prop pushed out of the light: the advice comes as a sign on the screen, and as speech out of the sound card.
+"""A prop pushed out of the light: the advice comes as a sign and in words on the screen, and as speech out of the sound card, in
+the language of the visitor.
 
-What should be heard comes from the same program without a screen on this machine, which writes a file; what is heard is QEMU's
-sound card. Both are compared sample by sample.
+What should be seen and heard comes from the same program without a screen on this machine, which writes files; what is seen is
+the screen, what is heard is QEMU's sound card. Sounds are compared sample by sample.
 """
 
 import array
-import json
 import subprocess
 import tempfile
 import time
 import wave
+from dataclasses import dataclass
 
 import screen
-from bench import UPRIGHT, eventually
-from hil_test import OtherSettings
+from bench import UPRIGHT, USUAL, WIDTH, Patience, eventually
+from hil_test import HilTest
 
+# All that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
+WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pictures = false", "table_pictures = true")
+         .replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
+         .replace('lines = ["0", "1", "2"]', 'lines = ["0", "1", "2", "3", "4"]') + '\n[sound]\ndevice = "plughw:0,0"\n')
 LEFT_OF_THE_LIGHT = (-0.28, 0.0, 0.0)
+REPLAYED_S, REPLAYED_HZ = 9.0, 60.0
+PUSHED_S = 1.0  # when the prop leaves the light in the replay
+STILLS = 3  # in the middle of each third: before there is a sign, then with it, at last with the words that are said
+LANGUAGES = ("en", "de")
+LANGUAGE, HELP = 2, 4  # buttons
+STAGES_S = (0.4, 1.5, 3.0)  # docs/guidance.md: until the sign, from there until the words, from there until the voice
 HEADER_BYTES = 44
 PIECE = 2400  # samples, 50 ms
+LOUD = 300
 WHOLE_SHARE = 0.95  # of the pieces; the first and the last are faded
 TALKS_S = 60.0
-CALM_S = 8.0
+CALM_S = 4.0
 SOUNDS = "its sound goes to"
 SOUND_DRIVER = "/sys/bus/pci/drivers/snd_hda_intel"
 
 
+@dataclass
+class Told:
+    """What one language's visitor sees and hears, as the program has it on this machine."""
+
+    before: list  # lit pixels, before the advice
+    after: list  # the same once it is given
+    samples: array.array
+
+
+def without(rows, others):
+    return [row & ~other for row, other in zip(rows, others)]
+
+
 def spoken(samples):
     """Without the silence before and after."""
-    loud = [k for k, sample in enumerate(samples) if abs(sample) > 300]
+    loud = [k for k, sample in enumerate(samples) if abs(sample) > LOUD]
     return samples[loud[0]:loud[-1] + 1] if loud else samples[:0]
 
 
-class Guidance(OtherSettings):
-    guided = OtherSettings.settings.replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
+def replay():
+    """Poses of a prop at the table's centre that is pushed out of the light."""
+    rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
+    for k in range(round(REPLAYED_S * REPLAYED_HZ)):
+        x = LEFT_OF_THE_LIGHT[0] if k >= PUSHED_S * REPLAYED_HZ else 0.0
+        rows.append(f"{round(1e6 * k / REPLAYED_HZ)},1,{x},0,0,1,0,0,0,1")
+    return "\n".join(rows) + "\n"
+
+
+def told_here(bench, language):
+    settings = (WHOLE.replace('kind = "usb"', 'kind = "replay"\nposes = "poses.csv"')
+                .replace('kind = "gpio"', 'kind = "scripted"').replace("[exhibit]", f'[exhibit]\nlanguage = "{language}"')
+                .replace("/var/lib/frustumscreen/packs", str(bench.packs)).replace("/var/lib/frustumscreen", str(bench.packs)))
+    settings = "\n".join(line for line in settings.splitlines() if not line.startswith(("chip", "lines")))
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (("poses.csv", replay()), ("kiosk.toml", settings)):
+            with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
+                file.write(text)
+        subprocess.run([bench.program, "run", "--config", f"{folder}/kiosk.toml", "--headless", "--fast", "--seconds",
+                        f"{REPLAYED_S:.0f}", "--stills", f"{STILLS}", "--out", folder], check=True, capture_output=True)
+        before, after = (screen.lit(screen.read_png(f"{folder}/frame_{k:05}.png")) for k in (0, STILLS - 1))
+        with wave.open(f"{folder}/sound.wav") as file:
+            return Told(before, after, spoken(array.array("h", file.readframes(file.getnframes()))))
+
+
+class Guidance(HilTest):
+    settings = WHOLE
 
     @classmethod
-    def other_settings(cls):
-        return cls.guided + '\n[sound]\ndevice = "plughw:0,0"\n'
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.told = {language: told_here(cls.bench, language) for language in LANGUAGES}
+        first, second = (cls.told[language].after for language in LANGUAGES)
+        cls.words = {"en": without(first, second), "de": without(second, first)}  # pixels that one language alone has
+        others = [artifact | a | b for artifact, a, b in zip(cls.told["en"].before, *cls.words.values())]
+        sign = without([a & b for a, b in zip(first, second)], screen.grown(others, 6, WIDTH))
+        cls.sign_place = screen.grown(sign, 8, WIDTH)  # it moves a little
 
-    def expected(self):
-        """The samples that the same program says on this machine for the same place of the prop."""
-        with tempfile.TemporaryDirectory() as folder:
-            rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
-            for k in range(600):
-                x = 0.0 if k < 60 else LEFT_OF_THE_LIGHT[0]
-                rows.append(f"{k * 16667},1,{x},0,0,1,0,0,0,1")
-            with open(f"{folder}/poses.csv", "w", encoding="utf-8") as file:
-                file.write("\n".join(rows) + "\n")
-            settings = (self.guided.replace('kind = "usb"', 'kind = "replay"\nposes = "poses.csv"')
-                        .replace('kind = "gpio"', 'kind = "scripted"')
-                        .replace("/var/lib/frustumscreen/packs", str(self.bench.packs))
-                        .replace("/var/lib/frustumscreen", str(self.bench.packs)))
-            settings = "\n".join(line for line in settings.splitlines() if not line.startswith(("chip", "lines")))
-            with open(f"{folder}/kiosk.toml", "w", encoding="utf-8") as file:
-                file.write(settings)
-            subprocess.run([self.bench.program, "run", "--config", f"{folder}/kiosk.toml", "--headless", "--fast", "--seconds",
-                            "10", "--stills", "0", "--out", folder], check=True, capture_output=True)
-            with wave.open(f"{folder}/sound.wav") as file:
-                return spoken(array.array("h", file.readframes(file.getnframes())))
+    def setUp(self):
+        super().setUp()
+        for language in LANGUAGES:
+            self.assertGreater(len(self.told[language].samples), 48000 // 2, "nothing is said on this machine: this proves nothing")
+            self.assertGreater(screen.count(self.words[language]), 200, "no words are shown on this machine: this proves nothing")
+        self.show("amphora")
+        self.bench.status_says("sound", SOUNDS)
+        self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
+
+    # What is on the screen.
+
+    def sign_is_there(self):
+        return screen.count([row & place for row, place in zip(screen.lit(self.bench.screendump()), self.sign_place)]) > 300
+
+    def words_are_there(self, language):
+        """All the pixels that this language alone has are lit, and most of the other's are not."""
+        lit = screen.lit(self.bench.screendump())
+        other = next(each for each in LANGUAGES if each != language)
+        return (screen.share_outside(self.words[language], screen.grown(lit, 1, WIDTH)) < 0.05
+                and screen.share_outside(self.words[other], lit) > 0.5)
+
+    def sees_words(self, language):
+        eventually(lambda: self.words_are_there(language), TALKS_S, f"the advice is not on the screen in '{language}'")
+
+    # What comes out of the sound card.
 
     def heard(self):
         """The left channel of all that has come out of the sound card."""
         samples = self.bench.machine.heard.read_bytes()[HEADER_BYTES:]
         return array.array("h", samples[:len(samples) // 4 * 4])[0::2]
 
-    def share_heard(self, expected, since):
-        """The share of the pieces of `expected` that were heard, sample by sample, one after the other, after so many
-        samples."""
-        heard = self.heard()[since:].tobytes()
+    def share_heard(self, language, since):
+        """The share of the pieces of this language's advice that were heard, sample by sample, one after the other, after so
+        many samples."""
+        heard, expected = self.heard()[since:].tobytes(), self.told[language].samples
         place, found, count = 0, 0, 0
         for begin in range(0, len(expected) - PIECE, PIECE):
             count += 1
@@ -76,55 +137,89 @@ class Guidance(OtherSettings):
                 place, found = at, found + 1
         return found / max(count, 1)
 
-    def outside_the_light(self):
-        """Pushes the prop out of the light, and waits for a sign beside the artifact; returns `artifact_at` there."""
-        self.bench.place(LEFT_OF_THE_LIGHT)
-        artifact = self.artifact_at((*LEFT_OF_THE_LIGHT, *UPRIGHT))
-        eventually(lambda: self.share_beside(artifact) > 0.1, TALKS_S, "no sign appears on the screen")
-        return artifact
+    def is_loud(self, since):
+        return any(abs(sample) > LOUD for sample in self.heard()[since:])
 
-    def artifact_at(self, pose):
-        """The pixels that the artifact lights, and some around them."""
-        picture = self.bench.rendered([pose], self.bench.status()["artifact"])[0]
-        return screen.grown(screen.lit(picture), 4, picture.width)
-
-    def share_beside(self, artifact):
-        return screen.share_outside(screen.lit(self.bench.screendump()), artifact)
-
-    def hears(self, expected, since=0):
+    def hears(self, language, since):
+        """This language's advice, whole, and no other: at most the end of one that was being said before."""
         share = [0.0]
 
         def said():
-            share[0] = self.share_heard(expected, since)
+            share[0] = self.share_heard(language, since)
             return share[0] >= WHOLE_SHARE
 
-        eventually(said, TALKS_S, lambda: f"the advice is not heard whole: {100 * share[0]:.0f} % of it")
+        eventually(said, TALKS_S, lambda: f"the advice is not heard whole in '{language}': {100 * share[0]:.0f} % of it")
+        for other in LANGUAGES:
+            if other != language:
+                self.assertLess(self.share_heard(other, since), 0.5, f"the advice is heard in '{other}' too")
 
-    def test_prop_outside_the_light(self):
-        expected = self.expected()
-        self.assertGreater(len(expected), 48000 // 2, "nothing is said on this machine: this proves nothing")
-        self.bench.status_says("sound", SOUNDS)
-        self.outside_the_light()
-        self.hears(expected)
+    # What the visitor does.
+
+    def take_language(self, language):
+        """Holds the button until it has done its work, which a slow guest takes long to see."""
+        if self.bench.status()["language"] != language:
+            self.bench.buttons.tell("hold", LANGUAGE)
+            self.bench.status_says("language", language)
+            self.bench.buttons.tell("release", LANGUAGE)
+
+    def test_advice_in_the_language_of_the_button(self):
+        self.take_language("en")
+        self.bench.place(LEFT_OF_THE_LIGHT)
+        eventually(self.sign_is_there, TALKS_S, "no sign appears on the screen")
+        self.sees_words("en")
+        self.take_language("de")
+        since = len(self.heard())
+        self.sees_words("de")
+        self.hears("de", since)
         self.bench.place((0.0, 0.0, 0.0))
         self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
-        centre = self.artifact_at((0.0, 0.0, 0.0, *UPRIGHT))
-        eventually(lambda: self.share_beside(centre) < 0.01, TALKS_S, "the sign stays although everything is lit")
+        eventually(lambda: not self.sign_is_there(), TALKS_S, "the sign stays although everything is lit")
         quiet = len(self.heard())
         time.sleep(CALM_S)
-        after = self.heard()[quiet:]
-        self.assertFalse(any(abs(sample) > 300 for sample in after[24000:]), "it goes on talking")
-        print(f"  {json.dumps({'sound_underruns': self.bench.status()['sound_underruns']})}", flush=True)
+        self.assertFalse(self.is_loud(quiet + 24000), "it goes on talking")
 
-    def test_sound_card_unplugged(self):
-        expected = self.expected()
-        self.bench.status_says("sound", SOUNDS)
+    def test_card_unplugged(self):
+        self.take_language("en")
         self.bench.machine.check(f"for card in {SOUND_DRIVER}/0000:*; do echo 1 > $card/remove; done")
         self.addCleanup(self.bench.machine.run, "echo 1 > /sys/bus/pci/rescan")
         self.bench.status_says("sound", "is it plugged in")
-        artifact = self.outside_the_light()
+        self.bench.place(LEFT_OF_THE_LIGHT)
+        eventually(self.sign_is_there, TALKS_S, "no sign appears on the screen")
         silent = len(self.heard())
         self.bench.machine.check("echo 1 > /sys/bus/pci/rescan")
         self.bench.status_says("sound", SOUNDS)
-        self.hears(expected, silent)
-        self.assertGreater(self.share_beside(artifact), 0.1, "the sign is gone although it was not followed")
+        self.bench.buttons.tell("hold", HELP)  # by itself it would wait for its pause, which has grown
+        self.hears("en", silent)
+        self.assertTrue(self.sign_is_there(), "the sign is gone although it was not followed")
+        self.assertTrue(self.words_are_there("en"), "the words are gone although they were not followed")
+
+    def test_help_comes_before_its_time(self):
+        """Sooner than the stages would, all from the moment when the prop is pushed: the exhibit cannot know it earlier."""
+        self.take_language("en")
+        pushed = self.artifact_at_its_place()
+        since = len(self.heard())
+        begun = Patience.clock()
+        self.bench.place(LEFT_OF_THE_LIGHT)
+        eventually(pushed, TALKS_S, "the picture does not follow the prop")
+        moved = Patience.clock()
+        self.bench.buttons.tell("hold", HELP)
+        came_s = {}
+        signs = {"sign": self.sign_is_there, "words": lambda: self.words_are_there("en"), "voice": lambda: self.is_loud(since)}
+
+        def all_came():
+            for name, is_there in signs.items():
+                if name not in came_s and is_there():
+                    came_s[name] = Patience.clock() - begun
+            return len(came_s) == len(signs)
+
+        eventually(all_came, TALKS_S, lambda: f"asked for help, it gives only {', '.join(came_s) or 'nothing'}")
+        print(f"  the picture follows after {moved - begun:.1f} s; help: "
+              + ", ".join(f"{name} {s:.1f} s" for name, s in came_s.items()), flush=True)
+        self.bench.buttons.tell("release", HELP)
+        self.assertLess(came_s["voice"], sum(STAGES_S))
+        self.hears("en", since)
+
+    def artifact_at_its_place(self):
+        """Whether the screen shows the artifact where the prop was pushed."""
+        there = screen.lit(self.bench.rendered([(*LEFT_OF_THE_LIGHT, *UPRIGHT)], "amphora")[0])
+        return lambda: screen.share_outside(there, screen.grown(screen.lit(self.bench.screendump()), 4, WIDTH)) < 0.05

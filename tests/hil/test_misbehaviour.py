@@ -29,6 +29,7 @@ CALM_S = 1.5
 RUNNING = "is running"
 # what the tracker does, what the status says about it, and whether poses still come
 FAULTS = {
+    "noise": (("drop 0.2", "corrupt 0.15", "duplicate 0.3", "reorder 0.2"), RUNNING, True),
     "drop": (("drop 0.3",), RUNNING, True),
     "corrupt": (("corrupt 0.2",), RUNNING, True),
     "duplicate": (("duplicate 0.5",), RUNNING, True),
@@ -46,7 +47,8 @@ FAULTS = {
     "slow_boot": (("slow-boot",), "booting", False),
     "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
-LONG = ("reorder", "warn", "nak_questions", "filter_stays", "wrong_units")  # the drivers' own tests have these too
+# "noise" has the first four at once; the drivers' own tests have all of these too
+LONG = ("drop", "corrupt", "duplicate", "reorder", "warn", "nak_questions", "filter_stays", "wrong_units")
 
 
 def write_strokes(path):

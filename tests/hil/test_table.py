@@ -1,18 +1,16 @@
 """The table full of artifacts: the prop is slid onto the other artifact's picture, as it lies on the screen, and rests there."""
 
 import screen
-from bench import HEIGHT, UPRIGHT, WIDTH, eventually
-from hil_test import CENTRE_M, OtherSettings
+from bench import HEIGHT, UPRIGHT, USUAL, WIDTH, eventually
+from hil_test import CENTRE_M, HilTest
 
 METRES_PER_PIXEL = 0.8 / WIDTH  # the picture covers the table
 TITLE_SHARE = 0.25  # of the height of a picture and its title
 CHOSEN_S = 30.0
 
 
-class Table(OtherSettings):
-    @classmethod
-    def other_settings(cls):
-        return cls.settings.replace("table_pictures = false", "table_pictures = true")
+class Table(HilTest):
+    settings = USUAL.replace("table_pictures = false", "table_pictures = true")
 
     def outline(self, artifact, pose):
         return screen.lit(self.bench.rendered([pose], artifact)[0])

@@ -7,7 +7,8 @@ flip, 25 times a second, where flips are followed, and 30 times where they are n
 
 import time
 
-from hil_test import OtherSettings
+from bench import USUAL
+from hil_test import HilTest
 
 CARD = "/dev/dri/by-path/platform-vkms-card"
 REFRESH_HZ = 50
@@ -16,13 +17,10 @@ MODESET_MS = 200
 MEASURED_S = 8.0
 
 
-class Vblanks(OtherSettings):
+class Vblanks(HilTest):
+    settings = f'{USUAL}\n[display]\ncard = "{CARD}"\nmode = "640x400@{REFRESH_HZ}"\nforce = true\n'
     before = f"modprobe vkms modeset_ms={MODESET_MS}"
     after = "modprobe -r vkms"
-
-    @classmethod
-    def other_settings(cls):
-        return f'{cls.settings}\n[display]\ncard = "{CARD}"\nmode = "640x400@{REFRESH_HZ}"\nforce = true\n'
 
     def test_frames_follow_flips_after_a_slow_modeset(self):
         before = self.bench.status()
