@@ -53,7 +53,7 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
     Inputs inputs;
     StatusFile no_file{std::filesystem::path{}};
     ServiceManager manager;
-    Journal journal;
+    const Journal journal("test");
     RunWatch watch(manager, journal);
     return run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
 }
