@@ -1,0 +1,30 @@
+#include "app/bench/guidance/perfect_advice.h"
+
+#include "app/bench/guidance/motion.h"
+#include "app/guidance/advise.h"
+#include "app/guidance/candidates.h"
+
+#include <limits>
+
+namespace frustumscreen {
+
+std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation) {
+    if (reader.valid(situation)) {
+        return std::nullopt;
+    }
+    std::optional<Move> best;
+    double least_s = std::numeric_limits<double>::infinity();
+    for (const MoveSet set : {MoveSet::Only, MoveSet::Last}) {
+        for (const Candidate& candidate : candidates(reader.setup(), situation, set).all()) {
+            const GuidedSituation next = after(candidate.move, reader.setup(), situation);
+            const double lasts_s = time_for_s(candidate.move, situation, next);
+            if (lasts_s < least_s && reader.valid(next)) {
+                best = candidate.move;
+                least_s = lasts_s;
+            }
+        }
+    }
+    return best ? best : advise(reader, situation).value_or(Advice{}).move;
+}
+
+} // namespace frustumscreen
