@@ -12,6 +12,7 @@ constexpr double slide_m_s = 0.25;
 constexpr double turn_rad_s = 2.0;
 constexpr double walk_m_s = 0.8;
 constexpr double stand_up_s = 1.0;
+constexpr double begins_and_ends_s = 0.2;
 
 } // namespace
 
@@ -37,7 +38,7 @@ double time_for_s(const Move& move, const GuidedSituation& from, const GuidedSit
     switch (move.action) {
     case Action::SetDown:
     case Action::Upright:
-        return stand_up_s;
+        return std::max(stand_up_s, begins_and_ends_s + glm::length(move.by_m) / slide_m_s);
     case Action::ComeRound: {
         const double angle =
             std::remainder(std::atan2(to.eye_m.y, to.eye_m.x) - std::atan2(from.eye_m.y, from.eye_m.x),
@@ -45,9 +46,9 @@ double time_for_s(const Move& move, const GuidedSituation& from, const GuidedSit
         return std::abs(angle) * glm::length(glm::dvec2(from.eye_m)) / walk_m_s;
     }
     case Action::Turn:
-        return 0.2 + std::abs(move.turn_rad) / turn_rad_s;
+        return begins_and_ends_s + std::abs(move.turn_rad) / turn_rad_s;
     default:
-        return 0.2 + glm::length(move.by_m) / slide_m_s;
+        return begins_and_ends_s + glm::length(move.by_m) / slide_m_s;
     }
 }
 

@@ -3,12 +3,12 @@
 /// sequence. What is left of it is the visitors' own: play, reaction time and speed.
 ///
 /// A visitor finds the prop as somebody left it, and turns, slides and lifts it at will while the picture is whole. When it
-/// is not, the visitor follows the advice after a reaction time of 0.3 to 1.5 s; one in ten advices is misunderstood, one in
-/// seven is not noticed at first. Without advice the visitor undoes the latest move or tries another. All stop
+/// is not, the visitor follows the advice after a reaction time of 0.3 to 1.5 s; one in ten advices is misunderstood, one loss
+/// in seven is not noticed at first. A sign that changes is read with the hand still on its way; who goes wrong turns back. Without advice the visitor undoes the latest move or tries another. All stop
 /// moving half a second after the picture has become whole. Eyes are those of children, of adults and of people in wheelchairs:
 /// 0.9 to 1.9 m over the floor, at a table 0.8 m high.
 ///
-/// Time     simulated, in steps of 50 ms; the advice comes after the patience of Guide.
+/// Time     simulated, in steps of a sixtieth of a second.
 /// Frames   table T, metres.
 /// Threads  pure; any.
 #pragma once
