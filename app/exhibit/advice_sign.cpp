@@ -237,8 +237,17 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
     return std::nullopt;
 }
 
-std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const TablePolygon& shadow,
-                                   std::span<const glm::dvec2> room, double readers_angle) {
+/// Beside the prop; or, with a way, where the prop should stand.
+std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm::dvec2& way,
+                                   const TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                   double readers_angle) {
+    if (way != glm::dvec2(0.0)) {
+        SignPose pose{prop + way, readers_angle};
+        pull_inside(room, sign, pose);
+        if (clear_of(shadow, corners_of(sign, pose))) {
+            return pose;
+        }
+    }
     for (const double side : {0.0, 0.5 * pi, -0.5 * pi, pi}) {
         const glm::dvec2 ahead(std::sin(readers_angle + side), -std::cos(readers_angle + side));
         const double away = reach(shadow.corners(), prop, ahead) + gap_m + 0.5 * glm::length(icon_size_m);
@@ -319,7 +328,7 @@ std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now
     } else if (sign == Sign::Turn) {
         pose = place_arc(prop, move.turn_rad > 0.0, phase, shadow, room, readers_angle);
     } else {
-        pose = place_icon(sign, prop, shadow, room, readers_angle);
+        pose = place_icon(sign, prop, glm::dvec2(move.by_m), shadow, room, readers_angle);
     }
     if (!pose) {
         return std::nullopt;

@@ -18,16 +18,46 @@ constexpr int looks_of_an_area = 5; ///< what is unlit takes as long as so many 
 
 /// Calls `visit` with what people do who turn the prop or stand it up: the angle is theirs, and whether they turn it about
 /// its middle. What is unlit between two angles can be a fifth of a degree wide. `visit` returns false to end.
-template <typename Visit> void for_each_angle(const Move& move, double margin, Visit visit) {
+template <typename Visit> bool for_each_angle(const Move& move, double margin, Visit visit) {
     constexpr int to_each_side = 100;
+    constexpr int coarse = 10;
     const bool turns = move.action == Action::Turn;
-    for (int k = -to_each_side; k <= to_each_side; ++k) {
-        const double share = margin * k / to_each_side;
-        for (const bool about_origin : {false, true}) {
-            if (!visit(Execution{turns ? 1.0 + sloppy_amount * share : 1.0,
-                                 turns ? 0.0 : sloppy_direction_deg * degree * share, 0.0, about_origin})) {
-                return;
+    const auto visit_each = [&](bool coarsely) {
+        for (int k = -to_each_side; k <= to_each_side; ++k) {
+            const double share = margin * k / to_each_side;
+            for (const bool about_origin : {false, true}) {
+                if ((k % coarse == 0) == coarsely &&
+                    !visit(Execution{turns ? 1.0 + sloppy_amount * share : 1.0,
+                                     turns ? 0.0 : sloppy_direction_deg * degree * share, 0.0,
+                                     about_origin})) {
+                    return false;
+                }
             }
+        }
+        return true;
+    };
+    return visit_each(true) && visit_each(false); // what fails mostly fails soon
+}
+
+/// The same for what is stood up or set down elsewhere: both the way and the angle are theirs.
+template <typename Visit>
+void for_each_place(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
+    struct Way {
+        double amount;
+        double rise; ///< in the hand only
+    };
+    constexpr std::array<Way, 5> in_hand{{{0.0, 0.0}, {-1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {1.0, -1.0}}};
+    constexpr std::array<Way, 5> on_table{{{0.0, 0.0}, {-1.0, 0.0}, {1.0, 0.0}, {-0.5, 0.0}, {0.5, 0.0}}};
+    const std::array<Way, 5>& ways = setup.in_hand ? in_hand : on_table;
+    for (const auto& [amount, rise] : ways) {
+        const bool goes_on = for_each_angle(move, margin, [&](Execution execution) {
+            execution.amount = 1.0 + margin * sloppy_amount * amount;
+            execution.raised_rad = margin * sloppy_direction_deg * degree * rise;
+            // On the table it is all the same what it is turned about.
+            return (execution.about_origin && !setup.in_hand) || visit(execution);
+        });
+        if (!goes_on) {
+            return;
         }
     }
 }
@@ -56,9 +86,14 @@ void for_each_way(const Move& move, const GuidanceSetup& setup, double margin, V
 
 template <typename Visit>
 void for_each_execution(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
-    const bool by_angle =
-        move.action == Action::Turn || move.action == Action::SetDown || move.action == Action::Upright;
-    by_angle ? for_each_angle(move, margin, visit) : for_each_way(move, setup, margin, visit);
+    const bool stands = move.action == Action::SetDown || move.action == Action::Upright;
+    if (stands_elsewhere(move)) {
+        for_each_place(move, setup, margin, visit);
+    } else if (stands || move.action == Action::Turn) {
+        for_each_angle(move, margin, visit);
+    } else {
+        for_each_way(move, setup, margin, visit);
+    }
 }
 
 } // namespace
@@ -66,18 +101,21 @@ void for_each_execution(const Move& move, const GuidanceSetup& setup, double mar
 Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move, double margin,
              int* looks) {
     const double before_px = reader.unlit_px(situation);
-    Help help = Help::Valid;
+    Help help{true};
+    int ways = 0;
+    int whole = 0;
     for_each_execution(move, reader.setup(), margin, [&](const Execution& execution) {
         const GuidedSituation next = after(move, reader.setup(), situation, execution);
         const bool valid = reader.valid(next);
+        ++ways;
+        whole += valid ? 1 : 0;
         if (looks != nullptr) {
             *looks += valid ? 1 : looks_of_an_area;
         }
-        if (!valid) {
-            help = reader.unlit_px(next) < better_share * before_px ? Help::Better : Help::No;
-        }
-        return help != Help::No;
+        help.always = valid || reader.unlit_px(next) < better_share * before_px;
+        return help.always;
     });
+    help.whole_share = static_cast<double>(whole) / ways;
     return help;
 }
 

@@ -25,8 +25,11 @@ struct Standing {
     [[nodiscard]] bool holds(const GuidedSituation& situation) const;
 };
 
-enum class Help { No, Better, Valid };
-/// Whether every way in which people carry the move out leads to a valid situation or to a smaller unlit area.
+struct Help {
+    bool always =
+        false; ///< every way in which people carry the move out leads to a smaller unlit area, or to none
+    double whole_share = 0.0; ///< of these ways, that lead to none
+};
 /// `margin`: a factor on how sloppy they are. `looks`: the situations looked at are added to it.
 [[nodiscard]] Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move,
                            double margin = 1.0, int* looks = nullptr);

@@ -1,5 +1,7 @@
 #include "app/guidance/advice_search.h"
 
+#include "app/guidance/steadiness.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,8 +10,9 @@ namespace frustumscreen {
 namespace {
 
 /// What stands in an order of advice: all in units of effort.
-constexpr double not_surely_valid = 1.0;
-constexpr double as_advised_already = -1.0;
+constexpr double not_surely_whole = 3.0; ///< where no way of carrying it out mends all
+constexpr double as_advised_already = -2.0;
+constexpr double unsteady = 6.0; ///< where no small movement leaves it whole
 /// What replaces an advice that stands must help people who are even sloppier, or the two would take turns.
 constexpr double newcomers_margin = 1.25;
 /// People are looked at on a grid; a little more than its corners holds between them too.
@@ -50,6 +53,9 @@ bool AdviceSearch::advance(const FaceReader& reader, int looks) {
         case Stage::Begun:
             collect_single_moves(reader);
             break;
+        case Stage::Steadiness:
+            weigh_single_move(reader);
+            break;
         case Stage::SingleMoves:
             try_single_move(reader);
             break;
@@ -77,9 +83,20 @@ void AdviceSearch::collect_single_moves(const FaceReader& reader) {
             candidates_.add(candidate.move, candidate.effort + (stays ? as_advised_already : 0.0));
         }
     }
-    candidates_.sort_by_effort();
     next_ = 0;
-    stage_ = Stage::SingleMoves;
+    stage_ = Stage::Steadiness;
+}
+
+/// As well as by its effort, by where it ends.
+void AdviceSearch::weigh_single_move(const FaceReader& reader) {
+    if (next_ == candidates_.all().size()) {
+        candidates_.sort_by_effort();
+        next_ = 0;
+        stage_ = Stage::SingleMoves;
+        return;
+    }
+    const GuidedSituation next = after(candidates_.all()[next_].move, reader.setup(), situation_);
+    candidates_.add_effort(next_++, cost_of_end(reader, next));
 }
 
 /// The best one is valid if it is done well, and helpful however it is done.
@@ -98,8 +115,8 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
     int looks = 0;
     const Help help = help_of(reader, situation_, move, replaces ? newcomers_margin : usual_margin, &looks);
     looks_left_ -= looks;
-    const double cost = effort + (help == Help::Valid ? 0.0 : not_surely_valid);
-    if (help != Help::No && cost < best_.cost) {
+    const double cost = effort + not_surely_whole * (1.0 - help.whole_share);
+    if (help.always && cost < best_.cost) {
         best_ = {move, cost};
     }
 }
@@ -170,15 +187,28 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     }
     const Candidate& first = candidates_.all()[next_++];
     --looks_left_;
-    if (first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
+    // In the hand a place and a turn at once are hardly met; where that is not sure to help, two moves are easier.
+    const bool too_much = reader.setup().in_hand && stands_elsewhere(first.move);
+    if (too_much || first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
         return;
     }
     const GuidedSituation next = after(first.move, reader.setup(), search.from);
     const double rest =
-        search.depth == 1 ? (reader.valid(next) ? 0.0 : never) : least_effort(reader, next, search.last);
+        search.depth == 1 ? cost_of_end(reader, next) : least_effort(reader, next, search.last);
     if (first.effort + rest < best_.cost) {
         best_ = {first.move, first.effort + rest};
     }
+}
+
+/// Who is led to the edge of what is lit soon has to be led again.
+double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
+    if (!reader.valid(end)) {
+        return never;
+    }
+    int looks = 0;
+    const double cost = unsteady * (1.0 - steadiness(reader, end, looks));
+    looks_left_ -= looks;
+    return cost;
 }
 
 /// Of the one move that is left.
@@ -187,8 +217,10 @@ double AdviceSearch::least_effort(const FaceReader& reader, const GuidedSituatio
     const Candidates list = candidates(reader.setup(), from, set);
     looks_left_ -= static_cast<int>(list.all().size());
     for (const Candidate& candidate : list.all()) {
-        if (candidate.effort < least && reader.valid(after(candidate.move, reader.setup(), from))) {
-            least = candidate.effort;
+        if (candidate.effort < least) {
+            const double cost =
+                candidate.effort + cost_of_end(reader, after(candidate.move, reader.setup(), from));
+            least = std::min(least, cost);
         }
     }
     return least;

@@ -35,7 +35,7 @@ public:
 
 private:
     static constexpr double never = std::numeric_limits<double>::infinity();
-    enum class Stage : std::uint8_t { Begun, SingleMoves, Sequences };
+    enum class Stage : std::uint8_t { Begun, Steadiness, SingleMoves, Sequences };
     struct Best {
         Move move;
         double cost = never;
@@ -51,12 +51,14 @@ private:
         MoveSet last = MoveSet::Only;
     };
     void collect_single_moves(const FaceReader& reader);
+    void weigh_single_move(const FaceReader& reader);
     void try_single_move(const FaceReader& reader);
     void plan_sequences(const FaceReader& reader);
     void plan_up_to_two(Try from);
     void plan_after_settling(const FaceReader& reader);
     void begin_try(const FaceReader& reader);
     void go_on_with_try(const FaceReader& reader);
+    [[nodiscard]] double cost_of_end(const FaceReader& reader, const GuidedSituation& end);
     [[nodiscard]] double least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set);
     void end(const Move& move, int steps);
 

@@ -2,13 +2,13 @@
 ///
 /// A single move is advised only if it helps however people carry it out: with its direction up to 20 degrees off, its
 /// amount up to 40 per cent off, each execution leads to a valid situation or to a smaller unlit area; done well, it
-/// leads to a valid one. Among those it is the one with the least effort. So it opens every face that is seen and not
+/// leads to a valid one. Among those it is the one with the least effort, for as much as it is sure and ends steadily (steadiness.h). So it opens every face that is seen and not
 /// lit, and keeps those that are; the paper asks for the largest one at a time. Where no single move does, it is the
 /// first of the shortest sequence found.
 ///
 /// Stable   what is advised already is kept as long as it helps and nothing else is clearly easier; until the visitor
 ///          begins to follow it, even where something else has become a little shorter.
-/// Cost     a single move about 0.3 ms, a sequence some milliseconds: in a frame, in pieces.
+/// Cost     some milliseconds, in rare cases tens: in a frame, in pieces.
 /// Threads  pure; any. Allocates nothing.
 /// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
 #pragma once

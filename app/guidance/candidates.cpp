@@ -53,8 +53,9 @@ void add_slides(std::span<const double> ways_m, int directions, const GuidanceSe
     }
 }
 
-/// Slides to places all over the table: a zone that is a narrow strip lies between directions and ways.
-void add_places(const GuidanceSetup& setup, const GuidedSituation& situation, Candidates& candidates) {
+/// Places all over the table: a zone that is a narrow strip lies between directions and ways.
+template <typename Add>
+void for_each_place(const GuidanceSetup& setup, const GuidedSituation& situation, Add add) {
     constexpr int columns = 16;
     constexpr int rows = 12;
     constexpr double nearest_place_m = 0.02;
@@ -63,14 +64,17 @@ void add_places(const GuidanceSetup& setup, const GuidedSituation& situation, Ca
         for (int column = 0; column <= columns; ++column) {
             const glm::dvec2 share(2.0 * column / columns - 1.0, 2.0 * row / rows - 1.0);
             const glm::dvec2 way = share * setup.half_table_m - here;
-            if (glm::length(way) < nearest_place_m) {
-                continue;
+            if (glm::length(way) >= nearest_place_m) {
+                add(glm::dvec3(way, 0.0));
             }
-            Move move{Action::Slide};
-            move.by_m = {way, 0.0};
-            candidates.add(move, 0.8 + glm::length(way) / 0.15);
         }
     }
+}
+
+void add_places(const GuidanceSetup& setup, const GuidedSituation& situation, Candidates& candidates) {
+    for_each_place(setup, situation, [&](const glm::dvec3& way) {
+        candidates.add({Action::Slide, way}, 0.8 + glm::length(way) / 0.15);
+    });
 }
 
 void add_turns(std::span<const double> turns_deg, Candidates& candidates) {
@@ -112,6 +116,15 @@ void add_standing(const GuidanceSetup& setup, const GuidedSituation& situation, 
     }
 }
 
+/// The prop is in the hand already: it can be stood anywhere in one go.
+void add_standing_elsewhere(const GuidanceSetup& setup, const GuidedSituation& situation,
+                            Candidates& candidates) {
+    const Action action = candidates.all().front().move.action;
+    for_each_place(setup, situation, [&](const glm::dvec3& way) {
+        candidates.add({action, way}, (setup.in_hand ? 1.4 : 0.6) + glm::length(way) / 0.25);
+    });
+}
+
 void add_walks(const GuidanceSetup& setup, Candidates& candidates) {
     if (!setup.head_tracked) {
         return;
@@ -129,8 +142,13 @@ Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situati
     Candidates candidates;
     add_standing(setup, situation, candidates);
     // A visitor is asked for nothing else while a prop that belongs on the table is off it.
-    if (!setup.in_hand && !candidates.all().empty()) {
-        return candidates;
+    if (!candidates.all().empty()) {
+        if (set == MoveSet::Only) {
+            add_standing_elsewhere(setup, situation, candidates);
+        }
+        if (!setup.in_hand) {
+            return candidates;
+        }
     }
     const bool fine = set != MoveSet::Inner;
     if (set == MoveSet::Only) {

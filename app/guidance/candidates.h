@@ -20,7 +20,7 @@ struct Candidate {
 
 class Candidates {
 public:
-    static constexpr std::size_t most = 1000;
+    static constexpr std::size_t most = 1200;
 
     void add(const Move& move, double effort) {
         if (count_ < most) {
@@ -31,6 +31,7 @@ public:
         std::sort(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(count_),
                   [](const Candidate& a, const Candidate& b) { return a.effort < b.effort; });
     }
+    void add_effort(std::size_t which, double effort) { list_.at(which).effort += effort; }
     [[nodiscard]] std::span<const Candidate> all() const { return std::span(list_).first(count_); }
 
 private:

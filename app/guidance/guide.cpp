@@ -119,6 +119,12 @@ void Guide::answer(MonotonicTime now, bool may_speak) {
     spoken_ = may_speak ? now : spoken_;
 }
 
+/// For what may last only a moment.
+bool Guide::waits(MonotonicTime now) const {
+    const bool again = guided_ && now - *guided_ < again_within;
+    return !asked_ && now - *needed_since_ < (again ? patience_again : patience);
+}
+
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
     guidance_.speak = false;
@@ -130,9 +136,10 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
         return guidance_;
     }
     needed_since_ = needed_since_ ? needed_since_ : now;
-    if (now - *needed_since_ < patience && !asked_) {
+    if (waits(now)) {
         return guidance_;
     }
+    guided_ = now;
     look(now, situation, sensing);
     if (asked_ && !looks_at_) {
         answer(now, may_speak);
@@ -172,6 +179,7 @@ void Guide::forget() {
     next_look_.reset();
     looks_at_.reset();
     spoken_.reset();
+    guided_.reset();
     pause_ = first_pause;
 }
 

@@ -45,8 +45,11 @@ struct Guidance {
 class Guide {
 public:
     static constexpr Nanoseconds patience = std::chrono::milliseconds(400);
-    static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);  ///< from the picture on
-    static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000); ///< from the text on
+    /// Who has just been guided is still at it: what they lose by going too far is shown sooner.
+    static constexpr Nanoseconds patience_again = std::chrono::milliseconds(100);
+    static constexpr Nanoseconds again_within = std::chrono::milliseconds(1500); ///< of the latest advice
+    static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);   ///< from the picture on
+    static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000);  ///< from the text on
     static constexpr Nanoseconds first_pause = std::chrono::seconds(8);
     static constexpr Nanoseconds longest_pause = std::chrono::seconds(60);
     /// At most; what rests needs no other look.
@@ -63,7 +66,7 @@ public:
                                        bool may_speak);
     /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
-    /// Somebody asks what to do: where there is advice, the next step gives all of it at once.
+    /// Somebody asks what to do: where there is advice, the next steps find it and give all of it at once.
     void ask() { asked_ = true; }
     /// The visitor has gone: the next one is told everything anew.
     void forget();
@@ -77,11 +80,13 @@ private:
     void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
     void answer(MonotonicTime now, bool may_speak);
+    [[nodiscard]] bool waits(MonotonicTime now) const;
 
     Advisor advisor_;
     FaceSets faces_;
     Guidance guidance_;
     std::optional<MonotonicTime> needed_since_;
+    std::optional<MonotonicTime> guided_; ///< when an advice was there last
     std::optional<MonotonicTime> next_look_;
     std::optional<GuidedSituation> looks_at_; ///< while an advice is looked for
     MonotonicTime stage_since_;               ///< or since the visitor last came nearer

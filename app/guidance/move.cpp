@@ -58,13 +58,18 @@ void keep_above_table(const PropShape& prop, RigidTransform& table_from_prop) {
     table_from_prop.translation.z += std::fmax(0.0, -lowest_m(prop, table_from_prop));
 }
 
-RigidTransform standing(const GuidanceSetup& setup, const RigidTransform& table_from_prop,
+RigidTransform standing(const Move& move, const GuidanceSetup& setup, const RigidTransform& table_from_prop,
                         const Execution& execution) {
     const glm::dquat turn = about_vertical(execution.aside_rad) * to_upright(table_from_prop);
     if (setup.in_hand) {
-        return turned(table_from_prop, turn, execution.about_origin ? glm::dvec3(0.0) : setup.prop.middle);
+        RigidTransform held =
+            turned(table_from_prop, turn, execution.about_origin ? glm::dvec3(0.0) : setup.prop.middle);
+        held.translation += way_of(move, execution);
+        return held;
     }
-    return {turn * table_from_prop.rotation, {glm::dvec2(table_from_prop.translation), 0.0}};
+    // The arm that strays aside turns the prop with it.
+    const glm::dvec2 place(table_from_prop.translation + way_of(move, execution));
+    return {turn * table_from_prop.rotation, {place, 0.0}};
 }
 
 } // namespace
@@ -92,6 +97,12 @@ bool alike(const Move& a, const Move& b) {
         return (a.turn_rad > 0.0) == (b.turn_rad > 0.0);
     case Action::ComeRound:
         return a.side == b.side;
+    case Action::SetDown:
+    case Action::Upright: {
+        constexpr double elsewhere_m = 0.06;
+        return glm::distance(a.by_m, b.by_m) <=
+               std::fmax(elsewhere_m, 0.5 * std::fmax(glm::length(a.by_m), glm::length(b.by_m)));
+    }
     default:
         return true;
     }
@@ -116,7 +127,7 @@ GuidedSituation after(const Move& move, const GuidanceSetup& setup, const Guided
         break;
     case Action::SetDown:
     case Action::Upright:
-        pose = standing(setup, pose, execution);
+        pose = standing(move, setup, pose, execution);
         break;
     case Action::ComeRound: {
         const double azimuth =

@@ -23,10 +23,15 @@ enum class Side : std::uint8_t { Front, Right, Back, Left };
 
 struct Move {
     Action action = Action::Wait;
-    glm::dvec3 by_m{0.0};    ///< slide, raise, lower
+    glm::dvec3 by_m{0.0};    ///< slide, raise, lower; set down and upright: there, so far from here
     double turn_rad = 0.0;   ///< turn
     Side side = Side::Front; ///< come round
 };
+
+/// Stood up or set down elsewhere than where it is.
+[[nodiscard]] inline bool stands_elsewhere(const Move& move) {
+    return (move.action == Action::SetDown || move.action == Action::Upright) && move.by_m != glm::dvec3(0.0);
+}
 
 /// The same request in other words or amounts: a visitor who follows one follows the other.
 [[nodiscard]] bool alike(const Move& a, const Move& b);

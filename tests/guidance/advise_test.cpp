@@ -35,7 +35,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
         }
     }
     EXPECT_GT(single, 80); // both happen
-    EXPECT_GT(several, 20);
+    EXPECT_GT(several, 2);
 }
 
 TEST_P(AdviceOf, IsTheSameInPieces) {
@@ -148,7 +148,7 @@ TEST_P(AdviceOf, IsRarelyLongerThanADenseSearchFinds) {
                 move.by_m = 0.012 * way * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
                 const GuidedSituation next = after(move, setup, situation);
                 found = over_table(setup, next.table_from_prop) && reader.valid(next) &&
-                        help_of(reader, situation, move, 1.2) != Help::No;
+                        help_of(reader, situation, move, 1.2).always;
             }
         }
         missed += found ? 1 : 0;

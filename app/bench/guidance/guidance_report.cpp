@@ -74,7 +74,8 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
 
 VisitsOf visits(const GuidanceSetup& setup, Adviser adviser, const GuidanceOptions& options,
                 const std::function<void(double)>& progress) {
-    VisitsOf all{adviser, {}, 0.0, 0.0};
+    VisitsOf all;
+    all.adviser = adviser;
     for (int k = 0; k < options.visitors; ++k) {
         progress(static_cast<double>(k) / options.visitors);
         const VisitResult one =
@@ -82,6 +83,10 @@ VisitsOf visits(const GuidanceSetup& setup, Adviser adviser, const GuidanceOptio
         all.mended_s.insert(all.mended_s.end(), one.mended_s.begin(), one.mended_s.end());
         all.whole_share += one.whole_share / options.visitors;
         all.advices_a_minute += 60.0 * one.advices / one.seconds / options.visitors;
+        all.losses_a_minute += 60.0 * one.losses / one.seconds / options.visitors;
+        for (std::size_t what = 0; what < dark_while_count; ++what) {
+            all.dark_share.at(what) += one.dark_s.at(what) / one.seconds / options.visitors;
+        }
     }
     std::sort(all.mended_s.begin(), all.mended_s.end());
     return all;
@@ -101,7 +106,7 @@ GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
                             const GuidanceOptions& options, const std::function<void(double)>& progress) {
     constexpr double proof_share = 0.5;
     GuidedProp prop{name, prove(setup, options, [&](double done) { progress(proof_share * done); }), {}};
-    constexpr std::array advisers{Adviser::Exhibit, Adviser::Paper, Adviser::None};
+    constexpr std::array advisers{Adviser::Exhibit, Adviser::Paper, Adviser::None, Adviser::Perfect};
     for (std::size_t k = 0; k < advisers.size(); ++k) {
         prop.visits.push_back(visits(setup, advisers.at(k), options, [&](double done) {
             progress(proof_share + (1.0 - proof_share) * (static_cast<double>(k) + done) / advisers.size());
@@ -128,12 +133,21 @@ std::string guidance_table(const GuidedProp& prop) {
         prop.name, proof.situations, share(proof.valid), share(proof.mended_after[0]),
         share(proof.mended_after[1]), share(proof.mended_after[2]), share(later), share(proof.never),
         proof.without_advice, proof.single, proof.failed, proof.median_ms, proof.p99_ms);
-    text += fmt::format("  {:<22} {:>16} {:>16} {:>12} {:>18}\n", "simulated visitors", "mended, median",
-                        "95th percentile", "whole", "advices a minute");
+    text += fmt::format("  {:<28} {:>16} {:>16} {:>12} {:>18} {:>17}\n", "simulated visitors",
+                        "mended, median", "95th percentile", "whole", "advices a minute", "losses a minute");
     for (const VisitsOf& visits : prop.visits) {
-        text += fmt::format("  {:<22} {:>14.1f} s {:>14.1f} s {:>10.1f} % {:>18.1f}\n",
+        text += fmt::format("  {:<28} {:>14.1f} s {:>14.1f} s {:>10.1f} % {:>18.1f} {:>17.1f}\n",
                             name_of(visits.adviser), visits.quantile_s(0.5), visits.quantile_s(0.95),
-                            100.0 * visits.whole_share, visits.advices_a_minute);
+                            100.0 * visits.whole_share, visits.advices_a_minute, visits.losses_a_minute);
+    }
+    text += "  not whole, of the time, while the visitor\n";
+    text += fmt::format("  {:<28} {:>9} {:>17} {:>13} {:>9} {:>15} {:>8}\n", "", "plays on",
+                        "waits for a sign", "overlooks it", "reacts", "does the wrong", "mends");
+    for (const VisitsOf& visits : prop.visits) {
+        const auto& dark = visits.dark_share;
+        text += fmt::format("  {:<28} {:>7.1f} % {:>15.1f} % {:>11.1f} % {:>7.1f} % {:>13.1f} % {:>6.1f} %\n",
+                            name_of(visits.adviser), 100.0 * dark[0], 100.0 * dark[1], 100.0 * dark[2],
+                            100.0 * dark[3], 100.0 * dark[4], 100.0 * dark[5]);
     }
     return text;
 }

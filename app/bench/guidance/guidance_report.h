@@ -6,6 +6,7 @@
 #include "app/bench/guidance/visitor.h"
 #include "app/bench/measures/verdicts.h"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,8 @@ struct VisitsOf {
     std::vector<double> mended_s; ///< ascending
     double whole_share = 0.0;
     double advices_a_minute = 0.0;
+    double losses_a_minute = 0.0;
+    std::array<double, dark_while_count> dark_share{}; ///< of the time, by `DarkWhile`
     /// Seconds within which this share of the losses was mended.
     [[nodiscard]] double quantile_s(double share) const;
 };

@@ -52,7 +52,8 @@ std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation
     std::optional<Move> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : candidates(reader.setup(), situation, MoveSet::Only).all()) {
-        if (candidate.move.action == Action::ComeRound || candidate.effort >= least) {
+        if (candidate.move.action == Action::ComeRound || stands_elsewhere(candidate.move) ||
+            candidate.effort >= least) {
             continue;
         }
         const FaceSets next = reader.read(after(candidate.move, reader.setup(), situation));

@@ -1,8 +1,8 @@
 #include "app/bench/guidance/visitor.h"
 
-#include "app/bench/guidance/paper_rule.h"
+#include "app/bench/guidance/motion.h"
+#include "app/bench/guidance/perfect_advice.h"
 #include "app/bench/truth/seeded_situations.h"
-#include "app/guidance/guide.h"
 
 #include <algorithm>
 #include <array>
@@ -14,73 +14,26 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double step_s = 0.05;
+constexpr double step_s = 1.0 / 60.0; // the exhibit's own
 constexpr double patience_s = std::chrono::duration<double>(Guide::patience).count();
 constexpr double sees_success_after_s = 0.5;
+constexpr double least_reaction_s = 0.3;
+constexpr double longest_reaction_s = 1.5;
 constexpr double misunderstands = 0.10;
 constexpr double overlooks = 0.15;
 constexpr double overlooks_for_s = 2.0;
-constexpr double slide_m_s = 0.25;
-constexpr double turn_rad_s = 2.0;
-constexpr double walk_m_s = 0.8;
-constexpr double stand_up_s = 1.0;
-
-/// A movement that is under way: from one situation to another in a time.
-struct Motion {
-    GuidedSituation from;
-    GuidedSituation to;
-    double lasts_s = 0.0;
-    double gone_s = 0.0;
-
-    [[nodiscard]] GuidedSituation now() const {
-        const double share = lasts_s > 0.0 ? std::min(1.0, gone_s / lasts_s) : 1.0;
-        const double eased = share * share * (3.0 - 2.0 * share);
-        GuidedSituation situation;
-        situation.table_from_prop.rotation =
-            glm::slerp(from.table_from_prop.rotation, to.table_from_prop.rotation, eased);
-        situation.table_from_prop.translation =
-            glm::mix(from.table_from_prop.translation, to.table_from_prop.translation, eased);
-        const double azimuth = std::atan2(from.eye_m.y, from.eye_m.x);
-        const double turn =
-            std::remainder(std::atan2(to.eye_m.y, to.eye_m.x) - azimuth, 2.0 * std::numbers::pi);
-        const double radius =
-            glm::mix(glm::length(glm::dvec2(from.eye_m)), glm::length(glm::dvec2(to.eye_m)), eased);
-        const double at = azimuth + eased * turn;
-        situation.eye_m = {radius * std::cos(at), radius * std::sin(at),
-                           glm::mix(from.eye_m.z, to.eye_m.z, eased)};
-        return situation;
-    }
-    [[nodiscard]] bool done() const { return gone_s >= lasts_s; }
-};
-
-double time_for(const Move& move, const GuidedSituation& from, const GuidedSituation& to) {
-    switch (move.action) {
-    case Action::SetDown:
-    case Action::Upright:
-        return stand_up_s;
-    case Action::ComeRound: {
-        const double angle =
-            std::remainder(std::atan2(to.eye_m.y, to.eye_m.x) - std::atan2(from.eye_m.y, from.eye_m.x),
-                           2.0 * std::numbers::pi);
-        return std::abs(angle) * glm::length(glm::dvec2(from.eye_m)) / walk_m_s;
-    }
-    case Action::Turn:
-        return 0.2 + std::abs(move.turn_rad) / turn_rad_s;
-    default:
-        return 0.2 + glm::length(move.by_m) / slide_m_s;
-    }
-}
+constexpr double visibly_darker = 1.1;
 
 class Visitor {
 public:
     Visitor(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed)
-        : setup_(setup), reader_(setup), advisor_(setup), adviser_(adviser), seeded_(seed),
-          situation_(seeded_situation(setup, seeded_)) {
+        : setup_(setup), reader_(setup), sign_(setup, adviser), adviser_(adviser), plays_(seed),
+          reacts_(~seed), situation_(seeded_situation(setup, plays_)) {
         constexpr double table_height_m = 0.8;
-        const double azimuth = seeded_.between(-std::numbers::pi, std::numbers::pi);
-        const double away_m = seeded_.between(0.5, 0.9);
+        const double azimuth = plays_.between(-std::numbers::pi, std::numbers::pi);
+        const double away_m = plays_.between(0.5, 0.9);
         situation_.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth),
-                            std::max(0.2, seeded_.between(0.9, 1.9) - table_height_m)};
+                            std::max(0.2, plays_.between(0.9, 1.9) - table_height_m)};
         next_play_s_ = 1.0;
     }
 
@@ -90,9 +43,14 @@ public:
         int whole = 0;
         int steps = 0;
         for (now_s_ = 0.0; now_s_ < seconds; now_s_ += step_s, ++steps) {
-            const bool valid = reader_.valid(situation_);
-            whole += valid ? 1 : 0;
-            valid ? be_content(result) : mend(result);
+            sign_.step(now_s_, situation_);
+            if (reader_.valid(situation_)) {
+                ++whole;
+                be_content(result);
+            } else {
+                mend(result);
+                result.dark_s.at(static_cast<std::size_t>(doing())) += step_s;
+            }
             move_on();
         }
         if (lost_since_s_ && now_s_ - *lost_since_s_ > patience_s) {
@@ -103,18 +61,46 @@ public:
     }
 
 private:
+    /// A movement that has a cause, and what can be seen to be wrong with it.
+    struct Doing {
+        Motion motion;
+        Move asked;           ///< Wait: by the visitor's own idea
+        bool mends = false;   ///< it is there to mend the picture
+        bool wrong = false;   ///< not what was asked
+        bool doubted = false; ///< the visitor has seen that it leads nowhere
+        double dark_px = 0.0; ///< when it began
+    };
+
+    [[nodiscard]] DarkWhile doing() const {
+        if (doing_) {
+            return !doing_->mends  ? DarkWhile::Playing
+                   : doing_->wrong ? DarkWhile::GoingWrong
+                                   : DarkWhile::Mending;
+        }
+        if (!acts_at_s_) {
+            return DarkWhile::Waiting;
+        }
+        return now_s_ < noticed_at_s_ ? DarkWhile::Overlooking : DarkWhile::Reacting;
+    }
+
     void begin(const Move& move, const Execution& execution) {
         const GuidedSituation to = after(move, setup_, situation_, execution);
         before_ = situation_;
-        motion_ = Motion{situation_, to, time_for(move, situation_, to)};
+        begin(to, time_for_s(move, situation_, to));
+    }
+
+    void begin(const GuidedSituation& to, double lasts_s) {
+        doing_ = Doing();
+        doing_->motion = {situation_, to, lasts_s};
+        doing_->dark_px = reader_.unlit_px(situation_);
     }
 
     void move_on() {
-        if (motion_) {
-            motion_->gone_s += step_s;
-            situation_ = motion_->now();
-            if (motion_->done()) {
-                motion_.reset();
+        if (doing_) {
+            doing_->motion.gone_s += step_s;
+            situation_ = doing_->motion.now();
+            if (doing_->motion.done()) {
+                doing_.reset();
             }
         }
     }
@@ -124,112 +110,171 @@ private:
         if (lost_since_s_) {
             if (now_s_ - *lost_since_s_ > patience_s) {
                 result.mended_s.push_back(now_s_ - *lost_since_s_);
-                next_play_s_ = now_s_ + seeded_.between(2.0, 5.0);
+                next_play_s_ = now_s_ + plays_.between(2.0, 5.0);
             }
             lost_since_s_.reset();
             acts_at_s_.reset();
             whole_since_s_ = now_s_;
         }
-        if (mending_ && motion_ && now_s_ - whole_since_s_ > sees_success_after_s) {
-            motion_.reset();
+        if (doing_ && doing_->mends && now_s_ - whole_since_s_ > sees_success_after_s) {
+            doing_.reset();
         }
-        if (!motion_) {
-            mending_ = false;
-            if (now_s_ >= next_play_s_) {
-                play();
-                next_play_s_ = now_s_ + seeded_.between(2.0, 5.0);
-            }
+        if (!doing_ && now_s_ >= next_play_s_) {
+            play();
+            next_play_s_ = now_s_ + plays_.between(2.0, 5.0);
         }
     }
 
     void play() {
         Move move{Action::Turn};
-        move.turn_rad = 0.9 * seeded_.normal();
-        const double what = seeded_.between(0.0, 1.0);
+        move.turn_rad = 0.9 * plays_.normal();
+        const double what = plays_.between(0.0, 1.0);
         if (what < 0.25) {
-            const double azimuth = seeded_.between(-std::numbers::pi, std::numbers::pi);
+            const double azimuth = plays_.between(-std::numbers::pi, std::numbers::pi);
             move = {Action::Slide};
-            move.by_m = seeded_.between(0.01, 0.08) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
+            move.by_m = plays_.between(0.01, 0.08) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
         } else if (what < 0.30) {
             move = {Action::Raise};
-            move.by_m.z = seeded_.between(0.03, 0.15);
+            move.by_m.z = plays_.between(0.03, 0.15);
         }
         begin(move, {});
         if (setup_.in_hand && what > 0.8) {
-            const glm::dvec3 axis(seeded_.normal(), seeded_.normal(), seeded_.normal());
-            motion_->to.table_from_prop.rotation =
-                glm::angleAxis(seeded_.between(0.1, 0.7), glm::normalize(axis)) *
-                motion_->to.table_from_prop.rotation;
+            const glm::dvec3 axis(plays_.normal(), plays_.normal(), plays_.normal());
+            doing_->motion.to.table_from_prop.rotation =
+                glm::angleAxis(plays_.between(0.1, 0.7), glm::normalize(axis)) *
+                doing_->motion.to.table_from_prop.rotation;
         }
-        mending_ = false;
     }
 
     void mend(VisitResult& result) {
         if (!lost_since_s_) {
             lost_since_s_ = now_s_;
+            read_since_s_.reset();
+            // Whose hand follows a sign looks at it already.
+            attends_ = doing_ && doing_->mends;
+            acted_ = false;
+            ++result.losses;
         }
-        if (motion_ && !mending_) {
-            return; // the movement that lost the picture ends first
-        }
-        if (motion_) {
-            return;
-        }
-        if (!acts_at_s_) {
-            const double shown_s =
-                std::max(now_s_, *lost_since_s_ + (adviser_ == Adviser::None ? 0.0 : patience_s));
-            acts_at_s_ =
-                shown_s + seeded_.between(0.3, 1.5) + (seeded_.happens(overlooks) ? overlooks_for_s : 0.0);
-            return;
-        }
-        if (now_s_ < *acts_at_s_) {
+        adviser_ == Adviser::None || adviser_ == Adviser::Perfect ? look_at_picture() : read_sign();
+        const bool plays = doing_ && !doing_->mends; // what lost the picture ends first
+        if (!acts_at_s_ || now_s_ < *acts_at_s_ || plays) {
             return;
         }
         acts_at_s_.reset();
-        mending_ = true;
-        const std::optional<Move> advice = advised();
-        if (advice && advice->action != Action::Wait) {
+        act(result);
+    }
+
+    /// From now on the visitor has something to react to.
+    void react() {
+        const double reaction_s = reacts_.between(least_reaction_s, longest_reaction_s);
+        const bool misses = !attends_ && adviser_ != Adviser::Perfect && reacts_.happens(overlooks);
+        noticed_at_s_ = now_s_ + (misses ? overlooks_for_s : 0.0);
+        acts_at_s_ = noticed_at_s_ + reaction_s;
+        attends_ = true;
+    }
+
+    /// Reacts to another sign, also with the hand still on its way; to the same one where the hand has stopped too soon.
+    void read_sign() {
+        const std::optional<SignOnTable>& sign = sign_.shown();
+        if (!sign) {
+            acts_at_s_.reset();
+            read_since_s_.reset();
+            return;
+        }
+        if (!read_since_s_ || *read_since_s_ != sign->since_s) {
+            read_since_s_ = sign->since_s;
+            acts_at_s_.reset();
+            const bool follows = doing_ && doing_->mends && alike(doing_->asked, sign->move);
+            if (!follows) {
+                react();
+            }
+        } else if (!acts_at_s_ && (!doing_ || finds_wrong())) {
+            react();
+        }
+    }
+
+    /// The same without a sign. Who has perfect advice knows the whole sequence after one reaction time.
+    void look_at_picture() {
+        if (acts_at_s_) {
+            return;
+        }
+        if (adviser_ == Adviser::Perfect && acted_) {
+            if (!doing_) {
+                acts_at_s_ = now_s_;
+            }
+        } else if (!acted_ || !doing_ || finds_wrong()) {
+            react();
+            acted_ = true;
+        }
+    }
+
+    /// Once for each movement that is not what was asked: its sign stays, or there is more in the dark.
+    [[nodiscard]] bool finds_wrong() {
+        if (!doing_->mends || doing_->doubted) {
+            return false;
+        }
+        const bool goes_away =
+            doing_->wrong && !Standing{doing_->asked, doing_->motion.from}.holds(situation_);
+        const bool darkens = doing_->asked.action == Action::Wait &&
+                             reader_.unlit_px(situation_) > visibly_darker * doing_->dark_px;
+        doing_->doubted = goes_away || darkens;
+        return doing_->doubted;
+    }
+
+    void act(VisitResult& result) {
+        if (adviser_ == Adviser::Perfect) {
+            const std::optional<Move> move = perfect_advice(reader_, situation_);
+            begin(move.value_or(Move{}), {});
             ++result.advices;
-            follow(*advice);
+        } else if (sign_.shown() && sign_.shown()->move.action != Action::Wait) {
+            follow(sign_.shown()->move);
+            ++result.advices;
         } else {
             try_something();
         }
+        doing_->mends = true;
     }
 
-    [[nodiscard]] std::optional<Move> advised() {
-        if (adviser_ == Adviser::None) {
-            return std::nullopt;
-        }
-        if (adviser_ == Adviser::Paper) {
-            return paper_advice(reader_, situation_);
-        }
-        const std::optional<Advice> advice = advisor_.advise(situation_);
-        return advice ? std::optional(advice->move) : std::nullopt;
+    void follow(const Move& asked) {
+        const bool wrong = reacts_.happens(misunderstands);
+        const Move move = wrong ? instead_of(asked) : asked;
+        begin(move, seeded_person(move, setup_, reacts_));
+        doing_->asked = asked;
+        doing_->wrong = wrong;
     }
 
-    void follow(Move move) {
-        if (seeded_.happens(misunderstands)) { // does the opposite
-            move.by_m = -move.by_m;
-            move.turn_rad = -move.turn_rad;
+    /// The opposite; what has none is taken for some way.
+    [[nodiscard]] Move instead_of(Move move) {
+        if (move.action == Action::Upright || move.action == Action::SetDown) {
+            return some_way();
         }
-        begin(move, seeded_person(move, setup_, seeded_));
+        move.by_m = -move.by_m;
+        move.turn_rad = -move.turn_rad;
+        move.side = static_cast<Side>((static_cast<int>(move.side) + 2) % 4);
+        return move;
+    }
+
+    [[nodiscard]] Move some_way() {
+        Move move{Action::Slide};
+        const double azimuth = reacts_.between(-std::numbers::pi, std::numbers::pi);
+        move.by_m = reacts_.between(0.04, 0.15) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
+        return move;
     }
 
     /// Half of the time people undo what lost the picture; a prop that leans most would stand up.
     void try_something() {
         const bool leans = tilt_rad(situation_.table_from_prop) > 0.2;
-        if (leans && !setup_.in_hand && seeded_.happens(0.7)) {
+        if (leans && !setup_.in_hand && reacts_.happens(0.7)) {
             begin({Action::Upright}, {});
-        } else if (before_ && seeded_.happens(0.5)) {
-            const GuidedSituation back{before_->table_from_prop, situation_.eye_m};
-            motion_ = Motion{situation_, back, 1.0};
+        } else if (before_ && reacts_.happens(0.5)) {
+            constexpr double undone_in_s = 1.0;
+            begin(GuidedSituation{before_->table_from_prop, situation_.eye_m}, undone_in_s);
             before_.reset();
         } else {
-            Move move{Action::Slide};
-            const double azimuth = seeded_.between(-std::numbers::pi, std::numbers::pi);
-            move.by_m = seeded_.between(0.04, 0.15) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
-            if (seeded_.happens(0.4)) {
+            Move move = some_way();
+            if (reacts_.happens(0.4)) {
                 move = {Action::Turn};
-                move.turn_rad = 0.8 * seeded_.normal();
+                move.turn_rad = 0.8 * reacts_.normal();
             }
             begin(move, {});
         }
@@ -237,25 +282,29 @@ private:
 
     const GuidanceSetup& setup_;
     FaceReader reader_;
-    Advisor advisor_;
+    ShownSign sign_;
     Adviser adviser_;
-    Seeded seeded_;
+    Seeded plays_;  ///< the same play whatever is advised
+    Seeded reacts_; ///< reaction times, misunderstandings, sloppiness
     GuidedSituation situation_;
     std::optional<GuidedSituation> before_; ///< the latest movement
-    std::optional<Motion> motion_;
-    bool mending_ = false; ///< the movement is there to mend the picture
+    std::optional<Doing> doing_;
     double now_s_ = 0.0;
     double next_play_s_ = 0.0;
     double whole_since_s_ = 0.0;
     std::optional<double> lost_since_s_;
+    bool attends_ = false;               ///< looks at the sign, or at the dark
+    bool acted_ = false;                 ///< or is about to, since the picture was lost
+    std::optional<double> read_since_s_; ///< the sign that was read, by when it appeared
+    double noticed_at_s_ = 0.0;
     std::optional<double> acts_at_s_;
 };
 
 } // namespace
 
 std::string_view name_of(Adviser adviser) {
-    constexpr std::array<std::string_view, 3> names{"the exhibit's advice", "the paper's advice",
-                                                    "no advice"};
+    constexpr std::array<std::string_view, 4> names{"the exhibit's advice", "the paper's advice", "no advice",
+                                                    "perfect advice (floor)"};
     return names.at(static_cast<std::size_t>(adviser));
 }
 

@@ -1,0 +1,42 @@
+#include "app/bench/guidance/perfect_advice.h"
+
+#include "app/bench/guidance/motion.h"
+#include "app/guidance/advise.h"
+#include "app/guidance/candidates.h"
+#include "app/guidance/steadiness.h"
+
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// What it takes to mend the picture again, and once more.
+constexpr double unsteady_s = 4.0;
+
+} // namespace
+
+std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation) {
+    if (reader.valid(situation)) {
+        return std::nullopt;
+    }
+    std::optional<Move> best;
+    double least_cost_s = std::numeric_limits<double>::infinity();
+    for (const MoveSet set : {MoveSet::Only, MoveSet::Last}) {
+        for (const Candidate& candidate : candidates(reader.setup(), situation, set).all()) {
+            const GuidedSituation next = after(candidate.move, reader.setup(), situation);
+            const double lasts_s = time_for_s(candidate.move, situation, next);
+            if (lasts_s < least_cost_s && reader.valid(next)) {
+                int looks = 0;
+                const double cost_s = lasts_s + unsteady_s * (1.0 - steadiness(reader, next, looks));
+                if (cost_s < least_cost_s) {
+                    best = candidate.move;
+                    least_cost_s = cost_s;
+                }
+            }
+        }
+    }
+    return best ? best : advise(reader, situation).value_or(Advice{}).move;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,40 @@
+/// What lies on the table for a simulated visitor: the exhibit's own Guide, or the paper's rule in the same rhythm.
+///
+/// Time     simulated seconds that never go back; stepped as the exhibit is, 60 times a second.
+/// Threads  values; one caller.
+/// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
+#pragma once
+
+#include "app/guidance/guide.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+/// Perfect: nothing lies there, the visitor knows (perfect_advice.h).
+enum class Adviser : std::uint8_t { Exhibit, Paper, None, Perfect };
+
+struct SignOnTable {
+    Move move;            ///< Wait: nothing that is known helps
+    double since_s = 0.0; ///< when it appeared; another amount of the same move is the same sign
+};
+
+class ShownSign {
+public:
+    ShownSign(const GuidanceSetup& setup, Adviser adviser) : adviser_(adviser), guide_(setup) {}
+
+    void step(double now_s, const GuidedSituation& situation);
+    /// That of the latest step.
+    [[nodiscard]] const std::optional<SignOnTable>& shown() const { return shown_; }
+
+private:
+    void step_paper(double now_s, const GuidedSituation& situation);
+
+    Adviser adviser_;
+    Guide guide_;
+    std::optional<SignOnTable> shown_;
+    std::optional<double> dark_since_s_;
+    double next_look_s_ = 0.0;
+};
+
+} // namespace frustumscreen
