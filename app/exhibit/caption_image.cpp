@@ -14,10 +14,20 @@ constexpr double text_brightness = 0.8; ///< linear; a little behind the title
 
 constexpr double text_gap_em = 0.3; ///< between title and text
 
+/// Title or text.
 struct SetPart {
-    GlyphImage image;
+    const GlyphSetting* setting = nullptr;
+    double em_px = 0.0;
     double brightness = 1.0;
     TextDirection direction = TextDirection::LeftToRight;
+    GlyphExtent extent;
+};
+
+/// One part below the other.
+struct SetParts {
+    std::vector<SetPart> parts;
+    int gap_px = 0; ///< between two
+    int width_px = 1, height_px = 0;
 };
 
 /// The widest setting that fits, else the narrowest; null without any.
@@ -38,13 +48,44 @@ const GlyphSetting* fitting(const GlyphText* text, double width_em) {
     return widest != nullptr ? widest : narrowest;
 }
 
+SetParts lay_out(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text, double em_m,
+                 double width_m, double texels_per_m) {
+    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
+    const double width_em = width_m * texels_per_m / em_px;
+    SetParts all;
+    all.gap_px = static_cast<int>(std::lround(text_gap_em * em_px));
+    const auto add = [&](const GlyphText* part, double em, double brightness) {
+        if (const GlyphSetting* setting = fitting(part, width_em / em)) {
+            const GlyphExtent extent = glyph_extent(runs, *setting, em * em_px);
+            all.width_px = std::max(all.width_px, extent.width_px);
+            all.height_px += (all.height_px > 0 ? all.gap_px : 0) + extent.height_px;
+            all.parts.push_back({setting, em * em_px, brightness, part->direction, extent});
+        }
+    };
+    add(title, caption_title_em, 1.0);
+    add(text, 1.0, text_brightness);
+    all.height_px = std::max(all.height_px, 1);
+    return all;
+}
+
+std::vector<Paragraph> paragraphs_of(const std::string& title, const std::string& text, double em_px) {
+    std::vector<Paragraph> paragraphs;
+    if (!title.empty()) {
+        paragraphs.push_back({title, caption_title_em * em_px, true, 1.0, 0.0});
+    }
+    if (!text.empty()) {
+        paragraphs.push_back({text, em_px, false, text_brightness, text_gap_em * em_px});
+    }
+    return paragraphs;
+}
+
 /// Draws over what is there, lighter over darker.
-void draw(const SetPart& part, int left, int top, Image<std::uint8_t>& caption) {
-    const Image<std::uint8_t>& from = part.image.coverage;
+void draw(const Image<std::uint8_t>& from, double brightness, int left, int top,
+          Image<std::uint8_t>& caption) {
     for (int y = 0; y < from.height; ++y) {
         for (int x = 0; x < from.width; ++x) {
             std::uint8_t& texel = caption.at(left + x, top + y);
-            texel = std::max(texel, static_cast<std::uint8_t>(std::lround(part.brightness * from.at(x, y))));
+            texel = std::max(texel, static_cast<std::uint8_t>(std::lround(brightness * from.at(x, y))));
         }
     }
 }
@@ -54,48 +95,39 @@ void draw(const SetPart& part, int left, int top, Image<std::uint8_t>& caption) 
 CaptionImage make_caption(const Typesetter& typesetter, const std::string& title, const std::string& text,
                           double em_m, double width_m, double texels_per_m) {
     const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
-    std::vector<Paragraph> paragraphs;
-    if (!title.empty()) {
-        paragraphs.push_back({title, caption_title_em * em_px, true, 1.0, 0.0});
-    }
-    if (!text.empty()) {
-        paragraphs.push_back({text, em_px, false, text_brightness, text_gap_em * em_px});
-    }
     CaptionImage caption;
-    caption.coverage = typesetter.set(paragraphs, width_m * texels_per_m);
+    caption.coverage = typesetter.set(paragraphs_of(title, text, em_px), width_m * texels_per_m);
     caption.size_m = glm::dvec2(caption.coverage.width, caption.coverage.height) / texels_per_m;
     return caption;
 }
 
 CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphText* title,
                           const GlyphText* text, double em_m, double width_m, double texels_per_m) {
-    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
-    const double width_em = width_m * texels_per_m / em_px;
-    std::vector<SetPart> parts;
-    if (const GlyphSetting* setting = fitting(title, width_em / caption_title_em)) {
-        parts.push_back(
-            {glyph_image(runs, atlas, *setting, caption_title_em * em_px), 1.0, title->direction});
-    }
-    if (const GlyphSetting* setting = fitting(text, width_em)) {
-        parts.push_back({glyph_image(runs, atlas, *setting, em_px), text_brightness, text->direction});
-    }
-    int width = 1;
-    int height = 0;
-    const int gap = static_cast<int>(std::lround(text_gap_em * em_px));
-    for (const SetPart& part : parts) {
-        width = std::max(width, part.image.coverage.width);
-        height += (height > 0 ? gap : 0) + part.image.coverage.height;
-    }
+    const SetParts set = lay_out(runs, title, text, em_m, width_m, texels_per_m);
     CaptionImage caption;
-    caption.coverage = Image<std::uint8_t>(width, std::max(height, 1));
+    caption.coverage = Image<std::uint8_t>(set.width_px, set.height_px);
     int top = 0;
-    for (const SetPart& part : parts) {
+    for (const SetPart& part : set.parts) {
         const bool flush_right = part.direction == TextDirection::RightToLeft;
-        draw(part, flush_right ? width - part.image.coverage.width : 0, top, caption.coverage);
-        top += part.image.coverage.height + gap;
+        draw(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
+             flush_right ? set.width_px - part.extent.width_px : 0, top, caption.coverage);
+        top += part.extent.height_px + set.gap_px;
     }
     caption.size_m = glm::dvec2(caption.coverage.width, caption.coverage.height) / texels_per_m;
     return caption;
+}
+
+glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title, const std::string& text,
+                          double em_m, double width_m, double texels_per_m) {
+    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
+    return glm::dvec2(typesetter.extent(paragraphs_of(title, text, em_px), width_m * texels_per_m)) /
+           texels_per_m;
+}
+
+glm::dvec2 caption_size_m(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text, double em_m,
+                          double width_m, double texels_per_m) {
+    const SetParts set = lay_out(runs, title, text, em_m, width_m, texels_per_m);
+    return glm::dvec2(set.width_px, set.height_px) / texels_per_m;
 }
 
 } // namespace frustumscreen

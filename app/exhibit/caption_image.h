@@ -38,4 +38,11 @@ struct CaptionImage {
                                         const GlyphText* title, const GlyphText* text, double em_m,
                                         double width_m, double texels_per_m);
 
+/// The `size_m` that each of these makes, without drawing anything.
+[[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title,
+                                        const std::string& text, double em_m, double width_m,
+                                        double texels_per_m);
+[[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text,
+                                        double em_m, double width_m, double texels_per_m);
+
 } // namespace frustumscreen

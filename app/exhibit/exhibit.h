@@ -105,6 +105,7 @@ struct Presentation {
     WantedArtifacts wanted;  ///< to load ahead
     std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
     std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
+    std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
     std::optional<PlacedSign> sign;           ///< what the visitor should do
     std::optional<PresentedAdvice> advice;    ///< the same in words; an invitation; why nothing is shown

@@ -19,6 +19,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.brightness = comes.brightness * stand.brightness;
     presentation.stand_in = comes.picture;
     presentation.wanted = wanted();
+    presentation.wanted_language = selection_.language();
     presentation.language = language_of(shown.artifact);
     present_words(now, situation, stand, presentation);
     sign_ = presentation.sign;

@@ -100,9 +100,35 @@ GlyphArea ink_of(GlyphArea area, double spread_px) {
     return area;
 }
 
-/// A picture of the setting's box and of all letters that reach over it.
-GlyphImage make_room(const GlyphSetting& setting, std::span<const GlyphArea> areas, const Scale& scale,
-                     double spread_px) {
+/// The glyphs that draw something, line by line.
+struct Areas {
+    std::vector<GlyphArea> areas;
+    std::vector<std::size_t> line_ends;
+};
+
+Areas areas_of(const GlyphRuns& runs, const GlyphSetting& setting, const Scale& scale) {
+    Areas all;
+    std::size_t next = 0;
+    for (const GlyphLine& line : setting.lines) {
+        for (std::size_t k = 0; k < line.glyphs; ++k, ++next) {
+            const PlacedGlyph& glyph = setting.glyphs[next];
+            const GlyphBox& box = runs.boxes[glyph.glyph];
+            if (box.width > 0 && box.height > 0) {
+                all.areas.push_back(area_of(box, glyph, line.baseline, scale));
+            }
+        }
+        all.line_ends.push_back(all.areas.size());
+    }
+    return all;
+}
+
+Scale scale_of(const GlyphRuns& runs, double em_px) {
+    return {em_px / em_units, em_px / runs.texels_per_em};
+}
+
+/// Of the setting's box and of all letters that reach over it.
+GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> areas, const Scale& scale,
+                      double spread_px) {
     double left = 0.0;
     double top = 0.0;
     double right = setting.width * scale.px_of_unit;
@@ -114,16 +140,15 @@ GlyphImage make_room(const GlyphSetting& setting, std::span<const GlyphArea> are
         right = std::max(right, ink.right);
         bottom = std::max(bottom, ink.bottom);
     }
-    GlyphImage image;
+    GlyphExtent extent;
     const double width = std::ceil(right) - std::floor(left);
     const double height = std::ceil(bottom) - std::floor(top);
     if (width <= most_side_px && height <= most_side_px &&
         width * height <= static_cast<double>(most_pixels)) {
-        image.left_px = -static_cast<int>(std::floor(left));
-        image.top_px = -static_cast<int>(std::floor(top));
-        image.coverage = Image<std::uint8_t>(static_cast<int>(width), static_cast<int>(height));
+        extent = {static_cast<int>(width), static_cast<int>(height), -static_cast<int>(std::floor(left)),
+                  -static_cast<int>(std::floor(top))};
     }
-    return image;
+    return extent;
 }
 
 /// The rows of pixels that a line's glyphs reach.
@@ -141,26 +166,22 @@ SampleRows rows_of(std::span<const GlyphArea> line, const GlyphImage& image) {
 
 } // namespace
 
+GlyphExtent glyph_extent(const GlyphRuns& runs, const GlyphSetting& setting, double em_px) {
+    const Scale scale = scale_of(runs, em_px);
+    return extent_of(setting, areas_of(runs, setting, scale).areas, scale,
+                     runs.spread_texels * scale.px_of_texel);
+}
+
 GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphSetting& setting,
                        double em_px) {
-    const Scale scale{em_px / em_units, em_px / runs.texels_per_em};
-    std::vector<GlyphArea> areas;
-    std::vector<std::size_t> line_ends;
-    std::size_t next = 0;
-    for (const GlyphLine& line : setting.lines) {
-        for (std::size_t k = 0; k < line.glyphs; ++k, ++next) {
-            const PlacedGlyph& glyph = setting.glyphs[next];
-            const GlyphBox& box = runs.boxes[glyph.glyph];
-            if (box.width > 0 && box.height > 0) {
-                areas.push_back(area_of(box, glyph, line.baseline, scale));
-            }
-        }
-        line_ends.push_back(areas.size());
-    }
-    GlyphImage image = make_room(setting, areas, scale, runs.spread_texels * scale.px_of_texel);
-    if (image.coverage.texels.empty()) {
+    const Scale scale = scale_of(runs, em_px);
+    const auto [areas, line_ends] = areas_of(runs, setting, scale);
+    const GlyphExtent extent = extent_of(setting, areas, scale, runs.spread_texels * scale.px_of_texel);
+    GlyphImage image{{}, extent.left_px, extent.top_px};
+    if (extent.width_px == 0 || extent.height_px == 0) {
         return image;
     }
+    image.coverage = Image<std::uint8_t>(extent.width_px, extent.height_px);
     const double samples_of_code = scale.px_of_texel * samples * runs.spread_texels / outline_code;
     std::size_t begin = 0;
     for (const std::size_t end : line_ends) {

@@ -14,10 +14,18 @@
 
 namespace frustumscreen {
 
-struct GlyphImage {
-    Image<std::uint8_t> coverage;
+/// The picture's size; 0 if it comes out empty.
+struct GlyphExtent {
+    int width_px = 0, height_px = 0;
     int left_px = 0; ///< pixels to the left of the setting's box: letters may reach over its edges
     int top_px = 0;  ///< pixels above it
+};
+/// Without drawing anything. `setting` is one of `runs`.
+[[nodiscard]] GlyphExtent glyph_extent(const GlyphRuns& runs, const GlyphSetting& setting, double em_px);
+
+struct GlyphImage {
+    Image<std::uint8_t> coverage;
+    int left_px = 0, top_px = 0; ///< as in its extent
 };
 
 /// `setting` is one of `runs`, and `atlas` is theirs.

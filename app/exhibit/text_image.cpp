@@ -209,16 +209,23 @@ Result<Typesetter> Typesetter::open(const std::filesystem::path& folder) {
                                                  "; install Debian's package fonts-dejavu-core");
 }
 
-Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, double width_px) const {
+struct Typesetter::Layout {
     std::vector<Line> lines;
+    std::vector<double> baselines_px;
+    int side_px = 0; ///< to the left and to the right: letters may lean over
+    glm::ivec2 size_px{1};
+};
+
+Typesetter::Layout Typesetter::lay_out(std::span<const Paragraph> paragraphs, double width_px) const {
+    Layout layout;
+    std::vector<Line>& lines = layout.lines;
     for (const Paragraph& paragraph : paragraphs) {
         set_size(faces_->of(paragraph), paragraph.em_px);
         break_lines(faces_->of(paragraph), paragraph, width_px, lines);
     }
     if (lines.empty()) {
-        return {1, 1};
+        return layout;
     }
-    std::vector<double> baselines;
     double widest = 1.0;
     double y = 0.0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -226,17 +233,28 @@ Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, doubl
         const bool begins = k == 0 || lines[k - 1].paragraph != &paragraph;
         y += k == 0 ? ascent_em * paragraph.em_px : line_pitch_em * paragraph.em_px;
         y += begins && k > 0 ? paragraph.space_before_px : 0.0;
-        baselines.push_back(y);
+        layout.baselines_px.push_back(y);
         widest = std::max(widest, lines[k].width_px);
     }
     const double em = lines.back().paragraph->em_px;
-    const int side = static_cast<int>(std::ceil(0.06 * paragraphs.front().em_px)); // letters may lean over
-    Image<std::uint8_t> image(static_cast<int>(std::ceil(widest)) + 2 * side,
-                              static_cast<int>(std::ceil(y + descent_em * em)));
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-        FT_Face face = faces_->of(*lines[k].paragraph);
-        set_size(face, lines[k].paragraph->em_px);
-        draw_line(face, lines[k], side, baselines[k], image);
+    layout.side_px = static_cast<int>(std::ceil(0.06 * paragraphs.front().em_px));
+    layout.size_px = {static_cast<int>(std::ceil(widest)) + 2 * layout.side_px,
+                      static_cast<int>(std::ceil(y + descent_em * em))};
+    return layout;
+}
+
+glm::ivec2 Typesetter::extent(std::span<const Paragraph> paragraphs, double width_px) const {
+    return lay_out(paragraphs, width_px).size_px;
+}
+
+Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, double width_px) const {
+    const Layout layout = lay_out(paragraphs, width_px);
+    Image<std::uint8_t> image(layout.size_px.x, layout.size_px.y);
+    for (std::size_t k = 0; k < layout.lines.size(); ++k) {
+        const Line& line = layout.lines[k];
+        FT_Face face = faces_->of(*line.paragraph);
+        set_size(face, line.paragraph->em_px);
+        draw_line(face, line, layout.side_px, layout.baselines_px[k], image);
     }
     return image;
 }

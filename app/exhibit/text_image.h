@@ -12,6 +12,8 @@
 #include "app/image/image.h"
 #include "firmware_host/base/result.h"
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -40,6 +42,8 @@ public:
     /// Lines broken at spaces so that they fit `width_px` (a longer word is broken where it must be); as wide
     /// as the widest line, at least 1 x 1. Letters that reach over the edge are not cut off.
     [[nodiscard]] Image<std::uint8_t> set(std::span<const Paragraph> paragraphs, double width_px) const;
+    /// The size of that picture, without drawing it.
+    [[nodiscard]] glm::ivec2 extent(std::span<const Paragraph> paragraphs, double width_px) const;
     /// One line.
     [[nodiscard]] Image<std::uint8_t> line(std::string_view text, double em_px, bool bold = false) const;
     /// Distance from one line's baseline to the next.
@@ -47,6 +51,8 @@ public:
 
 private:
     struct Faces;
+    struct Layout;
+    [[nodiscard]] Layout lay_out(std::span<const Paragraph> paragraphs, double width_px) const;
     explicit Typesetter(std::unique_ptr<Faces> faces);
     std::unique_ptr<Faces> faces_;
 };

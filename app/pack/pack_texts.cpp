@@ -158,10 +158,14 @@ std::string folder_of(std::string_view section, std::string language) {
     return fmt::format("{}/{}/", section, language);
 }
 
-Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, Bytes>& parts) {
+Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, Bytes>& parts,
+                           Atlases atlases = Atlases::Read) {
     Result<GlyphRuns> runs = decode_glyph_runs(parts.at(entry.glyphs));
     if (!runs) {
         return at(entry.glyphs, runs.error());
+    }
+    if (atlases == Atlases::LeftOut) {
+        return SetLanguage{entry.language, *std::move(runs), {}};
     }
     static const Bytes none;
     Result<DistanceAtlas> atlas =
@@ -214,7 +218,7 @@ void put_set_texts(Pack& pack, std::span<const SetLanguage> languages) {
 }
 
 Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& file,
-                                                std::span<const std::string> languages) {
+                                                std::span<const std::string> languages, Atlases atlases) {
     std::vector<SetEntry> chosen;
     const auto choose = [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
         Result<std::vector<SetEntry>> entries = entries_of<SetEntry>(pack, texts_section);
@@ -224,7 +228,8 @@ Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& fil
         std::vector<std::string> names;
         for (SetEntry& entry : *entries) {
             if (std::find(languages.begin(), languages.end(), entry.language) != languages.end()) {
-                for (std::string& part : parts_of(entry)) {
+                for (std::string& part :
+                     atlases == Atlases::Read ? parts_of(entry) : std::vector{entry.glyphs}) {
                     names.push_back(std::move(part));
                 }
                 chosen.push_back(std::move(entry));
@@ -238,7 +243,7 @@ Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& fil
     }
     std::vector<SetLanguage> loaded;
     for (const SetEntry& entry : chosen) {
-        Result<SetLanguage> language = decode(entry, *parts);
+        Result<SetLanguage> language = decode(entry, *parts, atlases);
         if (!language) {
             return at(file.string(), language.error());
         }

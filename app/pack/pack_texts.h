@@ -38,9 +38,12 @@ struct SpokenLanguage {
 void put_sounds(Pack& pack, std::span<const SpokenLanguage> languages);
 void put_set_texts(Pack& pack, std::span<const SetLanguage> languages);
 
+/// What only lays texts out needs no pictures of their glyphs.
+enum class Atlases : std::uint8_t { Read, LeftOut };
 /// Those of `languages` that the pack has; no part of the others is read.
 [[nodiscard]] Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& file,
-                                                              std::span<const std::string> languages);
+                                                              std::span<const std::string> languages,
+                                                              Atlases atlases = Atlases::Read);
 
 struct SpokenText {
     std::string language;

@@ -14,8 +14,8 @@
 namespace frustumscreen {
 
 /// `wanted`: the kind that the settings name. Returns nothing if they agree.
-[[nodiscard]] inline std::optional<std::string> note_other_prop(const std::string& file, const Pack& pack,
-                                                                std::string_view wanted) {
+[[nodiscard]] inline std::optional<std::string>
+note_other_prop(const std::string& file, const PackDescription& pack, std::string_view wanted) {
     if (pack.prop_kind == wanted) {
         return std::nullopt;
     }

@@ -3,6 +3,9 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/prop_note.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -10,155 +13,150 @@
 
 namespace frustumscreen {
 
-Catalogue catalogue_of(std::span<const ArtifactTexts> artifacts) {
-    Catalogue catalogue;
-    for (const ArtifactTexts& artifact : artifacts) {
-        CatalogueEntry entry;
-        entry.languages = artifact.languages;
-        entry.hotspots = artifact.hotspots.set;
-        for (const DescriptionPictures& description : artifact.descriptions) {
-            entry.tellables.push_back(description.tellable);
-            entry.descriptions.push_back(description.shape);
-        }
-        for (const std::vector<CaptionPicture>& shapes : artifact.captions) {
-            std::vector<glm::dvec2>& sizes = entry.caption_sizes_m.emplace_back();
-            std::transform(shapes.begin(), shapes.end(), std::back_inserter(sizes),
-                           [](const CaptionPicture& shape) { return shape.size_m; });
-        }
-        catalogue.push_back(std::move(entry));
-    }
-    return catalogue;
-}
+namespace {
 
-std::uint64_t ArtifactTexts::planned_gpu_bytes() const {
-    std::uint64_t bytes = hotspots.planned_gpu_bytes;
-    for (const std::vector<CaptionPicture>& shapes : captions) {
-        for (const CaptionPicture& shape : shapes) {
-            bytes += shape.planned_gpu_bytes;
-        }
-    }
-    for (const DescriptionPictures& description : descriptions) {
-        bytes += description.planned_gpu_bytes;
-    }
-    return bytes;
-}
-
-ArtifactOpener::ArtifactOpener(const Settings& settings, Options options, GpuStore& store)
-    : settings_(settings), options_(std::move(options)), store_(store),
-      captions_(settings.exhibit.caption_height_m,
-                settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z) {}
-
-Result<OpenedArtifact> ArtifactOpener::open(const std::filesystem::path& file) {
-    OpenedArtifact opened{{file, {}, {}}, {}};
-    const Result<VerifiedPack> pack =
-        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            Result<ScenePlan> plan = plan_scene(settings_, outline, request(outline));
-            if (!plan) {
-                return tl::unexpected<Error>(plan.error());
-            }
-            opened.known.outline = outline;
-            opened.known.plan = std::move(*plan);
-            return std::vector<std::uint32_t>{};
-        });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
-    opened.texts.title = (*pack)->title;
-    if (Result<void> set = set_texts(**pack, opened.known, opened.texts); !set) {
-        close(opened.texts);
-        return tl::unexpected<Error>(set.error());
-    }
-    for (const PackCaption& caption : (*pack)->captions) {
-        add_language(languages_, caption.language);
-    }
-    if (const auto note = note_other_prop(file.string(), **pack, name_of(settings_.prop.kind))) {
-        notes_.push_back(*note);
-    }
-    return opened;
-}
-
-void ArtifactOpener::close(ArtifactTexts& texts) {
-    texts.hotspots.release(store_);
-    for (const DescriptionPictures& description : texts.descriptions) {
-        release(description, store_);
-    }
-    for (const std::vector<CaptionPicture>& shapes : texts.captions) {
-        for (const CaptionPicture& shape : shapes) {
-            store_.release(shape.texture);
-        }
-    }
-}
-
-SceneRequest ArtifactOpener::request(const PackOutline& outline) const {
+SceneRequest request_of(const Settings& settings, const OpenerOptions& options, const PackOutline& outline) {
     SceneRequest request;
-    request.technique = options_.technique;
-    request.room = options_.samples;
-    request.economies = options_.economies;
-    request.visibility = visibility_of(settings_);
-    request.table_pictures = options_.table_pictures;
+    request.technique = options.technique;
+    request.room = options.samples;
+    request.economies = options.economies;
+    request.visibility = visibility_of(settings);
+    request.table_pictures = options.table_pictures;
     std::vector<std::string> languages;
     for (const PackCaption& caption : outline.description.captions) {
         request.captions.push_back(languages.size());
         languages.push_back(caption.language);
     }
-    if (!options_.other_languages && !languages.empty()) {
-        request.captions = {caption_for(settings_.exhibit.language, languages)};
+    if (!options.other_languages && !languages.empty()) {
+        request.captions = {caption_for(settings.exhibit.language, languages)};
     }
     return request;
 }
 
-/// Reads the glyph runs of the languages that are needed, and no others.
-Result<void> ArtifactOpener::set_texts(const Pack& pack, const KnownArtifact& known, ArtifactTexts& texts) {
-    for (const std::size_t each : known.plan.captions) {
-        texts.languages.push_back(pack.captions[each].language);
+Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& options,
+                                const std::filesystem::path& file) {
+    KnownArtifact opened{file, {}, {}, {}};
+    const Result<VerifiedPack> pack =
+        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            Result<ScenePlan> plan = plan_scene(settings, outline, request_of(settings, options, outline));
+            if (!plan) {
+                return tl::unexpected<Error>(plan.error());
+            }
+            opened.outline = outline;
+            opened.plan = std::move(*plan);
+            return std::vector<std::uint32_t>{};
+        });
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
     }
-    const Result<std::vector<SetLanguage>> set =
-        texts.languages.empty() ? std::vector<SetLanguage>() : load_set_texts(known.file, texts.languages);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
+    Result<ArtifactTexts> texts =
+        lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
+                      text_style(settings), settings.sound.kind != SoundKind::None);
+    if (!texts) {
+        return tl::unexpected<Error>(texts.error());
     }
-    if (Result<void> captions = set_captions(pack, known.plan, *set, texts); !captions) {
-        return at(known.file.string(), captions.error());
-    }
-    Result<HotspotPictures> hotspots = upload_hotspots(
-        pack.hotspots,
-        {texts.languages, *set, known.plan.metres_per_box, settings_.exhibit.caption_height_m,
-         settings_.projector.pinhole.fx / settings_.projector.table_from_projector.translation.z},
-        store_);
-    if (!hotspots) {
-        return at(known.file.string(), hotspots.error());
-    }
-    texts.hotspots = std::move(*hotspots);
-    const DescriptionRequest request{known.file, pack, *set, settings_.sound.kind != SoundKind::None};
-    for (const std::size_t each : known.plan.captions) {
-        Result<DescriptionPictures> description =
-            make_description(request, pack.captions[each], captions_, store_);
-        if (!description) {
-            return at(known.file.string(), description.error());
-        }
-        texts.descriptions.push_back(*std::move(description));
-    }
-    return {};
+    opened.texts = std::move(*texts);
+    return opened;
 }
 
-Result<void> ArtifactOpener::set_captions(const Pack& pack, const ScenePlan& plan,
-                                          std::span<const SetLanguage> set, ArtifactTexts& texts) {
-    for (const std::size_t each : plan.captions) {
-        const Result<std::vector<CaptionImage>> images = captions_.set(pack.captions[each], set);
-        if (!images) {
-            return tl::unexpected<Error>(images.error());
-        }
-        std::vector<CaptionPicture>& shapes = texts.captions.emplace_back();
-        for (const CaptionImage& image : *images) {
-            const Result<TextureId> texture = store_.upload(image.coverage);
-            if (!texture) {
-                return tl::unexpected<Error>(texture.error());
-            }
-            shapes.push_back(
-                {*texture, image.size_m, caption_gpu_bytes(image.coverage.width, image.coverage.height)});
-        }
+/// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
+RenderNeeds with_cut_outs(RenderNeeds needs) {
+    for (ShaderKey key : RenderNeeds(needs).draws) {
+        key.cut_out = key.pass == ShaderKey::Pass::Surface;
+        needs.draws.insert(key);
     }
-    return {};
+    return needs;
+}
+
+/// Prepares the first artifact, which plans what it needs exactly.
+Result<PreparedArtifact> prepare_first(KnownArtifact& known, const OpenerOptions& options) {
+    Result<PreparedArtifact> first =
+        prepare_artifact(known, options.technique, options.deadline_ms, [] { return false; });
+    if (first) {
+        ScenePlan& plan = known.plan;
+        plan.needs = first->levels.needs();
+        plan.left_out.insert(plan.left_out.end(), first->levels.left_out().begin(),
+                             first->levels.left_out().end());
+    }
+    return first;
+}
+
+/// `what`, behind the place that it is about, where there is one.
+std::string after(const std::string& place, const std::string& what) {
+    return place.empty() ? what : place + ": " + what;
+}
+
+/// The message must be complete: some people do not see the lines on standard error before it.
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
+                                      const std::string& packs_key) {
+    if (left_out.empty()) {
+        return fail(ErrorKind::BadConfiguration,
+                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
+                    "make them with frustumscreen-bake");
+    }
+    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
+    return fail(ErrorKind::BadConfiguration,
+                after(packs_key, left_out.size() == 1
+                                     ? "the pack cannot be shown: " + first
+                                     : fmt::format("none of the {} packs can be shown; the first: {}",
+                                                   left_out.size(), first)));
+}
+
+} // namespace
+
+Catalogue catalogue_of(std::span<const KnownArtifact> artifacts) {
+    Catalogue catalogue;
+    std::transform(artifacts.begin(), artifacts.end(), std::back_inserter(catalogue),
+                   [](const KnownArtifact& artifact) { return artifact.texts.entry; });
+    return catalogue;
+}
+
+Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const std::filesystem::path> packs,
+                                       const OpenerOptions& options) {
+    OpenedArtifacts all;
+    all.left_out.reserve(packs.size());
+    const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
+        say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
+        all.left_out.push_back(pack_left_out(file.string(), error.message));
+    };
+    for (const std::filesystem::path& file : packs) {
+        if (!all.known.empty() && !options.other_packs) {
+            break; // no button leads there
+        }
+        Result<KnownArtifact> opened = open_pack(settings, options, file);
+        if (!opened) {
+            leave_out(file, opened.error());
+            continue;
+        }
+        const PackDescription& pack = opened->outline.description;
+        for (const PackCaption& caption : pack.captions) {
+            add_language(all.languages, caption.language);
+        }
+        if (const auto note = note_other_prop(file.string(), pack, name_of(settings.prop.kind))) {
+            all.notes.push_back(*note);
+        }
+        if (!all.first) {
+            Result<PreparedArtifact> first = prepare_first(*opened, options);
+            if (!first) {
+                leave_out(file, first.error());
+                continue;
+            }
+            all.first = std::move(*first);
+        } else {
+            opened->plan.needs = with_cut_outs(opened->plan.needs);
+        }
+        all.needs = united(all.needs, opened->plan.needs);
+        all.known.push_back(std::move(*opened));
+    }
+    if (!all.first) {
+        return nothing_to_show(all.left_out, options.packs_key);
+    }
+    return all;
+}
+
+TextStyle text_style(const Settings& settings) {
+    return {settings.exhibit.caption_height_m,
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z};
 }
 
 } // namespace frustumscreen

@@ -24,8 +24,8 @@ ArtifactReader::~ArtifactReader() {
     delete answer_.load();
 }
 
-void ArtifactReader::request(std::optional<std::size_t> artifact) {
-    const std::uint32_t wanted = artifact ? static_cast<std::uint32_t>(*artifact) : nothing;
+void ArtifactReader::request(std::optional<std::size_t> item) {
+    const std::uint32_t wanted = item ? static_cast<std::uint32_t>(*item) : nothing;
     if (wanted_.exchange(wanted) != wanted) {
         wanted_.notify_one();
     }
@@ -41,23 +41,23 @@ void ArtifactReader::work() {
     static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
     while (true) {
         wanted_.wait(nothing);
-        const std::uint32_t artifact = wanted_;
-        if (artifact == the_end) {
+        const std::uint32_t item = wanted_;
+        if (item == the_end) {
             return;
         }
-        if (artifact == nothing) {
+        if (item == nothing) {
             continue;
         }
         bool gave_up = false; // for good: the same wish may have come back in between
-        auto answer = std::make_unique<Answer>(Answer{artifact, prepare_(artifact, [&] {
-                                                          gave_up = gave_up || wanted_ != artifact;
+        auto answer = std::make_unique<Answer>(Answer{item, prepare_(item, [&] {
+                                                          gave_up = gave_up || wanted_ != item;
                                                           return gave_up;
                                                       })});
-        if (gave_up || wanted_ != artifact) {
+        if (gave_up || wanted_ != item) {
             continue;
         }
         delete answer_.exchange(answer.release());
-        std::uint32_t still = artifact;
+        std::uint32_t still = item;
         wanted_.compare_exchange_strong(still, nothing); // it is done, unless there is another wish by now
     }
 }

@@ -1,6 +1,7 @@
-/// A thread that reads and prepares one artifact after the other, so that the render thread never does.
+/// A thread that reads and prepares one thing after the other, an artifact or some of its texts, so that the render thread
+/// never does.
 ///
-/// The render thread says which artifact it wants, and finds it ready some frames later. Neither waits for the other:
+/// The render thread says which one it wants, by a number, and finds it ready some frames later. Neither waits for the other:
 /// a lock that a thread of low priority holds could stop the picture.
 ///
 /// Threads  `request` and `take` from one thread; they neither wait nor read a file. `prepare` runs on the reader's
@@ -18,17 +19,19 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <variant>
 
 namespace frustumscreen {
 
 class ArtifactReader {
 public:
-    /// Whether the artifact is no longer wanted: then `prepare` may return anything, soon.
+    using Prepared = std::variant<TextPictures, PreparedArtifact>;
+    /// Whether it is no longer wanted: then `prepare` may return anything, soon.
     using GivenUp = std::function<bool()>;
-    using Prepare = std::function<Result<PreparedArtifact>(std::size_t artifact, const GivenUp& given_up)>;
+    using Prepare = std::function<Result<Prepared>(std::size_t item, const GivenUp& given_up)>;
     struct Answer {
-        std::size_t artifact = 0;
-        Result<PreparedArtifact> prepared;
+        std::size_t item = 0;
+        Result<Prepared> prepared;
     };
 
     /// Starts the thread.
@@ -38,9 +41,9 @@ public:
     ArtifactReader(const ArtifactReader&) = delete;
     ArtifactReader& operator=(const ArtifactReader&) = delete;
 
-    /// The artifact to prepare, or none; anything else is given up. Asked for again after its answer was taken, it is
-    /// prepared again.
-    void request(std::optional<std::size_t> artifact);
+    /// What to prepare, or nothing; anything else is given up. Asked for again after its answer was taken, it is prepared
+    /// again.
+    void request(std::optional<std::size_t> item);
     /// What was prepared, once; perhaps of a request before the latest.
     [[nodiscard]] std::unique_ptr<Answer> take();
 

@@ -5,13 +5,11 @@
 #include "app/render/read_back.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
-#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace frustumscreen {
 
@@ -22,96 +20,7 @@ constexpr double sample_side_m = 0.05;
 /// Type size of what a visitor should do, in those of a caption.
 constexpr double advice_em = 1.5;
 
-/// `what`, behind the place that it is about, where there is one.
-std::string after(const std::string& place, const std::string& what) {
-    return place.empty() ? what : place + ": " + what;
-}
-
-/// The message must be complete: some people do not see the lines on standard error before it.
-tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
-                                      const std::string& packs_key) {
-    if (left_out.empty()) {
-        return fail(ErrorKind::BadConfiguration,
-                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
-                    "make them with frustumscreen-bake");
-    }
-    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
-    return fail(ErrorKind::BadConfiguration,
-                after(packs_key, left_out.size() == 1
-                                     ? "the pack cannot be shown: " + first
-                                     : fmt::format("none of the {} packs can be shown; the first: {}",
-                                                   left_out.size(), first)));
-}
-
-/// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
-RenderNeeds with_cut_outs(RenderNeeds needs) {
-    for (ShaderKey key : RenderNeeds(needs).draws) {
-        key.cut_out = key.pass == ShaderKey::Pass::Surface;
-        needs.draws.insert(key);
-    }
-    return needs;
-}
-
-/// What is left for artifacts beside their texts, which stay.
-std::uint64_t budget_of(const Settings& settings, std::span<const ArtifactTexts> texts) {
-    const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
-    const std::uint64_t taken = std::accumulate(
-        texts.begin(), texts.end(), std::uint64_t{0},
-        [](std::uint64_t sum, const ArtifactTexts& each) { return sum + each.planned_gpu_bytes(); });
-    return budget - std::min(budget, taken);
-}
-
 } // namespace
-
-/// What `create` has of the packs that can be shown.
-struct ArtifactShow::Opened {
-    std::vector<KnownArtifact> known;
-    std::vector<ArtifactTexts> texts;
-    std::optional<PreparedArtifact> first;
-    std::vector<PackLeftOut> left_out;
-    RenderNeeds needs;
-};
-
-/// Opens all packs, and prepares the first that is good.
-ArtifactShow::Opened ArtifactShow::open(const DevicePlan& devices, const ArtifactShowOptions& options,
-                                        double deadline_ms, ArtifactOpener& opener) {
-    Opened all;
-    all.left_out.reserve(options.packs.size());
-    const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
-        say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
-        all.left_out.push_back(pack_left_out(file.string(), error.message));
-    };
-    for (const std::filesystem::path& file : options.packs) {
-        if (!all.known.empty() && !devices.other_packs) {
-            break; // no button leads there
-        }
-        Result<OpenedArtifact> opened = opener.open(file);
-        if (!opened) {
-            leave_out(file, opened.error());
-            continue;
-        }
-        if (!all.first) {
-            Result<PreparedArtifact> first =
-                prepare_artifact(opened->known, options.technique, deadline_ms, [] { return false; });
-            if (!first) {
-                leave_out(file, first.error());
-                opener.close(opened->texts);
-                continue;
-            }
-            ScenePlan& plan = opened->known.plan;
-            plan.needs = first->levels.needs();
-            plan.left_out.insert(plan.left_out.end(), first->levels.left_out().begin(),
-                                 first->levels.left_out().end());
-            all.first = std::move(*first);
-        } else {
-            opened->known.plan.needs = with_cut_outs(opened->known.plan.needs);
-        }
-        all.needs = united(all.needs, opened->known.plan.needs);
-        all.known.push_back(std::move(opened->known));
-        all.texts.push_back(std::move(opened->texts));
-    }
-    return all;
-}
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
                                                            const DevicePlan& devices,
@@ -123,68 +32,68 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         return tl::unexpected<Error>(renderer.error());
     }
     const double deadline_ms = 1e3 / settings.projector.refresh_hz;
-    ArtifactOpener opener(settings,
-                          {options.technique, options.samples, options.economies, devices.language,
-                           chooses_on_table(settings) && devices.other_packs && options.packs.size() > 1},
-                          renderer->store());
-    Opened opened = open(devices, options, deadline_ms, opener);
-    if (!opened.first) {
-        return nothing_to_show(opened.left_out, options.packs_key);
+    Result<OpenedArtifacts> opened = open_artifacts(
+        settings, options.packs,
+        {options.technique, options.samples, options.economies, devices.language, devices.other_packs,
+         chooses_on_table(settings) && devices.other_packs && options.packs.size() > 1, deadline_ms,
+         options.program, options.packs_key});
+    if (!opened) {
+        return tl::unexpected<Error>(opened.error());
     }
-    if (Result<void> ready = renderer->prepare(opened.needs); !ready) {
+    if (Result<void> ready = renderer->prepare(opened->needs); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
+    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, *opened, std::move(*renderer)));
+    if (Result<void> stays = show->upload_what_stays(settings, devices, opened->known); !stays) {
+        return tl::unexpected<Error>(stays.error());
+    }
+    const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
     Result<std::unique_ptr<Residents>> residents = Residents::create(
-        {std::move(opened.known), options.technique, deadline_ms, budget_of(settings, opened.texts),
-         options.waits, options.program, std::move(opened.left_out)},
-        std::move(*opened.first), renderer->store());
+        {std::move(opened->known), options.technique, deadline_ms,
+         budget - std::min(budget, show->planned_bytes_that_stay()), text_style(settings),
+         settings.exhibit.language, options.waits, options.program, std::move(opened->left_out)},
+        std::move(*opened->first), show->renderer_.store());
     if (!residents) {
         return tl::unexpected<Error>(residents.error());
     }
-    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, opened.needs, std::move(*renderer),
-                                                        std::move(*residents), std::move(opened.texts)));
-    if (Result<void> hotspots = show->prepare_hotspots(); !hotspots) {
-        return tl::unexpected<Error>(hotspots.error());
-    }
-    if (shows_zone_frame(settings)) {
-        const Result<TextureId> white = show->renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
-        if (!white) {
-            return tl::unexpected<Error>(white.error());
-        }
-        show->white_ = *white;
-    }
-    if (Result<void> signs = show->upload_signs(settings); !signs) {
-        return tl::unexpected<Error>(signs.error());
-    }
-    show->notes_ = opener.notes();
-    show->load_words(settings, devices);
-    if (Result<void> table = show->load_table(settings, devices); !table) {
-        return tl::unexpected<Error>(table.error());
-    }
-    show->note_language(settings, opener.languages());
+    show->residents_ = std::move(*residents);
+    show->note_language(settings, opened->languages);
     show->measure(settings, target);
     return show;
 }
 
-Result<void> ArtifactShow::prepare_hotspots() {
-    if (std::any_of(texts_.begin(), texts_.end(),
-                    [](const ArtifactTexts& artifact) { return !artifact.hotspots.set.hotspots.empty(); })) {
+Result<void> ArtifactShow::upload_what_stays(const Settings& settings, const DevicePlan& devices,
+                                             std::span<const KnownArtifact> artifacts) {
+    if (std::any_of(catalogue_.begin(), catalogue_.end(),
+                    [](const CatalogueEntry& entry) { return !entry.hotspots.hotspots.empty(); })) {
         Result<HotspotShow> hotspots = HotspotShow::create(renderer_.store());
         if (!hotspots) {
             return tl::unexpected<Error>(hotspots.error());
         }
         hotspots_ = std::move(*hotspots);
     }
-    return {};
+    if (shows_zone_frame(settings)) {
+        const Result<TextureId> white = renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
+        if (!white) {
+            return tl::unexpected<Error>(white.error());
+        }
+        white_ = *white;
+    }
+    if (Result<void> signs = upload_signs(settings); !signs) {
+        return signs;
+    }
+    load_words(settings, devices);
+    return load_table(settings, devices, artifacts);
 }
 
-Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan& devices) {
-    if (!chooses_on_table(settings) || residents_->size() < 2) {
+Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan& devices,
+                                      std::span<const KnownArtifact> artifacts) {
+    if (!chooses_on_table(settings) || artifacts.size() < 2) {
         return {};
     }
     TableShow::Request request{{}, devices.language};
-    for (std::size_t artifact = 0; artifact < residents_->size(); ++artifact) {
-        request.packs.push_back(residents_->known(artifact).file);
+    for (const KnownArtifact& artifact : artifacts) {
+        request.packs.push_back(artifact.file);
     }
     Result<TableShow> table = TableShow::load(settings, request, renderer_.store());
     if (!table) {
@@ -195,12 +104,17 @@ Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan
     return {};
 }
 
+std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
+    return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
+           words_.planned_gpu_bytes + table_.planned_gpu_bytes() + hotspots_.planned_gpu_bytes();
+}
+
 void ArtifactShow::note_language(const Settings& settings, const std::vector<std::string>& languages) {
     if (!settings.exhibit.captions || languages.empty() ||
         has_language(languages, settings.exhibit.language)) {
         return;
     }
-    const std::vector<std::string>& shown = texts_.front().languages;
+    const std::vector<std::string>& shown = catalogue_.front().languages;
     notes_.push_back(fmt::format(
         "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
         shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
@@ -225,10 +139,14 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target)
 /// Draws a whole picture and one that redraws what moved, each with one of all that lies on the table: drivers compile for what
 /// a frame does, and this should be done before the first frame.
 void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
-    if (!texts_.front().captions.empty()) {
-        const CaptionPicture& caption = texts_.front().captions.front().front();
-        view.caption =
-            TablePicture{picture_corners({attract_place_m_, caption.size_m}), 1.0, caption.texture};
+    if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue_.front().caption_sizes_m;
+        !sizes.empty()) {
+        for (std::size_t language = 0; language < sizes.size() && !view.caption; ++language) {
+            if (const LoadedTexts* const caption = residents_->texts(0, TextPart::Caption, language)) {
+                view.caption = TablePicture{picture_corners({attract_place_m_, sizes[language].front()}), 1.0,
+                                            caption->texture(0)};
+            }
+        }
     }
     on_table_.clear();
     table_.place_samples(attract_place_m_, on_table_);
@@ -249,13 +167,11 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     wait_until_drawn();
 }
 
-ArtifactShow::ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
-                           std::unique_ptr<Residents> residents, std::vector<ArtifactTexts> texts)
+ArtifactShow::ArtifactShow(const Settings& settings, const OpenedArtifacts& opened, Renderer renderer)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
-      needs_(needs), renderer_(std::move(renderer)), residents_(std::move(residents)),
-      texts_(std::move(texts)), catalogue_(catalogue_of(texts_)), attract_place_m_(0.0),
-      dark_(make_plan(prop_, 0, 1)) {
+      needs_(opened.needs), renderer_(std::move(renderer)), notes_(opened.notes),
+      catalogue_(catalogue_of(opened.known)), attract_place_m_(0.0), dark_(make_plan(prop_, 0, 1)) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -289,7 +205,7 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
                                advice_em * settings.exhibit.caption_height_m,
                                projector_.fx / table_from_projector_.translation.z,
                                settings.sound.kind != SoundKind::None};
-    for (const ArtifactTexts& artifact : texts_) {
+    for (const CatalogueEntry& artifact : catalogue_) {
         if (devices.language) {
             request.languages.insert(request.languages.end(), artifact.languages.begin(),
                                      artifact.languages.end());
@@ -304,14 +220,21 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
 }
 
 bool ArtifactShow::speaks() const {
-    const auto is_spoken = [](const auto& made) { return made.recording != nullptr; };
-    return std::any_of(words_.words.begin(), words_.words.end(),
-                       [&](const std::vector<AdviceWord>& language) {
-                           return std::any_of(language.begin(), language.end(), is_spoken);
-                       }) ||
-           std::any_of(texts_.begin(), texts_.end(), [&](const ArtifactTexts& artifact) {
-               return std::any_of(artifact.descriptions.begin(), artifact.descriptions.end(), is_spoken);
-           });
+    for (const std::vector<AdviceWord>& language : words_.words) {
+        for (const AdviceWord& word : language) {
+            if (word.recording) {
+                return true;
+            }
+        }
+    }
+    for (std::size_t artifact = 0; artifact < residents_->size(); ++artifact) {
+        for (const SharedRecording& recording : residents_->known(artifact).texts.recordings) {
+            if (recording) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
@@ -335,8 +258,14 @@ void ArtifactShow::place_zone_frame(const Presentation& presentation) {
 }
 
 void ArtifactShow::place_hotspot(const Presentation& presentation) {
-    if (presentation.hotspot) {
-        hotspots_.place(*presentation.hotspot, texts_[presentation.hotspot->artifact].hotspots,
+    if (!presentation.hotspot) {
+        return;
+    }
+    const PresentedHotspot& hotspot = *presentation.hotspot;
+    const CatalogueEntry& entry = catalogue_[hotspot.artifact];
+    const LoadedTexts* const texts = residents_->texts(hotspot.artifact, TextPart::Telling, hotspot.language);
+    if (texts != nullptr) {
+        hotspots_.place(hotspot, texts->texture(label_picture(entry, hotspot.language, hotspot.hotspot)),
                         caption_brightness_, projector_, table_from_projector_, on_table_);
     }
 }
@@ -357,17 +286,22 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const ArtifactTexts& texts = texts_[presentation.artifact];
+    const LoadedTexts* const texts = residents_->texts(
+        presentation.artifact, caption.portion ? TextPart::Telling : TextPart::Caption, caption.language);
     const TextureId texture =
-        caption.portion ? texts.descriptions[caption.language].portions[*caption.portion][caption.shape]
-                        : texts.captions[caption.language][caption.shape].texture;
+        texts != nullptr ? texts->texture(portion_picture(caption.portion.value_or(0), caption.shape))
+                         : TextureId::None;
+    if (texture == TextureId::None) {
+        return std::nullopt;
+    }
     return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
                         caption_brightness_ * caption.brightness, texture};
 }
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
-    residents_->step(renderer_.store(), presentation.artifact, presentation.wanted.artifacts());
+    residents_->step(renderer_.store(), {presentation.artifact, presentation.table_language,
+                                         presentation.wanted.artifacts(), presentation.wanted_language});
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
     view.light = residents_->known(presentation.artifact).plan.light;
     view.brightness = residents_->exposure(presentation.artifact) * presentation.brightness;
@@ -402,21 +336,14 @@ ShowUse ArtifactShow::use() const {
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
-    use.planned_gpu_bytes += white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    use.planned_gpu_bytes += planned_sign_bytes_ + words_.planned_gpu_bytes + table_.planned_gpu_bytes() +
-                             hotspots_.planned_gpu_bytes();
+    use.text_gpu_bytes = residents_->uploaded_text_bytes();
+    use.planned_gpu_bytes += planned_bytes_that_stay() + use.text_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
-    for (std::size_t artifact = 0; artifact < texts_.size(); ++artifact) {
+    for (std::size_t artifact = 0; artifact < catalogue_.size(); ++artifact) {
+        use.captions += catalogue_[artifact].languages.size();
         if (const RunLevels* levels = residents_->find(artifact)) {
             for (const LevelUse& level : levels->uses()) {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
-            }
-        }
-        use.planned_gpu_bytes += texts_[artifact].planned_gpu_bytes();
-        use.captions += texts_[artifact].captions.size();
-        for (const std::vector<CaptionPicture>& shapes : texts_[artifact].captions) {
-            for (const CaptionPicture& shape : shapes) {
-                use.caption_gpu_bytes += renderer_.store().bytes(shape.texture);
             }
         }
     }
@@ -435,7 +362,7 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
     LevelState levels = shown != nullptr ? shown->state() : LevelState{};
     levels.switches = residents_->switches();
     levels.ignored_times = residents_->ignored_times();
-    return {texts_[presentation.artifact].title,
+    return {residents_->known(presentation.artifact).outline.description.title,
             presentation.language,
             levels,
             presentation.settled,

@@ -1,5 +1,5 @@
-/// The artifacts on the display: their captions, those that are in memory (residents.h), and the renderer. A
-/// Presentation says what is shown, and what may be shown next.
+/// The artifacts on the display: those that are in memory with their texts (residents.h), what lies on the table beside them,
+/// and the renderer. A Presentation says what is shown, and what may be shown next.
 ///
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
 /// Errors   a pack that cannot be loaded is left out with a line on standard error, also later; if none is left at the
@@ -46,10 +46,10 @@ struct ArtifactShowOptions {
 struct ShowUse {
     std::set<ShaderKey> planned_shaders, shaders;
     std::uint64_t planned_gpu_bytes = 0;
-    std::uint64_t gpu_bytes = 0; ///< as the driver says
-    std::uint64_t caption_gpu_bytes = 0;
-    std::size_t captions = 0; ///< texts, each in some widths
-    int samples = 1;          ///< a pixel, that there is room for
+    std::uint64_t gpu_bytes = 0;      ///< as the driver says
+    std::uint64_t text_gpu_bytes = 0; ///< of the artifacts' texts that are loaded, as planned
+    std::size_t captions = 0;         ///< that may come to be shown, each in some widths
+    int samples = 1;                  ///< a pixel, that there is room for
 };
 
 class ArtifactShow final : public Stage {
@@ -73,7 +73,7 @@ public:
         return words_.words[word.language][word.text].recording;
     }
     [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
-        return texts_[description.artifact].descriptions[description.language].recording;
+        return residents_->known(description.artifact).texts.recordings[description.language];
     }
     [[nodiscard]] bool speaks() const override;
     [[nodiscard]] std::span<const ArtifactState> artifacts() const override { return residents_->states(); }
@@ -94,26 +94,26 @@ public:
     [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return *residents_->find(artifact); }
 
 private:
-    struct Opened;
-    [[nodiscard]] static Opened open(const DevicePlan& devices, const ArtifactShowOptions& options,
-                                     double deadline_ms, ArtifactOpener& opener);
-    ArtifactShow(const Settings& settings, const RenderNeeds& needs, Renderer renderer,
-                 std::unique_ptr<Residents> residents, std::vector<ArtifactTexts> texts);
+    ArtifactShow(const Settings& settings, const OpenedArtifacts& opened, Renderer renderer);
     void note_language(const Settings& settings, const std::vector<std::string>& languages);
     void measure(const Settings& settings, const RenderTarget& target);
     void warm_up(PlanView view, const RenderTarget& target);
+    /// All that lies on the table but the texts of artifacts; it stays.
+    [[nodiscard]] Result<void> upload_what_stays(const Settings& settings, const DevicePlan& devices,
+                                                 std::span<const KnownArtifact> artifacts);
     [[nodiscard]] Result<void> upload_signs(const Settings& settings);
     /// Without its words the exhibit shows signs alone, and a note says why.
     void load_words(const Settings& settings, const DevicePlan& devices);
+    [[nodiscard]] Result<void> load_table(const Settings& settings, const DevicePlan& devices,
+                                          std::span<const KnownArtifact> artifacts);
+    [[nodiscard]] std::uint64_t planned_bytes_that_stay() const;
     [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
-    [[nodiscard]] Result<void> prepare_hotspots();
-    [[nodiscard]] Result<void> load_table(const Settings& settings, const DevicePlan& devices);
     /// The frame around the prop's zone.
     void place_zone_frame(const Presentation& presentation);
     void place_hotspot(const Presentation& presentation);
     /// What the guidance says.
     void place_signs(const Presentation& presentation);
-    /// Nothing if none is shown.
+    /// Nothing if none is shown, or if its picture is not there yet.
     [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
 
     Pinhole projector_;
@@ -123,7 +123,6 @@ private:
     RenderNeeds needs_;
     Renderer renderer_;
     std::unique_ptr<Residents> residents_;
-    std::vector<ArtifactTexts> texts_;
     std::vector<std::string> notes_;
     Catalogue catalogue_;
     glm::dvec2 attract_place_m_;

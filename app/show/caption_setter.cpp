@@ -1,34 +1,44 @@
 #include "app/show/caption_setter.h"
 
+#include "app/pack/text_portions.h"
+
 #include <algorithm>
 
 namespace frustumscreen {
 
 namespace {
 
-const SetLanguage* find(std::span<const SetLanguage> set, const std::string& language) {
+/// Null if a part of the text could not be set at the bake: then all of it is in one typeface, the kiosk's.
+const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& text) {
+    const SetLanguage* const found = find_language(set, text.language);
+    if (found == nullptr) {
+        return nullptr;
+    }
+    const auto has = [&](const std::string& key, const std::string& part) {
+        return part.empty() || found->runs.find(key) != nullptr;
+    };
+    return has(text.title_key, text.title) && has(text.text_key, text.text) ? found : nullptr;
+}
+
+} // namespace
+
+TableText caption_text(const PackCaption& caption) {
+    return {caption.language, "title", caption.title, "text", caption.text};
+}
+
+TableText portion_text(const PackCaption& caption, std::size_t portion, const std::string& text) {
+    return {caption.language, {}, {}, portion_key(portion), text};
+}
+
+const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language) {
     const auto found = std::find_if(set.begin(), set.end(),
                                     [&](const SetLanguage& each) { return each.language == language; });
     return found != set.end() ? &*found : nullptr;
 }
 
-/// Null if a text of the caption could not be set at the bake: then all of it is in one typeface, the kiosk's.
-const SetLanguage* whole_in(std::span<const SetLanguage> set, const PackCaption& caption) {
-    const SetLanguage* const found = find(set, caption.language);
-    if (found == nullptr) {
-        return nullptr;
-    }
-    const auto has = [&](std::string_view key, const std::string& text) {
-        return text.empty() || found->runs.find(key) != nullptr;
-    };
-    return has("title", caption.title) && has("text", caption.text) ? found : nullptr;
-}
-
-} // namespace
-
-Result<std::vector<CaptionImage>> CaptionSetter::set(const PackCaption& caption,
+Result<std::vector<CaptionImage>> CaptionSetter::set(const TableText& text,
                                                      std::span<const SetLanguage> set) {
-    const SetLanguage* const language = whole_in(set, caption);
+    const SetLanguage* const language = whole_in(set, text);
     if (Result<void> opened = language == nullptr ? open_typesetter() : Result<void>(); !opened) {
         return tl::unexpected<Error>(opened.error());
     }
@@ -36,29 +46,30 @@ Result<std::vector<CaptionImage>> CaptionSetter::set(const PackCaption& caption,
     for (const double width_m : caption_widths_m) {
         images.push_back(
             language != nullptr
-                ? make_caption(language->runs, language->atlas, language->runs.find("title"),
-                               language->runs.find("text"), em_m_, width_m, texels_per_m_)
-                : make_caption(*typesetter_, caption.title, caption.text, em_m_, width_m, texels_per_m_));
+                ? make_caption(language->runs, language->atlas, language->runs.find(text.title_key),
+                               language->runs.find(text.text_key), style_.em_m, width_m, style_.texels_per_m)
+                : make_caption(*typesetter_, text.title, text.text, style_.em_m, width_m,
+                               style_.texels_per_m));
     }
     return images;
 }
 
-Result<SetPortion> CaptionSetter::set_portion(const std::string& language, const std::string& key,
-                                              const std::string& text, std::span<const SetLanguage> set) {
-    const SetLanguage* const there = find(set, language);
-    const GlyphText* const glyphs = there != nullptr ? there->runs.find(key) : nullptr;
-    if (Result<void> opened = glyphs == nullptr ? open_typesetter() : Result<void>(); !opened) {
+Result<std::vector<glm::dvec2>> CaptionSetter::sizes_m(const TableText& text,
+                                                       std::span<const SetLanguage> set) {
+    const SetLanguage* const language = whole_in(set, text);
+    if (Result<void> opened = language == nullptr ? open_typesetter() : Result<void>(); !opened) {
         return tl::unexpected<Error>(opened.error());
     }
-    SetPortion portion;
-    portion.flush_right = glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft;
+    std::vector<glm::dvec2> sizes;
     for (const double width_m : caption_widths_m) {
-        portion.images.push_back(
-            glyphs != nullptr
-                ? make_caption(there->runs, there->atlas, nullptr, glyphs, em_m_, width_m, texels_per_m_)
-                : make_caption(*typesetter_, {}, text, em_m_, width_m, texels_per_m_));
+        sizes.push_back(language != nullptr
+                            ? caption_size_m(language->runs, language->runs.find(text.title_key),
+                                             language->runs.find(text.text_key), style_.em_m, width_m,
+                                             style_.texels_per_m)
+                            : caption_size_m(*typesetter_, text.title, text.text, style_.em_m, width_m,
+                                             style_.texels_per_m));
     }
-    return portion;
+    return sizes;
 }
 
 Result<void> CaptionSetter::open_typesetter() {

@@ -1,6 +1,7 @@
-/// Sets a pack's captions as pictures: from the glyph runs that the bake made, in any script; without them in the kiosk's own
+/// Sets a pack's texts as pictures: from the glyph runs that the bake made, in any script; without them in the kiosk's own
 /// typeface.
 ///
+/// Units    metres on the table.
 /// Threads  one caller, never in a frame.
 /// Errors   no typeface where one is needed.
 #pragma once
@@ -17,30 +18,42 @@
 
 namespace frustumscreen {
 
-/// A portion of a description.
-struct SetPortion {
-    std::vector<CaptionImage> images; ///< one for each of `caption_widths_m`
-    bool flush_right = false;         ///< its lines begin at the right
+/// How texts are set on this table.
+struct TextStyle {
+    double em_m = 0.010;
+    double texels_per_m = 2400.0;
 };
+
+/// What is set as one picture. The keys are those of the glyph runs (pack_texts.h).
+struct TableText {
+    std::string language; ///< BCP 47
+    std::string title_key, title;
+    std::string text_key, text;
+};
+/// The title and the short text.
+[[nodiscard]] TableText caption_text(const PackCaption& caption);
+[[nodiscard]] TableText portion_text(const PackCaption& caption, std::size_t portion,
+                                     const std::string& text);
+
+/// Null if there is none in this language.
+[[nodiscard]] const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language);
 
 class CaptionSetter {
 public:
-    CaptionSetter(double em_m, double texels_per_m) : em_m_(em_m), texels_per_m_(texels_per_m) {}
+    explicit CaptionSetter(const TextStyle& style) : style_(style) {}
 
-    /// One for each of `caption_widths_m`. `set`: the pack's own, which need not hold the caption's language.
-    [[nodiscard]] Result<std::vector<CaptionImage>> set(const PackCaption& caption,
+    /// One for each of `caption_widths_m`. `set`: the pack's own, which need not hold the text's language.
+    [[nodiscard]] Result<std::vector<CaptionImage>> set(const TableText& text,
                                                         std::span<const SetLanguage> set);
-
-    /// `key`: as portion_key gives it; `set` as above.
-    [[nodiscard]] Result<SetPortion> set_portion(const std::string& language, const std::string& key,
-                                                 const std::string& text, std::span<const SetLanguage> set);
+    /// Of these pictures, without drawing them: the atlases of `set` are not looked at.
+    [[nodiscard]] Result<std::vector<glm::dvec2>> sizes_m(const TableText& text,
+                                                          std::span<const SetLanguage> set);
 
 private:
     [[nodiscard]] Result<void> open_typesetter();
 
-    double em_m_;
-    double texels_per_m_;
-    std::optional<Typesetter> typesetter_; ///< opened for the first caption without glyph runs
+    TextStyle style_;
+    std::optional<Typesetter> typesetter_; ///< opened for the first text without glyph runs
 };
 
 } // namespace frustumscreen

@@ -1,9 +1,6 @@
 #include "app/show/hotspot_show.h"
 
-#include "app/exhibit/caption_image.h"
 #include "app/scene/scene_level.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +13,6 @@ namespace {
 constexpr double line_width_m = 0.0015;
 constexpr double soft_m = 0.0005;      ///< on each side of a line, in which its light ends
 constexpr double from_label_m = 0.002; ///< between the line and the letters
-constexpr double label_width_m = 0.15;
 
 /// Across a line: bright in its middle, and nothing left at its sides.
 Image<std::uint8_t> line_picture() {
@@ -39,60 +35,12 @@ TriangleTree tree_of(const PackLevel& level, const glm::dvec3& box_size) {
     return {positions, level.indices};
 }
 
-const SetLanguage* find(std::span<const SetLanguage> texts, const std::string& language) {
-    const auto found = std::find_if(texts.begin(), texts.end(),
-                                    [&](const SetLanguage& each) { return each.language == language; });
-    return found != texts.end() ? &*found : nullptr;
-}
-
 } // namespace
-
-void HotspotPictures::release(GpuStore& store) {
-    for (const std::vector<TextureId>& languages : textures) {
-        for (const TextureId texture : languages) {
-            store.release(texture);
-        }
-    }
-    textures.clear();
-}
 
 ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box_size,
                                    double metres_per_box) {
     return {std::make_shared<const TriangleTree>(tree_of(level, box_size)),
             metres_per_box * static_cast<double>(level.error.max_box)};
-}
-
-Result<HotspotPictures> upload_hotspots(std::span<const PackHotspot> hotspots, const HotspotRequest& request,
-                                        GpuStore& store) {
-    HotspotPictures made;
-    made.set.metres_per_box = request.metres_per_box;
-    for (std::size_t k = 0; k < hotspots.size(); ++k) {
-        const PackHotspot& hotspot = hotspots[k];
-        LabelledHotspot& labelled = made.set.hotspots.emplace_back();
-        labelled.at = {request.metres_per_box * hotspot.point, hotspot.normal};
-        std::vector<TextureId>& textures = made.textures.emplace_back();
-        const std::string key = fmt::format("label.{}", k);
-        for (const std::string& language : request.languages) {
-            const SetLanguage* const texts = find(request.texts, language);
-            const GlyphText* const text = texts != nullptr ? texts->runs.find(key) : nullptr;
-            labelled.label_sizes_m.emplace_back(0.0);
-            textures.push_back(TextureId::None);
-            if (text == nullptr) {
-                continue;
-            }
-            const CaptionImage image = make_caption(texts->runs, texts->atlas, nullptr, text, request.em_m,
-                                                    label_width_m, request.texels_per_m);
-            const Result<TextureId> texture = store.upload(image.coverage);
-            if (!texture) {
-                made.release(store);
-                return tl::unexpected<Error>(texture.error());
-            }
-            labelled.label_sizes_m.back() = image.size_m;
-            textures.back() = *texture;
-            made.planned_gpu_bytes += caption_gpu_bytes(image.coverage.width, image.coverage.height);
-        }
-    }
-    return made;
 }
 
 Result<HotspotShow> HotspotShow::create(GpuStore& store) {
@@ -107,7 +55,7 @@ Result<HotspotShow> HotspotShow::create(GpuStore& store) {
     return show;
 }
 
-void HotspotShow::place(const PresentedHotspot& hotspot, const HotspotPictures& pictures, double brightness,
+void HotspotShow::place(const PresentedHotspot& hotspot, TextureId label, double brightness,
                         const Pinhole& projector, const RigidTransform& table_from_projector,
                         OnTable& on_table) const {
     LeaderLine line = hotspot.line.value_or(LeaderLine{});
@@ -125,7 +73,7 @@ void HotspotShow::place(const PresentedHotspot& hotspot, const HotspotPictures& 
              brightness * hotspot.brightness, line_});
     }
     on_table.add({picture_corners(on_pixels(hotspot.label, projector, table_from_projector)),
-                  brightness * hotspot.brightness, pictures.textures[hotspot.hotspot][hotspot.language]});
+                  brightness * hotspot.brightness, label});
 }
 
 } // namespace frustumscreen

@@ -57,6 +57,12 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     return made;
 }
 
+Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, std::size_t language,
+                                   const TextStyle& style, const std::function<bool()>& given_up) {
+    return draw_texts({known.file, known.outline.description, known.plan.captions}, known.texts, part,
+                      language, style, given_up);
+}
+
 std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
     constexpr std::uint64_t per_vertex = sizeof(PackVertex) + sizeof(glm::vec3);
     constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
@@ -64,6 +70,10 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
     for (const std::uint32_t number : known.plan.levels) {
         const LevelOutline& level = known.outline.levels[number];
         bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+    }
+    if (!known.outline.description.hotspots.empty()) {
+        const std::uint32_t coarsest = *std::min_element(known.plan.levels.begin(), known.plan.levels.end());
+        bytes += TriangleTree::most_bytes(known.outline.levels[coarsest].triangles);
     }
     return bytes;
 }

@@ -12,6 +12,7 @@
 #include "app/scene/frame_time_model.h"
 #include "app/scene/level_data.h"
 #include "app/scene/scene_plan.h"
+#include "app/show/artifact_texts.h"
 #include "app/show/run_levels.h"
 #include "firmware_host/base/result.h"
 
@@ -27,6 +28,7 @@ struct KnownArtifact {
     std::filesystem::path file;
     PackOutline outline;
     ScenePlan plan;
+    ArtifactTexts texts{};
 };
 
 struct PreparedArtifact {
@@ -41,7 +43,12 @@ struct PreparedArtifact {
                                                         const std::string& technique, double deadline_ms,
                                                         const std::function<bool()>& given_up);
 
-/// About so many bytes will be taken; `texture_bytes`: of a level's texture, as other artifacts have them.
+/// Of some of its texts, as draw_texts.
+[[nodiscard]] Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part,
+                                                 std::size_t language, const TextStyle& style,
+                                                 const std::function<bool()>& given_up);
+
+/// About so many bytes will be taken by its levels and what hides its hotspots; `texture_bytes`: of a level's texture, as other artifacts have them.
 [[nodiscard]] std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes);
 
 } // namespace frustumscreen

@@ -1,9 +1,8 @@
-/// Which artifacts are in memory: a pure decision, one step at a time.
+/// Which artifacts, and which of their texts, are in memory: a pure decision, one step at a time.
 ///
-/// What is shown and what is wanted, in order of urgency, is gone through once: each artifact that fits into what the
-/// budget has left is to be there. The shown one always is, and so is the most urgent one, which the visitor waits
-/// for: these two alone may exceed the budget. Whatever else is loaded stays as long as there is room, and what was
-/// shown least recently goes first.
+/// What is needed and what is wanted, in order of urgency, is gone through once: each item that fits into what the budget
+/// has left is to be there. What is needed always is, as it is shown or somebody waits for it: it alone may exceed the
+/// budget. Whatever else is loaded stays as long as there is room, and what was shown least recently goes first.
 ///
 /// Units    bytes.
 /// Threads  pure; allocates nothing.
@@ -17,7 +16,7 @@
 
 namespace frustumscreen {
 
-struct ResidentArtifact {
+struct ResidentItem {
     std::uint64_t bytes = 0;      ///< that it takes, or would take
     bool loaded = false;          ///< takes them, or part of them
     bool left_out = false;        ///< cannot be loaded
@@ -31,8 +30,9 @@ struct ResidencyStep {
     [[nodiscard]] bool operator==(const ResidencyStep&) const = default;
 };
 
-/// `wanted`: the most urgent first; may name an artifact twice, and the shown one.
-[[nodiscard]] ResidencyStep next_step(std::span<const ResidentArtifact> artifacts, std::size_t shown,
+/// Both: the most urgent first; they may name an item twice.
+[[nodiscard]] ResidencyStep next_step(std::span<const ResidentItem> items,
+                                      std::span<const std::size_t> needed,
                                       std::span<const std::size_t> wanted, std::uint64_t budget);
 
 } // namespace frustumscreen

@@ -1,12 +1,13 @@
 #include "app/show/residents.h"
 
+#include "app/exhibit/languages.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -15,7 +16,7 @@ namespace frustumscreen {
 namespace {
 
 /// Of a level's texture, the mean of an artifact's levels.
-std::uint64_t texture_bytes(const PreparedArtifact& artifact) {
+std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
     std::uint64_t bytes = 0;
     for (const LevelData& level : artifact.data) {
         for (const Image8& mip : level.mips) {
@@ -27,25 +28,44 @@ std::uint64_t texture_bytes(const PreparedArtifact& artifact) {
 
 } // namespace
 
-Residents::Residents(ResidentsSetUp set_up, PreparedArtifact first)
-    : set_up_(std::move(set_up)), loaded_(set_up_.artifacts.size()), records_(loaded_.size()),
-      states_(loaded_.size(), ArtifactState::Away) {
-    left_out_.reserve(set_up_.left_out.size() + loaded_.size());
+Residents::Residents(ResidentsSetUp set_up, std::uint64_t texture_bytes)
+    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), ArtifactState::Away) {
+    left_out_.reserve(set_up_.left_out.size() + size());
     left_out_.insert(left_out_.end(), set_up_.left_out.begin(), set_up_.left_out.end());
-    const std::uint64_t texture = texture_bytes(first);
-    for (std::size_t k = 0; k < records_.size(); ++k) {
-        records_[k].bytes = expected_bytes(set_up_.artifacts[k], texture);
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const KnownArtifact& of = known(artifact);
+        first_items_.push_back(items_.size());
+        items_.push_back({artifact, std::nullopt, 0});
+        records_.push_back({expected_bytes(of, texture_bytes)});
+        for (std::size_t language = 0; language < of.texts.entry.languages.size(); ++language) {
+            for (const TextPart part : {TextPart::Caption, TextPart::Telling}) {
+                items_.push_back({artifact, part, language});
+                records_.push_back({text_bytes(of.texts.entry, part, language, set_up_.style)});
+            }
+        }
     }
-    keep(0, std::move(first));
+    loaded_.resize(items_.size());
 }
 
 Result<std::unique_ptr<Residents>> Residents::create(ResidentsSetUp set_up, PreparedArtifact first,
                                                      GpuStore& store) {
-    std::unique_ptr<Residents> made(new Residents(std::move(set_up), std::move(first)));
-    while (made->states_[0] != ArtifactState::Ready) {
-        if (Result<void> done = made->upload(store, 0, std::numeric_limits<std::uint64_t>::max()); !done) {
-            made->release(store, 0);
-            return tl::unexpected<Error>(done.error());
+    std::unique_ptr<Residents> made(new Residents(std::move(set_up), texture_bytes_of(first)));
+    made->receive(0, std::move(first));
+    Queue all = made->needed({0, made->set_up_.language, {}, {}});
+    for (const std::size_t item : all.items()) {
+        if (item != 0) {
+            Result<ArtifactReader::Prepared> texts = made->prepare(item, [] { return false; });
+            if (!texts) {
+                made->say_left_out(item, texts.error().message);
+            }
+            made->receive(item, std::move(texts));
+        }
+        while (made->arrives(item)) {
+            if (Result<void> done = made->upload(store, item, std::numeric_limits<std::uint64_t>::max());
+                !done) {
+                made->release(store, 0);
+                return tl::unexpected<Error>(done.error());
+            }
         }
     }
     return made;
@@ -53,138 +73,218 @@ Result<std::unique_ptr<Residents>> Residents::create(ResidentsSetUp set_up, Prep
 
 Residents::~Residents() = default;
 
+std::size_t Residents::text_item(std::size_t artifact, TextPart part, std::size_t language) const {
+    return first_items_[artifact] + 1 + text_parts * language + static_cast<std::size_t>(part);
+}
+
+void Residents::add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const {
+    const std::vector<std::string>& languages = known(artifact).texts.entry.languages;
+    if (languages.empty()) {
+        return;
+    }
+    const std::size_t item = text_item(artifact, part, caption_for(language, languages));
+    if (records_[item].bytes > 0) {
+        queue.add(item);
+    }
+}
+
+/// What is shown, and what somebody waits for: captions first, as they are small and are shown before their artifact.
+Residents::Queue Residents::needed(const ResidentsWish& wish) const {
+    Queue needed;
+    needed.add(levels_item(wish.shown));
+    add_text(needed, wish.shown, TextPart::Caption, wish.shown_language);
+    if (!wish.wanted.empty()) {
+        add_text(needed, wish.wanted.front(), TextPart::Caption, wish.language);
+        needed.add(levels_item(wish.wanted.front()));
+    }
+    add_text(needed, wish.shown, TextPart::Telling, wish.shown_language);
+    if (!wish.wanted.empty()) {
+        add_text(needed, wish.wanted.front(), TextPart::Telling, wish.language);
+    }
+    return needed;
+}
+
+Residents::Queue Residents::wanted(const ResidentsWish& wish) const {
+    Queue wanted;
+    for (std::size_t k = 1; k < wish.wanted.size(); ++k) {
+        add_text(wanted, wish.wanted[k], TextPart::Caption, wish.language);
+        wanted.add(levels_item(wish.wanted[k]));
+    }
+    return wanted;
+}
+
+Result<ArtifactReader::Prepared> Residents::prepare(std::size_t item,
+                                                    const ArtifactReader::GivenUp& given_up) const {
+    const Item& of = items_[item];
+    if (of.part) {
+        return prepare_texts(known(of.artifact), *of.part, of.language, set_up_.style, given_up);
+    }
+    return prepare_artifact(known(of.artifact), set_up_.technique, set_up_.deadline_ms, given_up);
+}
+
 void Residents::start(const RungCost& cost, const PropShape& prop, const PlanView& view,
                       const glm::dvec3& eye_m) {
-    if (loaded_.size() < 2) {
+    if (std::none_of(records_.begin(), records_.end(),
+                     [](const ResidentItem& item) { return !item.loaded && item.bytes > 0; })) {
         return;
     }
     reader_ = std::make_unique<ArtifactReader>(
-        [this, cost, prop, view, eye_m](std::size_t artifact, const ArtifactReader::GivenUp& given_up) {
-            Result<PreparedArtifact> prepared = prepare_artifact(
-                set_up_.artifacts[artifact], set_up_.technique, set_up_.deadline_ms, given_up);
-            if (prepared) {
+        [this, cost, prop, view, eye_m](std::size_t item, const ArtifactReader::GivenUp& given_up) {
+            Result<ArtifactReader::Prepared> prepared = prepare(item, given_up);
+            if (!prepared && !given_up()) {
+                say_left_out(item, prepared.error().message);
+            }
+            if (PreparedArtifact* const levels =
+                    prepared ? std::get_if<PreparedArtifact>(&*prepared) : nullptr) {
                 PlanView seen = view;
                 seen.eyes_m = std::span(&eye_m, 1);
-                seen.light = set_up_.artifacts[artifact].plan.light;
-                prepared->levels.start(cost, prop, seen);
-            } else if (!given_up()) {
-                say_line(set_up_.program, fmt::format("left out: {}", prepared.error().message));
+                seen.light = known(items_[item].artifact).plan.light;
+                levels->levels.start(cost, prop, seen);
             }
             return prepared;
         });
 }
 
-void Residents::step(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted) {
-    step_once(store, shown, wanted);
+void Residents::step(GpuStore& store, const ResidentsWish& wish) {
+    step_once(store, wish);
     while (set_up_.waits && !steady_) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        step_once(store, shown, wanted);
+        step_once(store, wish);
     }
 }
 
-void Residents::step_once(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted) {
-    if (shown_ != shown) {
-        shown_ = shown;
-        records_[shown].last_shown = ++shows_;
+void Residents::step_once(GpuStore& store, const ResidentsWish& wish) {
+    note_shown(wish);
+    if (const std::unique_ptr<ArtifactReader::Answer> answer = reader_ ? reader_->take() : nullptr) {
+        receive(answer->item, std::move(answer->prepared));
     }
-    receive();
-    const ResidencyStep next = next_step(records_, shown, wanted, set_up_.budget_bytes);
+    const Queue needs = needed(wish);
+    const Queue wants = wanted(wish);
+    const ResidencyStep next = next_step(records_, needs.items(), wants.items(), set_up_.budget_bytes);
     if (next.release) {
         release(store, *next.release);
     } else if (reader_) {
         reader_->request(next.load);
     }
-    upload(store, shown, wanted);
-    const auto arrives = [](const std::unique_ptr<Loaded>& each) { return each && !each->ready(); };
-    steady_ =
-        !next.release && (!next.load || !reader_) && std::none_of(loaded_.begin(), loaded_.end(), arrives);
+    upload(store, needs.items(), wants.items());
+    bool arriving = false;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        arriving = arriving || arrives(item);
+    }
+    steady_ = !next.release && (!next.load || !reader_) && !arriving;
 }
 
-void Residents::receive() {
-    const std::unique_ptr<ArtifactReader::Answer> answer = reader_ ? reader_->take() : nullptr;
-    if (!answer || records_[answer->artifact].loaded || records_[answer->artifact].left_out) {
+void Residents::note_shown(const ResidentsWish& wish) {
+    if (shown_ != wish.shown) {
+        shown_ = wish.shown;
+        ++shows_;
+    }
+    Queue shown;
+    shown.add(levels_item(wish.shown));
+    add_text(shown, wish.shown, TextPart::Caption, wish.shown_language);
+    add_text(shown, wish.shown, TextPart::Telling, wish.shown_language);
+    for (const std::size_t item : shown.items()) {
+        records_[item].last_shown = shows_;
+    }
+}
+
+void Residents::receive(std::size_t item, Result<ArtifactReader::Prepared> prepared) {
+    if (records_[item].loaded || records_[item].left_out) {
         return;
     }
-    if (answer->prepared) {
-        keep(answer->artifact, std::move(*answer->prepared));
-    } else {
-        leave_out(answer->artifact, answer->prepared.error().message);
+    if (!prepared) {
+        leave_out(item, prepared.error().message);
+        return;
     }
+    if (auto* const levels = std::get_if<PreparedArtifact>(&*prepared)) {
+        loaded_[item] = std::make_unique<Loaded>(LoadedLevels(std::move(*levels)));
+    } else {
+        loaded_[item] = std::make_unique<Loaded>(LoadedTexts(std::move(std::get<TextPictures>(*prepared))));
+    }
+    records_[item].bytes = std::visit([](const auto& each) { return each.bytes(); }, *loaded_[item]);
+    records_[item].loaded = true;
 }
 
-void Residents::keep(std::size_t artifact, PreparedArtifact prepared) {
-    auto loaded = std::make_unique<Loaded>(Loaded{std::move(prepared), {}, 0});
-    loaded->uploads.reserve(loaded->artifact.data.size());
-    for (LevelData& data : loaded->artifact.data) {
-        loaded->uploads.emplace_back(std::move(data));
-    }
-    loaded->artifact.data.clear();
-    records_[artifact].bytes = loaded->artifact.levels.bytes();
-    records_[artifact].loaded = true;
-    loaded_[artifact] = std::move(loaded);
+bool Residents::arrives(std::size_t item) const {
+    return loaded_[item] && !std::visit([](const auto& each) { return each.ready(); }, *loaded_[item]);
 }
 
 /// The most urgent one that has come and is not ready; what nobody wants any more goes on last.
-void Residents::upload(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted) {
-    const auto arrives = [&](std::size_t artifact) {
-        return loaded_[artifact] && !loaded_[artifact]->ready();
+void Residents::upload(GpuStore& store, std::span<const std::size_t> needed,
+                       std::span<const std::size_t> wanted) {
+    const auto first_of = [&](std::span<const std::size_t> items) {
+        const auto found =
+            std::find_if(items.begin(), items.end(), [&](std::size_t item) { return arrives(item); });
+        return found != items.end() ? std::optional(*found) : std::nullopt;
     };
-    std::optional<std::size_t> next;
-    if (arrives(shown)) {
-        next = shown;
-    }
-    for (std::size_t k = 0; k < wanted.size() && !next; ++k) {
-        next = arrives(wanted[k]) ? std::optional(wanted[k]) : std::nullopt;
-    }
-    for (std::size_t k = 0; k < loaded_.size() && !next; ++k) {
-        next = arrives(k) ? std::optional(k) : std::nullopt;
+    const std::optional<std::size_t> urgent = first_of(needed);
+    std::optional<std::size_t> next = urgent ? urgent : first_of(wanted);
+    for (std::size_t item = 0; item < items_.size() && !next; ++item) {
+        next = arrives(item) ? std::optional(item) : std::nullopt;
     }
     if (!next) {
         return;
     }
-    const bool urgent = *next == shown || (!wanted.empty() && *next == wanted.front());
     if (const Result<void> done = upload(store, *next, urgent ? urgent_bytes : early_bytes); !done) {
-        const std::string reason = set_up_.artifacts[*next].file.string() + ": " + done.error().message;
-        say_line(set_up_.program, fmt::format("left out: {}", reason));
+        const std::string reason = known(items_[*next].artifact).file.string() + ": " + done.error().message;
+        say_left_out(*next, reason);
         release(store, *next);
         leave_out(*next, reason);
     }
 }
 
-Result<void> Residents::upload(GpuStore& store, std::size_t artifact, std::uint64_t most_bytes) {
-    Loaded& loaded = *loaded_[artifact];
-    LevelUpload& level = loaded.uploads[loaded.uploaded];
-    if (Result<void> gone_on = level.go_on(most_bytes); !gone_on) {
-        return gone_on;
+Result<void> Residents::upload(GpuStore& store, std::size_t item, std::uint64_t most_bytes) {
+    if (Result<void> done =
+            std::visit([&](auto& each) { return each.upload(store, most_bytes); }, *loaded_[item]);
+        !done) {
+        return done;
     }
-    if (level.done()) {
-        loaded.artifact.levels.give(loaded.uploaded, store.keep(std::move(level)), store);
-        ++loaded.uploaded;
-    }
-    if (loaded.ready()) {
-        states_[artifact] = ArtifactState::Ready;
+    if (!items_[item].part && !arrives(item)) {
+        states_[items_[item].artifact] = ArtifactState::Ready;
     }
     return {};
 }
 
-void Residents::release(GpuStore& store, std::size_t artifact) {
-    const LevelState state = loaded_[artifact]->artifact.levels.state();
-    past_switches_ += state.switches;
-    past_ignored_times_ += state.ignored_times;
-    loaded_[artifact]->artifact.levels.release(store);
-    loaded_[artifact].reset();
-    records_[artifact].loaded = false;
-    states_[artifact] = ArtifactState::Away;
+/// With its levels an artifact loses its texts.
+void Residents::release(GpuStore& store, std::size_t item) {
+    const std::size_t artifact = items_[item].artifact;
+    std::size_t end = item + 1;
+    if (const LoadedLevels* const gone = items_[item].part ? nullptr : levels(artifact)) {
+        const LevelState state = gone->artifact.levels.state();
+        past_switches_ += state.switches;
+        past_ignored_times_ += state.ignored_times;
+        states_[artifact] = ArtifactState::Away;
+        end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+    }
+    for (std::size_t each = item; each < end; ++each) {
+        if (loaded_[each]) {
+            std::visit([&](auto& loaded) { loaded.release(store); }, *loaded_[each]);
+            loaded_[each].reset();
+            records_[each].loaded = false;
+        }
+    }
 }
 
-void Residents::leave_out(std::size_t artifact, const std::string& reason) {
-    records_[artifact].left_out = true;
-    states_[artifact] = ArtifactState::LeftOut;
-    left_out_.push_back(pack_left_out(set_up_.artifacts[artifact].file.string(), reason));
+void Residents::leave_out(std::size_t item, const std::string& reason) {
+    records_[item].left_out = true;
+    if (!items_[item].part) {
+        const std::size_t artifact = items_[item].artifact;
+        states_[artifact] = ArtifactState::LeftOut;
+        left_out_.push_back(pack_left_out(known(artifact).file.string(), reason));
+    }
+}
+
+void Residents::say_left_out(std::size_t item, const std::string& reason) const {
+    say_line(set_up_.program,
+             fmt::format("{}: {}", items_[item].part ? "texts left out" : "left out", reason));
+}
+
+LoadedLevels* Residents::levels(std::size_t artifact) const {
+    return std::get_if<LoadedLevels>(loaded_[levels_item(artifact)].get());
 }
 
 RunLevels* Residents::find(std::size_t artifact) {
-    return states_[artifact] == ArtifactState::Ready ? &loaded_[artifact]->artifact.levels : nullptr;
+    return states_[artifact] == ArtifactState::Ready ? &levels(artifact)->artifact.levels : nullptr;
 }
 
 const RunLevels* Residents::find(std::size_t artifact) const {
@@ -192,11 +292,16 @@ const RunLevels* Residents::find(std::size_t artifact) const {
 }
 
 double Residents::exposure(std::size_t artifact) const {
-    return loaded_[artifact] ? loaded_[artifact]->artifact.exposure : 1.0;
+    const LoadedLevels* const loaded = levels(artifact);
+    return loaded != nullptr ? loaded->artifact.exposure : 1.0;
 }
 
 ArtifactTriangles Residents::triangles(std::size_t artifact) const {
-    return find(artifact) != nullptr ? loaded_[artifact]->artifact.triangles : ArtifactTriangles{};
+    return find(artifact) != nullptr ? levels(artifact)->artifact.triangles : ArtifactTriangles{};
+}
+
+const LoadedTexts* Residents::texts(std::size_t artifact, TextPart part, std::size_t language) const {
+    return std::get_if<LoadedTexts>(loaded_[text_item(artifact, part, language)].get());
 }
 
 std::size_t Residents::ready() const {
@@ -204,24 +309,38 @@ std::size_t Residents::ready() const {
 }
 
 std::uint64_t Residents::bytes() const {
-    return std::accumulate(records_.begin(), records_.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const ResidentArtifact& artifact) {
-                               return sum + (artifact.loaded ? artifact.bytes : 0);
-                           });
+    std::uint64_t bytes = 0;
+    for (const ResidentItem& record : records_) {
+        bytes += record.loaded ? record.bytes : 0;
+    }
+    return bytes;
+}
+
+std::uint64_t Residents::uploaded_text_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const std::unique_ptr<Loaded>& each : loaded_) {
+        const LoadedTexts* const texts = std::get_if<LoadedTexts>(each.get());
+        bytes += texts != nullptr ? texts->uploaded_bytes() : 0;
+    }
+    return bytes;
 }
 
 std::uint64_t Residents::switches() const {
-    return std::accumulate(loaded_.begin(), loaded_.end(), past_switches_,
-                           [](std::uint64_t sum, const auto& each) {
-                               return sum + (each ? each->artifact.levels.state().switches : 0);
-                           });
+    std::uint64_t switches = past_switches_;
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const LoadedLevels* const loaded = levels(artifact);
+        switches += loaded != nullptr ? loaded->artifact.levels.state().switches : 0;
+    }
+    return switches;
 }
 
 std::uint64_t Residents::ignored_times() const {
-    return std::accumulate(loaded_.begin(), loaded_.end(), past_ignored_times_,
-                           [](std::uint64_t sum, const auto& each) {
-                               return sum + (each ? each->artifact.levels.state().ignored_times : 0);
-                           });
+    std::uint64_t ignored = past_ignored_times_;
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const LoadedLevels* const loaded = levels(artifact);
+        ignored += loaded != nullptr ? loaded->artifact.levels.state().ignored_times : 0;
+    }
+    return ignored;
 }
 
 } // namespace frustumscreen

@@ -1,27 +1,34 @@
-/// The artifacts that are in memory: loaded ahead of the visitor, in pieces, within a budget.
+/// The artifacts that are in memory, with their texts: loaded ahead of the visitor, in pieces, within a budget.
 ///
-///     wanted -> next_step (residency.h) -> ArtifactReader -> PreparedArtifact -> LevelUpload, some bytes a frame -> ready
+///     wish -> next_step (residency.h) -> ArtifactReader -> prepared -> some bytes a frame (loaded.h) -> ready
 ///
+/// Texts    of the chosen language alone. The captions of what is wanted come first, as they are small; what is told of an
+///          artifact comes when it is chosen. In another language they come when that is chosen, and the old ones stay while
+///          they are shown and while there is room. No text stays longer than its artifact.
 /// Budget   counts what an artifact takes of the GPU's memory and of main memory from the moment that it is prepared.
 ///          While one is read, its file's parts and one level of it come on top.
 /// Threads  the render thread, with the display's context current, also where it is destroyed; the reader is a thread of
-///          its own, there only where there is more than one artifact. A step reads no file and waits for nothing.
-/// Errors   an artifact that turns out bad is left out, with a line on standard error; the others stay.
+///          its own, there only where there is more to come. A step reads no file and waits for nothing.
+/// Errors   an artifact that turns out bad is left out, with a line on standard error; the others stay. Texts that turn out
+///          bad are left out alone.
 #pragma once
 
 #include "app/exhibit/artifact_state.h"
 #include "app/render/gpu_store.h"
 #include "app/show/artifact_reader.h"
+#include "app/show/loaded.h"
 #include "app/show/prepared_artifact.h"
 #include "app/show/residency.h"
 #include "app/show/run_report.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace frustumscreen {
@@ -31,9 +38,19 @@ struct ResidentsSetUp {
     std::string technique = "auto";
     double deadline_ms = 16.0;
     std::uint64_t budget_bytes = 0;
+    TextStyle style = {};
+    std::string language = "en"; ///< of the first texts, BCP 47
     bool waits = false; ///< a step ends when all is there, so that a run of simulated time is repeatable
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
     std::vector<PackLeftOut> left_out = {};     ///< before
+};
+
+/// What is shown, and what may be shown next.
+struct ResidentsWish {
+    std::size_t shown = 0;
+    std::string_view shown_language;     ///< BCP 47; of its texts
+    std::span<const std::size_t> wanted; ///< most urgent first: the chosen one; as WantedArtifacts
+    std::string_view language;           ///< the chosen one
 };
 
 class Residents {
@@ -42,7 +59,7 @@ public:
     static constexpr std::uint64_t urgent_bytes = std::uint64_t{4} << 20U;
     static constexpr std::uint64_t early_bytes = std::uint64_t{1} << 20U;
 
-    /// `first`: of the first artifact, uploaded at once.
+    /// `first`: of the first artifact, uploaded at once, and its texts with it.
     [[nodiscard]] static Result<std::unique_ptr<Residents>> create(ResidentsSetUp set_up,
                                                                    PreparedArtifact first, GpuStore& store);
     ~Residents();
@@ -52,8 +69,8 @@ public:
     /// From now on the others may come. `cost`: of frames on this GPU; `prop`, `view`: what a rung's time is expected for,
     /// `eye_m` its eye.
     void start(const RungCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
-    /// Once a frame. `wanted`: most urgent first.
-    void step(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted);
+    /// Once a frame.
+    void step(GpuStore& store, const ResidentsWish& wish);
 
     /// Null if it is not ready.
     [[nodiscard]] RunLevels* find(std::size_t artifact);
@@ -61,6 +78,8 @@ public:
     [[nodiscard]] double exposure(std::size_t artifact) const;
     /// None if it is not ready, or has no hotspots.
     [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const;
+    /// Null if none of it is there.
+    [[nodiscard]] const LoadedTexts* texts(std::size_t artifact, TextPart part, std::size_t language) const;
     [[nodiscard]] const KnownArtifact& known(std::size_t artifact) const {
         return set_up_.artifacts[artifact];
     }
@@ -69,30 +88,58 @@ public:
     /// With those of before; elements stay where they are, for who reports them on another thread.
     [[nodiscard]] std::span<const PackLeftOut> left_out() const { return left_out_; }
 
-    [[nodiscard]] std::size_t ready() const;      ///< how many artifacts can be drawn at once
-    [[nodiscard]] std::uint64_t bytes() const;    ///< of all that is loaded or being uploaded
-    [[nodiscard]] std::uint64_t switches() const; ///< of levels, of artifacts here or gone
+    [[nodiscard]] std::size_t ready() const;                 ///< how many artifacts can be drawn at once
+    [[nodiscard]] std::uint64_t bytes() const;               ///< of all that is loaded or being uploaded
+    [[nodiscard]] std::uint64_t uploaded_text_bytes() const; ///< of texts in the store
+    [[nodiscard]] std::uint64_t switches() const;            ///< of levels, of artifacts here or gone
     [[nodiscard]] std::uint64_t ignored_times() const;
 
 private:
-    struct Loaded {
-        PreparedArtifact artifact;
-        std::vector<LevelUpload> uploads;
-        std::size_t uploaded = 0; ///< levels that are in the store
-        [[nodiscard]] bool ready() const { return uploaded == uploads.size(); }
+    using Loaded = std::variant<LoadedLevels, LoadedTexts>;
+    /// What comes and goes as one.
+    struct Item {
+        std::size_t artifact = 0;
+        std::optional<TextPart> part; ///< none: the levels
+        std::size_t language = 0;     ///< of the part
     };
-    Residents(ResidentsSetUp set_up, PreparedArtifact first);
-    void step_once(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted);
-    void receive();
-    void keep(std::size_t artifact, PreparedArtifact prepared);
-    void upload(GpuStore& store, std::size_t shown, std::span<const std::size_t> wanted);
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::size_t artifact, std::uint64_t most_bytes);
-    void release(GpuStore& store, std::size_t artifact);
-    void leave_out(std::size_t artifact, const std::string& reason);
+    /// Items in order of urgency.
+    class Queue {
+    public:
+        void add(std::size_t item) { items_.at(count_++) = item; }
+        [[nodiscard]] std::span<const std::size_t> items() const { return std::span(items_).first(count_); }
+
+    private:
+        std::array<std::size_t, 8> items_{};
+        std::size_t count_ = 0;
+    };
+
+    Residents(ResidentsSetUp set_up, std::uint64_t texture_bytes);
+    [[nodiscard]] std::size_t levels_item(std::size_t artifact) const { return first_items_[artifact]; }
+    [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
+    /// Nothing where the artifact has no such text.
+    void add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const;
+    [[nodiscard]] Queue needed(const ResidentsWish& wish) const;
+    [[nodiscard]] Queue wanted(const ResidentsWish& wish) const;
+    [[nodiscard]] Result<ArtifactReader::Prepared> prepare(std::size_t item,
+                                                           const ArtifactReader::GivenUp& given_up) const;
+
+    void step_once(GpuStore& store, const ResidentsWish& wish);
+    void note_shown(const ResidentsWish& wish);
+    void receive(std::size_t item, Result<ArtifactReader::Prepared> prepared);
+    [[nodiscard]] bool arrives(std::size_t item) const;
+    void upload(GpuStore& store, std::span<const std::size_t> needed, std::span<const std::size_t> wanted);
+    [[nodiscard]] Result<void> upload(GpuStore& store, std::size_t item, std::uint64_t most_bytes);
+    void release(GpuStore& store, std::size_t item);
+    void leave_out(std::size_t item, const std::string& reason);
+    void say_left_out(std::size_t item, const std::string& reason) const;
+    /// Null if they are not loaded.
+    [[nodiscard]] LoadedLevels* levels(std::size_t artifact) const;
 
     ResidentsSetUp set_up_;
-    std::vector<std::unique_ptr<Loaded>> loaded_; ///< none: it is not there
-    std::vector<ResidentArtifact> records_;
+    std::vector<Item> items_;
+    std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts are the next ones
+    std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; none: it is not there
+    std::vector<ResidentItem> records_;           ///< by item
     std::vector<ArtifactState> states_;
     std::vector<PackLeftOut> left_out_;
     std::optional<std::size_t> shown_;

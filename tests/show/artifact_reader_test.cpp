@@ -24,7 +24,7 @@ std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
     }
 }
 
-Result<PreparedArtifact> numbered(std::size_t artifact) {
+Result<ArtifactReader::Prepared> numbered(std::size_t artifact) {
     return bad_input(std::to_string(artifact)); // the answer that is made quickest
 }
 
@@ -33,7 +33,7 @@ TEST(ArtifactReader, AnswersWhatIsAskedFor) {
     for (const std::size_t artifact : {3U, 0U, 7U, 7U}) {
         reader.request(artifact);
         const auto answer = await(reader);
-        EXPECT_EQ(answer->artifact, artifact);
+        EXPECT_EQ(answer->item, artifact);
         EXPECT_EQ(answer->prepared.error().message, std::to_string(artifact));
         reader.request(std::nullopt);
     }
@@ -56,7 +56,7 @@ TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
         std::this_thread::yield();
     }
     reader.request(2);
-    EXPECT_EQ(await(reader)->artifact, 2U);
+    EXPECT_EQ(await(reader)->item, 2U);
     EXPECT_EQ(given_up_count, 1);
 }
 
@@ -91,11 +91,11 @@ TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
         for (int wish = 0; wish < 100; ++wish) {
             reader.request(random() % 3 == 0 ? std::nullopt : std::optional<std::size_t>(random() % 4));
             if (const auto answer = reader.take()) {
-                EXPECT_EQ(answer->prepared.error().message, std::to_string(answer->artifact));
+                EXPECT_EQ(answer->prepared.error().message, std::to_string(answer->item));
             }
         }
         reader.request(9);
-        while (await(reader)->artifact != 9) {
+        while (await(reader)->item != 9) {
         }
     }
 }
@@ -103,16 +103,18 @@ TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
 TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
     const synthetic::ShownPacks packs(1);
     const KnownArtifact known = packs.known(0);
-    ArtifactReader reader(
-        [&](std::size_t, const auto& given_up) { return prepare_artifact(known, "auto", 16.0, given_up); });
+    ArtifactReader reader([&](std::size_t, const auto& given_up) -> Result<ArtifactReader::Prepared> {
+        return prepare_artifact(known, "auto", 16.0, given_up);
+    });
     reader.request(0);
     const auto answer = await(reader);
     ASSERT_TRUE(answer->prepared) << answer->prepared.error().message;
+    const auto& prepared = std::get<PreparedArtifact>(*answer->prepared);
     const Result<VerifiedPack> pack = load_pack(known.file);
-    ASSERT_EQ(answer->prepared->data.size(), known.plan.levels.size());
+    ASSERT_EQ(prepared.data.size(), known.plan.levels.size());
     for (std::size_t place = 0; place < known.plan.levels.size(); ++place) {
         const PreparedLevel level = prepare_level(**pack, known.plan.levels[place], known.plan);
-        const LevelData& data = answer->prepared->data[place];
+        const LevelData& data = prepared.data[place];
         EXPECT_EQ(data.vertices.size(), level.data.vertices.size());
         ASSERT_EQ(data.mips.size(), level.data.mips.size());
         for (std::size_t mip = 0; mip < data.mips.size(); ++mip) {

@@ -27,8 +27,8 @@ SetLanguage set_language(const std::string& language, std::vector<GlyphText> tex
 }
 
 std::vector<CaptionImage> images_of(const std::vector<SetLanguage>& set, const PackCaption& caption) {
-    CaptionSetter setter(em_m, texels_per_m);
-    Result<std::vector<CaptionImage>> images = setter.set(caption, set);
+    CaptionSetter setter({em_m, texels_per_m});
+    Result<std::vector<CaptionImage>> images = setter.set(caption_text(caption), set);
     EXPECT_TRUE(images) << images.error().message;
     return images ? *std::move(images) : std::vector<CaptionImage>(caption_widths_m.size());
 }
@@ -57,5 +57,26 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
         EXPECT_GT(plain[k].coverage.width, 1);
         EXPECT_EQ(plain[k].coverage.texels, other[k].coverage.texels);
         EXPECT_EQ(plain[k].coverage.texels, half[k].coverage.texels);
+    }
+}
+
+TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
+    std::vector<SetLanguage> set{set_language("ar", {letter("title"), letter("text")})};
+    CaptionSetter setter({em_m, texels_per_m});
+    for (const TableText& text :
+         {TableText{"ar", "title", "T", "text", "t"},
+          TableText{"hi", "title", "Title", "text", "A text of several words that is broken"},
+          TableText{"hi", "title", "", "text", "A text"}, TableText{"ar", {}, {}, "text", "t"},
+          TableText{"el", "title", "", "text", ""}}) {
+        const std::vector<CaptionImage> drawn = setter.set(text, set).value();
+        std::vector<SetLanguage> without_atlas = set;
+        without_atlas.front().atlas = {};
+        const std::vector<glm::dvec2> sizes = setter.sizes_m(text, without_atlas).value();
+        ASSERT_EQ(sizes.size(), drawn.size());
+        for (std::size_t k = 0; k < sizes.size(); ++k) {
+            EXPECT_EQ(sizes[k], drawn[k].size_m) << text.text;
+            EXPECT_EQ(glm::round(sizes[k] * texels_per_m),
+                      glm::dvec2(drawn[k].coverage.width, drawn[k].coverage.height));
+        }
     }
 }

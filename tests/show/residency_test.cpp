@@ -11,22 +11,25 @@ namespace frustumscreen {
 namespace {
 
 struct Scene {
-    std::vector<ResidentArtifact> artifacts;
+    std::vector<ResidentItem> artifacts;
     std::size_t shown = 0;
     std::vector<std::size_t> wanted;
     std::uint64_t budget = 0;
 
-    [[nodiscard]] ResidencyStep step() const { return next_step(artifacts, shown, wanted, budget); }
+    /// What may exceed the budget: the shown one, and the one that is waited for.
+    [[nodiscard]] std::vector<std::size_t> needed() const {
+        return wanted.empty() ? std::vector{shown} : std::vector{shown, wanted.front()};
+    }
+    [[nodiscard]] ResidencyStep step() const { return next_step(artifacts, needed(), wanted, budget); }
     [[nodiscard]] std::uint64_t bytes() const {
         std::uint64_t bytes = 0;
-        for (const ResidentArtifact& artifact : artifacts) {
+        for (const ResidentItem& artifact : artifacts) {
             bytes += artifact.loaded ? artifact.bytes : 0;
         }
         return bytes;
     }
 };
 
-/// What may exceed the budget: the shown one, and the one that is waited for.
 bool may_exceed(const Scene& scene, std::size_t artifact) {
     return artifact == scene.shown || (!scene.wanted.empty() && artifact == scene.wanted.front());
 }
@@ -68,7 +71,7 @@ void settle(Scene& scene) {
         const ResidencyStep step = scene.step();
         ASSERT_FALSE(step.release && step.load);
         if (step.release) {
-            ResidentArtifact& released = scene.artifacts[*step.release];
+            ResidentItem& released = scene.artifacts[*step.release];
             ASSERT_TRUE(released.loaded);
             ASSERT_NE(*step.release, scene.shown);
             for (std::size_t k = 0; k < scene.artifacts.size();
@@ -80,7 +83,7 @@ void settle(Scene& scene) {
             }
             released.loaded = false;
         } else if (step.load) {
-            ResidentArtifact& loaded = scene.artifacts[*step.load];
+            ResidentItem& loaded = scene.artifacts[*step.load];
             ASSERT_FALSE(loaded.loaded || loaded.left_out);
             loaded.loaded = true;
             bool alone = true;

@@ -1,81 +1,12 @@
 // Artifacts that come and go while the exhibit runs, from packs in a folder.
 
-#include "app/render/read_back.h"
-#include "app/show/artifact_show.h"
 #include "app/show/live_exhibit.h"
-#include "firmware_host/display/surfaceless_display.h"
-#include "tests/show/shown_packs.h"
-
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <thread>
+#include "tests/show/comings.h"
 
 namespace frustumscreen::synthetic {
 namespace {
 
 using std::chrono::milliseconds;
-
-class Comings : public ::testing::Test {
-protected:
-    Comings() {
-        settings.projector.pinhole = settings.projector.pinhole.scaled_to(320, 200);
-        settings.exhibit.captions = false;
-    }
-    void start(std::size_t packs, bool waits) {
-        options.packs = std::vector(files.files().begin(), files.files().begin() + static_cast<long>(packs));
-        options.waits = waits;
-        DevicePlan devices;
-        devices.other_packs = true;
-        show = ArtifactShow::create(settings, devices, options, {display->framebuffer(), 0}).value();
-        exhibit.emplace(make_exhibit(settings, *show, now));
-    }
-    Presentation step(std::span<const Command> commands = {}) {
-        now += milliseconds(20);
-        Situation situation;
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
-        exhibit->note(show->artifacts());
-        Presentation presentation = exhibit->step(now, commands, situation);
-        static_cast<void>(
-            show->draw(now, presentation, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
-        return presentation;
-    }
-    /// Steps until the artifact is there, or forever.
-    void await(std::size_t artifact) {
-        while (show->artifacts()[artifact] == ArtifactState::Away) {
-            std::this_thread::sleep_for(milliseconds(1));
-            step();
-        }
-    }
-    void rest() {
-        for (int k = 0; k < 100; ++k) {
-            step();
-        }
-    }
-    /// The brightest texel's blue, which says which artifact is shown; nothing if the picture is dark.
-    std::optional<int> shown_blue() {
-        const Image8 picture = read_colour(display->framebuffer(), 320, 200);
-        std::optional<int> blue;
-        int most = 60;
-        for (const glm::u8vec4& texel : picture.texels) {
-            if (texel.r > most) {
-                most = texel.r;
-                blue = texel.b;
-            }
-        }
-        return blue;
-    }
-
-    ShownPacks files{5};
-    Settings settings = steep_table();
-    ArtifactShowOptions options;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    std::unique_ptr<ArtifactShow> show;
-    std::optional<Exhibit> exhibit;
-    MonotonicTime now{std::chrono::seconds(100)};
-    const std::array<Command, 1> next{Command::NextArtifact};
-};
 
 TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
     start(5, false);

@@ -1,0 +1,208 @@
+// Texts that come and go with their artifacts, from packs in a folder; bytes are asked of OpenGL, pictures are compared with those
+// of an exhibit that had the texts from the start.
+
+#include "app/show/loaded.h"
+#include "tests/show/comings.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// The first has the least to say.
+Pack telling_pack(std::size_t number) {
+    Pack pack = numbered_pack(number);
+    pack.languages = {"en", "de"};
+    std::string description = "A first sentence says what there is to see.";
+    for (std::size_t k = 0; k < number; ++k) {
+        description += " Another sentence says more of it, and what was meant by it.";
+    }
+    pack.captions = {{"en", pack.title, "A short text"}, {"de", "Werk " + pack.title, "Ein kurzer Text"}};
+    for (PackCaption& caption : pack.captions) {
+        caption.description = description;
+    }
+    return pack;
+}
+
+class TextsComing : public Comings {
+protected:
+    TextsComing() {
+        settings.exhibit.captions = true;
+        for (std::size_t k = 0; k < files.files().size(); ++k) {
+            static_cast<void>(write_file(files.files()[k], write_pack(telling_pack(k)).value()));
+        }
+    }
+    void start(std::size_t packs, bool waits, bool other_languages = true) {
+        devices.language = other_languages;
+        Comings::start(packs, waits);
+    }
+    /// The coverage of these texts in the GPU's memory, by what the exhibit knows of their sizes.
+    [[nodiscard]] std::uint64_t bytes_of(std::size_t artifact, std::size_t language) const {
+        const CatalogueEntry& entry = show->catalogue()[artifact];
+        std::vector<std::vector<glm::dvec2>> sizes = entry.descriptions[language].sizes_m;
+        sizes.push_back(entry.caption_sizes_m[language]);
+        const double texels_per_m =
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+        std::uint64_t bytes = 0;
+        for (const std::vector<glm::dvec2>& widths : sizes) {
+            for (const glm::dvec2& size_m : widths) {
+                glm::ivec2 size(glm::round(texels_per_m * size_m));
+                for (; size != glm::ivec2(1); size = glm::max(size / 2, glm::ivec2(1))) {
+                    bytes += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+                }
+                bytes += 1;
+            }
+        }
+        return bytes;
+    }
+    [[nodiscard]] Image8 picture() { return read_colour(display->framebuffer(), 320, 200); }
+    const std::array<Command, 1> language{Command::NextLanguage};
+};
+
+TEST_F(TextsComing, AtTheStartThereAreThoseOfTheFirstArtifactInTheHousesLanguage) {
+    start(5, false);
+    const ShowUse use = show->use();
+    EXPECT_EQ(use.text_gpu_bytes, bytes_of(0, 0));
+    EXPECT_EQ(use.gpu_bytes, use.planned_gpu_bytes);
+    EXPECT_EQ(use.captions, 10U); // that may come to be shown
+    start(1, false, false);
+    EXPECT_EQ(show->use().gpu_bytes, use.gpu_bytes); // as if there were no others
+}
+
+TEST_F(TextsComing, NeighboursBringTheirCaptionsAndTheChosenOneAllThatIsToldOfIt) {
+    start(5, true);
+    rest();
+    std::uint64_t captions = 0;
+    for (const std::size_t artifact : {1U, 4U}) {
+        for (const glm::dvec2& size_m : show->catalogue()[artifact].caption_sizes_m[0]) {
+            captions += caption_gpu_bytes(static_cast<int>(std::lround(size_m.x * 480.0 / 1.2)),
+                                          static_cast<int>(std::lround(size_m.y * 480.0 / 1.2)));
+        }
+    }
+    EXPECT_EQ(settings.projector.pinhole.fx, 480.0);
+    EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + captions);
+    step(next);
+    rest();
+    EXPECT_GT(show->use().text_gpu_bytes, bytes_of(0, 0) + bytes_of(1, 0));
+    EXPECT_LT(show->use().text_gpu_bytes, bytes_of(0, 0) + bytes_of(1, 0) + bytes_of(4, 0));
+    EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
+}
+
+TEST_F(TextsComing, AnArtifactThatGoesGivesBackTheBytesOfItsTexts) {
+    settings.exhibit.memory_mb = 0; // nothing but what is shown
+    start(5, true);
+    rest();
+    const ShowUse first = show->use();
+    EXPECT_EQ(first.text_gpu_bytes, bytes_of(0, 0));
+    step(next);
+    rest();
+    const ShowUse second = show->use();
+    EXPECT_EQ(second.text_gpu_bytes, bytes_of(1, 0));
+    EXPECT_GT(second.text_gpu_bytes, first.text_gpu_bytes);
+    EXPECT_EQ(second.gpu_bytes - first.gpu_bytes, second.text_gpu_bytes - first.text_gpu_bytes);
+    const std::array<Command, 1> back{Command::PreviousArtifact};
+    step(back);
+    rest();
+    EXPECT_EQ(show->use().gpu_bytes, first.gpu_bytes);
+}
+
+TEST_F(TextsComing, AnotherLanguageComesWhenItIsChosenAndIsTheSamePicture) {
+    settings.exhibit.language = "de";
+    start(3, true);
+    rest();
+    const Image8 german = picture();
+    settings.exhibit.language = "en";
+    start(3, false);
+    rest();
+    EXPECT_NE(picture().texels, german.texels);
+    EXPECT_EQ(show->use().text_gpu_bytes < bytes_of(0, 0) + bytes_of(0, 1), true);
+    step(language);
+    while (show->use().text_gpu_bytes < bytes_of(0, 0) + bytes_of(0, 1)) { // or forever
+        std::this_thread::sleep_for(milliseconds(1));
+        step();
+    }
+    rest();
+    EXPECT_EQ(picture().texels, german.texels);
+}
+
+TEST_F(TextsComing, TheOldLanguageIsSeenUntilItHasFadedOut) {
+    settings.exhibit.memory_mb = 0;
+    start(3, true);
+    rest();
+    const Image8 english = picture();
+    step(language);
+    step();
+    EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + bytes_of(0, 1));
+    const Image8 fading = picture();
+    long lit = 0;
+    long dimmed = 0;
+    for (std::size_t k = 0; k < english.texels.size(); ++k) {
+        if (english.texels[k].r > 100 && fading.texels[k] != english.texels[k]) {
+            ++dimmed;
+            lit += fading.texels[k].r > 50 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(dimmed, 20);
+    EXPECT_GT(lit, dimmed / 2);
+    rest();
+    EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 1));
+}
+
+TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLate) {
+    start(1, true);
+    rest();
+    const Presentation before = step();
+    ASSERT_TRUE(before.caption);
+    std::filesystem::remove(files.files()[0]);
+    step(language);
+    rest();
+    EXPECT_EQ(show->artifacts()[0], ArtifactState::Ready);
+    EXPECT_TRUE(show->state(step()).left_out.empty());
+    EXPECT_TRUE(shown_blue());
+    EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0));
+}
+
+TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
+    start(1, true);
+    Pack other = telling_pack(0);
+    other.captions[1].text = "Ein anderer, viel längerer Text";
+    const KnownArtifact known{files.files()[0], outline_of(telling_pack(0)), {}, {}};
+    const std::vector<std::size_t> captions{0, 1};
+    const TextStyle style{0.010, 1000.0};
+    const ArtifactTexts texts =
+        lay_out_texts({known.file, known.outline.description, captions}, 1.0, style, false).value();
+    const auto never = [] { return false; };
+    EXPECT_TRUE(draw_texts({known.file, known.outline.description, captions}, texts, TextPart::Caption, 1,
+                           style, never));
+    const Result<TextPictures> refused =
+        draw_texts({known.file, other, captions}, texts, TextPart::Caption, 1, style, never);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("start it again"), std::string::npos) << refused.error().message;
+}
+
+TEST_F(TextsComing, WhatHidesHotspotsCountsAndWhatLiesOnTheTableLeavesLessForArtifacts) {
+    start(1, true);
+    const std::uint64_t without = show->state(step()).loaded_bytes;
+    Pack pointing = telling_pack(0);
+    pointing.hotspots = {{{0.0, 0.0, 0.5}, {0.0, 0.0, 1.0}, {{"en", "Here"}, {"de", "Hier"}}}};
+    static_cast<void>(write_file(files.files()[0], write_pack(pointing).value()));
+    start(1, true);
+    const std::uint64_t corners = 9 * sizeof(float) * (pointing.levels[0].indices.size() / 3);
+    EXPECT_GE(show->state(step()).loaded_bytes, without + corners);
+
+    for (const bool on_table : {false, true}) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            Pack pack = telling_pack(k);
+            pack.table_picture = Image8(512, 512, {9, 200, 99, 255}); // 1.4 MB of the GPU's memory
+            static_cast<void>(write_file(files.files()[k], write_pack(pack).value()));
+        }
+        settings.exhibit.table_pictures = on_table;
+        settings.exhibit.memory_mb = 4;
+        start(3, true);
+        rest();
+        EXPECT_EQ(show->state(step()).loaded, on_table ? 1U : 3U);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
