@@ -30,6 +30,16 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
                     status.median_ms, status.p95_ms, status.late, status.uptime_s)};
 }
 
+ToldText told_by(const Presentation& presentation) {
+    if (presentation.caption && presentation.caption->portion) {
+        return {ToldText::Kind::Description, *presentation.caption->portion};
+    }
+    if (presentation.hotspot) {
+        return {ToldText::Kind::Label, presentation.hotspot->hotspot};
+    }
+    return {presentation.advice ? ToldText::Kind::Words : ToldText::Kind::Nothing, 0};
+}
+
 } // namespace
 
 Volume volume_of(const SoundSettings& settings) {
@@ -60,6 +70,12 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
 void LiveExhibit::hear(const SoundReport& report) {
     speaker_.hear(report);
     exhibit_.hear(speaker_.speaks(), speaker_.narration());
+}
+
+ShowState LiveExhibit::state() const {
+    ShowState state = stage_->state(presentation_);
+    state.told = told_by(presentation_);
+    return state;
 }
 
 void LiveExhibit::follow_staff_mode() {
