@@ -20,6 +20,7 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
         state("display", status.display),
         state("tracker", status.tracker),
         state("panel", status.panel),
+        state("sound", status.sound),
         fmt::format("state {}, before it {}; prop {}, head {}", status.state, name_of(before),
                     status.prop_known ? "known" : "lost", status.head_known ? "known" : "not known"),
         fmt::format("shows {} ({}), {} of {}, {} samples a pixel, error {:.2f} mm mean, {:.2f} mm at most in "
