@@ -20,6 +20,7 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
         state("display", status.display),
         state("tracker", status.tracker),
         state("panel", status.panel),
+        state("sound", status.sound),
         fmt::format("state {}, before it {}; prop {}, head {}", status.state, name_of(before),
                     status.prop_known ? "known" : "lost", status.head_known ? "known" : "not known"),
         fmt::format("shows {} ({}), {} of {}, {} samples a pixel, error {:.2f} mm mean, {:.2f} mm at most in "
@@ -28,6 +29,16 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
                     status.estimated_error_mm, status.p95_error_mm),
         fmt::format("frames {:.1f} ms, 95 of 100 within {:.1f} ms; {} display times missed in {:.0f} s",
                     status.median_ms, status.p95_ms, status.late, status.uptime_s)};
+}
+
+ToldText told_by(const Presentation& presentation) {
+    if (presentation.caption && presentation.caption->portion) {
+        return {ToldText::Kind::Description, *presentation.caption->portion};
+    }
+    if (presentation.hotspot) {
+        return {ToldText::Kind::Label, presentation.hotspot->hotspot};
+    }
+    return {presentation.advice ? ToldText::Kind::Words : ToldText::Kind::Nothing, 0};
 }
 
 } // namespace
@@ -60,6 +71,12 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
 void LiveExhibit::hear(const SoundReport& report) {
     speaker_.hear(report);
     exhibit_.hear(speaker_.speaks(), speaker_.narration());
+}
+
+ShowState LiveExhibit::state() const {
+    ShowState state = stage_->state(presentation_);
+    state.told = told_by(presentation_);
+    return state;
 }
 
 void LiveExhibit::follow_staff_mode() {

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
-    [[nodiscard]] ShowState state() const override { return stage_->state(presentation_); }
+    [[nodiscard]] ShowState state() const override;
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
     void hear(const SoundReport& report) override;

@@ -142,7 +142,8 @@ private:
         if (result_.rows.size() < rows_expected_) {
             result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
                                     static_cast<float>(state.levels.estimated_error_mm), changed,
-                                    state.artifact, state.levels.level, name_of(state.state)});
+                                    state.artifact, state.levels.level, name_of(state.state), state.language,
+                                    state.told});
         }
         shown_ = situation;
         shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);

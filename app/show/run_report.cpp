@@ -33,6 +33,20 @@ std::string csv_text(std::string_view text) {
     return quoted + "\"";
 }
 
+std::string told_name(const ToldText& told) {
+    switch (told.kind) {
+    case ToldText::Kind::Description:
+        return fmt::format("description.{}", told.number);
+    case ToldText::Kind::Label:
+        return fmt::format("label.{}", told.number);
+    case ToldText::Kind::Words:
+        return "words";
+    case ToldText::Kind::Nothing:
+        break;
+    }
+    return "";
+}
+
 double rounded(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
@@ -82,12 +96,13 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
 }
 
 std::string frames_csv(const std::vector<FrameRow>& rows) {
-    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state\n";
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told\n";
     auto out = std::back_inserter(csv);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const FrameRow& row = rows[k];
-        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{},{}\n", k, row.t_us, row.ms, row.technique,
-                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact), row.state);
+        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{},{},{},{}\n", k, row.t_us, row.ms, row.technique,
+                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact), row.state,
+                       csv_text(row.language), told_name(row.told));
     }
     return csv;
 }

@@ -28,6 +28,13 @@
 
 namespace frustumscreen {
 
+/// The text on the table in place of the artifact's short one, or beside it.
+struct ToldText {
+    enum class Kind : std::uint8_t { Nothing, Description, Label, Words };
+    Kind kind = Kind::Nothing;
+    std::size_t number = 0; ///< the description's portion, the label's hotspot
+};
+
 struct FrameRow {
     std::int64_t t_us = 0;
     float ms = 0.0F;
@@ -36,9 +43,12 @@ struct FrameRow {
     std::string_view artifact;
     std::string_view technique;
     std::string_view state; ///< of the exhibit (states.h)
+    std::string_view language;
+    ToldText told;
 };
 
-/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state.
+/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told. `told`: description.K, label.K as a pack
+/// names its texts; `words`, the exhibit's own; empty where only the short text is shown.
 [[nodiscard]] std::string frames_csv(const std::vector<FrameRow>& rows);
 
 /// The latest frames' times, in memory taken at the start.

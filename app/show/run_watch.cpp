@@ -119,8 +119,9 @@ void RunWatch::note(const RunStatus& status) {
     note_device("recording", status.recording, recording_);
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
-    manager_.status(format_sentence("{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
-                                    comma(tracker_), panel_.view(), comma(panel_), shows.view()));
+    manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
+                                    comma(tracker_), panel_.view(), comma(panel_), sound_.view(),
+                                    comma(sound_), shows.view()));
 }
 
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {

@@ -32,6 +32,7 @@ struct ShowState {
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
     State state = State::Staff;
+    ToldText told = {};
 };
 
 class Show {

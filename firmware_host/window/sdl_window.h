@@ -2,7 +2,7 @@
 /// place of the buttons. Never in the kiosk's program.
 ///
 /// Halves   left the projector's picture, right what the visitor's eye sees.
-/// Input    drag = slide the prop; wheel or right drag = turn it; middle drag = move the eye; keys 1, 2, 3 = buttons;
+/// Input    drag = slide the prop; wheel or right drag = turn it; middle drag = move the eye; keys 1 to 5 = buttons 0 to 4;
 ///          H = help over the window; Esc, or closing the window, raises SIGTERM.
 /// Frame    table T.
 /// Threads  one: the display, the tracker and the panel share it and the window.

@@ -119,6 +119,25 @@ TEST(House, EveryFileIsFormatted) {
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
 }
 
+/// What GoogleTest 1.12 prints, copied by hand.
+TEST(House, WhatWasSkippedIsListedWithItsReason) {
+    const fs::path folder = fs::temp_directory_path();
+    const std::string log = folder / "frustumscreen_skipped.log";
+    const std::string listed = folder / "frustumscreen_skipped.txt";
+    std::ofstream(log)
+        << "[ RUN      ] A.Passes\n[       OK ] A.Passes (0 ms)\n[ RUN      ] A.Traces\n"
+           "/x/a_test.cpp:170: Skipped\nthis machine lets nobody trace\n\n[  SKIPPED ] A.Traces (3 ms)\n"
+           "[ RUN      ] B.Silent\n/x/b_test.cpp:3: Skipped\n\n\n[  SKIPPED ] B.Silent (0 ms)\n"
+           "[  PASSED  ] 1 test.\n[  SKIPPED ] 2 tests, listed below:\n[  SKIPPED ] A.Traces\n"
+           "[  SKIPPED ] B.Silent\n";
+    const std::string script = "'" FRUSTUMSCREEN_SOURCE_DIR "/tests/house/list_skipped.sh' '";
+    ASSERT_EQ(std::system((script + log + "' >'" + listed + "'").c_str()), 0);
+    std::ifstream file(listed);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
+              "== 2 tests were skipped\n   A.Traces: this machine lets nobody trace\n"
+              "   B.Silent: it does not say why\n");
+}
+
 TEST(House, EveryLinkLeadsToAFile) {
     std::size_t links = 0;
     for (const fs::path& page : pages()) {

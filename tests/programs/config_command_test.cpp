@@ -52,6 +52,23 @@ TEST_F(ConfigCommand, SaysHowEvenlyTheShippedTableIsLit) {
                   "Faces are lit 1 : 0.36 at the worst turn"});
 }
 
+TEST_F(ConfigCommand, SaysWhereCaptionsAreTooSmallOrTooDark) {
+    const std::string straight_down = std::string(lens) + "position_m = [0, 0, 1.2]\n" + steep_prop;
+    // 24 pt are a third of an inch, and a pixel is 0.625 mm. Of white, the text has 0.8 * 0.3, and black is taken for 0.05.
+    const std::string small_and_dark =
+        page(straight_down + "[exhibit]\ncaption_height_m = 0.003\ncaption_brightness = 0.3\n");
+    expect_words(small_and_dark,
+                 {fmt::format("letters are {:.0f} pixels high", 25.4 / 3.0 / 0.625),
+                  "caption_height_m, 3 mm, is less than 24 pt: captions are set at 24 pt, 8.47 mm",
+                  "a contrast of 5.8:1 with the table, and needs 7:1, from 0.375 on"});
+    for (const char* well : {"", "caption_height_m = 0.0085\ncaption_brightness = 0.38\n",
+                             "captions = false\ncaption_height_m = 0.003\ncaption_brightness = 0.3\n"}) {
+        const std::string said = page(straight_down + "[exhibit]\n" + well);
+        EXPECT_EQ(said.find("24 pt"), std::string::npos) << said;
+        EXPECT_EQ(said.find("contrast"), std::string::npos) << said;
+    }
+}
+
 TEST_F(ConfigCommand, ExplainsAProjectorThatLooksFromTheFarSide) {
     // On the axis, hypot(0.9, 1) m away, tilted by atan(0.9): a pixel is that / 1920 across, and longer along the table.
     const double across_mm = 1e3 * std::hypot(0.9, 1.0) / 1920.0;

@@ -65,8 +65,30 @@ TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
         distinct({frame(0.0, 0.0, "Bowl"), frame(0.001, 1.0, "Bowl"), frame(0.0, 0.0, "Cup"),
                   frame(0.0, 20.0, "Bowl"), frame(0.1, 20.0, "Bowl"), frame(0.0, 359.0, "Bowl")});
     ASSERT_EQ(kept.size(), 4U);
+    EXPECT_EQ(kept[0].situation.table_from_prop.translation.x,
+              0.001); // the middle of those that follow each other
     EXPECT_EQ(kept[1].label, "Cup");
     EXPECT_EQ(kept[3].situation.table_from_prop.translation.x, 0.1);
+}
+
+TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
+    std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+    for (int k = 0; k < 4; ++k) {
+        poses += std::to_string(k * 100000) + ",1,0,0,0,1,0,0,0,1\n";
+    }
+    ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
+    ASSERT_TRUE(write_file(folder / "frames.csv", as_bytes("t_us,ms,artifact,state,language,told\n"
+                                                           "0,1,Bowl,view,en,\n"
+                                                           "100000,1,Bowl,describe,en,description.0\n"
+                                                           "200000,1,Bowl,describe,en,label.0\n"
+                                                           "300000,1,Bowl,describe,de,label.0\n")));
+    const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
+    ASSERT_TRUE(read) << read.error().message;
+    const std::vector<SheetFrame> rows = distinct(read->frames);
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0].label, "Bowl: view, en");
+    EXPECT_EQ(rows[1].label, "Bowl: describe, description.0, en");
+    EXPECT_EQ(rows[3].label, "Bowl: describe, label.0, de");
 }
 
 TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
@@ -104,6 +126,36 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
     ASSERT_TRUE(sheet) << sheet.error().message;
     EXPECT_EQ(made, 4U);
     EXPECT_GT(sheet->width, sheet->height);
+}
+
+TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
+    // A green mark in each corner of the projector's picture: words, and pictures to choose from, lie there.
+    Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            if ((x < 20 || x >= 300) && (y < 20 || y >= 180)) {
+                picture.at(x, y) = {0, 255, 0, 255};
+            }
+        }
+    }
+    ASSERT_TRUE(write_file(folder / "frame_00000.png", encode_png(picture)));
+    Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(read && typesetter);
+    read->frames.resize(1);
+    const auto green = [&](bool whole_table) {
+        SheetOptions options;
+        options.whole_table = whole_table;
+        const Result<Image8> sheet =
+            contact_sheet(**settings, read->frames, options, *typesetter, [](std::size_t, std::size_t) {});
+        EXPECT_TRUE(sheet);
+        return std::count_if(sheet->texels.begin(), sheet->texels.end(), [](const glm::u8vec4& colour) {
+            return colour.g > 60 && colour.r < colour.g / 2 && colour.b < colour.g / 2;
+        });
+    };
+    EXPECT_EQ(green(false), 0);
+    // Four squares of a sixteenth of the picture's width in the projector's tile of 832 pixels, and as many seen by the visitor.
+    EXPECT_GT(green(true), 1.5 * 4 * 52 * 52);
 }
 
 TEST_F(Sheet, ThePropFillsMostOfTheVisitorsPicture) {

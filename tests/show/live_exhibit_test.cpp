@@ -120,6 +120,9 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
     EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
+    status.sound = Sentence("the sound device default is not there");
+    show->tell(status);
+    EXPECT_TRUE(frame().drawn);
 }
 
 /// Artifacts as white as can be, everywhere.

@@ -31,9 +31,22 @@ TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
 }
 
 TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
-    const std::string csv = frames_csv({{1000, 2.5F, 0.25F, true, "Bowl, \"blue\"", "level2", "view"}});
-    EXPECT_EQ(csv, "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state\n"
-                   "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\",view\n");
+    const std::string csv =
+        frames_csv({{1000, 2.5F, 0.25F, true, "Bowl, \"blue\"", "level2", "view", "en", {}}});
+    EXPECT_EQ(csv, "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told\n"
+                   "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\",view,en,\n");
+}
+
+TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
+    FrameRow row;
+    const auto ending = [&](ToldText told) {
+        row.told = told;
+        const std::string csv = frames_csv({row});
+        return csv.substr(csv.rfind(','));
+    };
+    EXPECT_EQ(ending({ToldText::Kind::Description, 2}), ",description.2\n");
+    EXPECT_EQ(ending({ToldText::Kind::Label, 0}), ",label.0\n");
+    EXPECT_EQ(ending({ToldText::Kind::Words, 0}), ",words\n");
 }
 
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {

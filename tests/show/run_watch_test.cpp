@@ -120,12 +120,17 @@ TEST_F(RunWatchTest, NotesEachChangeOnce) {
     watch->note(status);
     status.level = "level1"; // no line of its own
     watch->note(status);
+    status.sound = Sentence("its sound goes to default");
+    watch->note(status);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "frustumscreen: shows Cat (en, level0)\n"
                                                         "frustumscreen: tracker: the tracker is running\n"
-                                                        "frustumscreen: tracker: no tracker is connected\n");
+                                                        "frustumscreen: tracker: no tracker is connected\n"
+                                                        "frustumscreen: sound: its sound goes to default\n");
     EXPECT_EQ(socket.receive(), "STATUS=the tracker is running; shows Cat (en, level0)");
     EXPECT_EQ(socket.receive(), "STATUS=no tracker is connected; shows Cat (en, level0)");
     EXPECT_EQ(socket.receive(), "STATUS=no tracker is connected; shows Cat (en, level1)");
+    EXPECT_EQ(socket.receive(),
+              "STATUS=no tracker is connected; its sound goes to default; shows Cat (en, level1)");
     EXPECT_EQ(socket.receive(), std::nullopt);
 }
 

@@ -1,5 +1,6 @@
 #include "app/programs/frustumscreen/setup_page.h"
 
+#include "app/exhibit/captions.h"
 #include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
 
@@ -18,7 +19,13 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double mm = 1e3; ///< millimetres in a metre
+constexpr double mm = 1e3;             ///< millimetres in a metre
+constexpr double least_contrast = 7.0; ///< WCAG 2.2, 1.4.6
+constexpr double caption_text_share =
+    0.8; ///< of the captions' light; a title has all of it (caption_image.cpp)
+/// The projector's dark level and the room's light on the table, as a share of its white; WCAG reckons with as much. No setting
+/// says what they are.
+constexpr double assumed_black = 0.05;
 
 /// Where the ray through a pixel meets a plane of the table's frame; nothing if it goes away from it.
 std::optional<glm::dvec3> meets(const ProjectorSettings& projector, const glm::dvec2& pixel,
@@ -124,6 +131,37 @@ std::string describe_projector(const Settings& settings) {
         projector.pinhole.width, projector.pinhole.height, projector.refresh_hz);
 }
 
+double caption_em_m(const Settings& settings) {
+    return std::max(settings.exhibit.caption_height_m, least_caption_em_m);
+}
+
+/// What a reader would miss; nothing where size and contrast are as they should be.
+std::string describe_captions(const Settings& settings) {
+    const ExhibitSettings& exhibit = settings.exhibit;
+    if (!exhibit.captions) {
+        return "";
+    }
+    std::string text;
+    if (exhibit.caption_height_m < least_caption_em_m) {
+        text += fmt::format(
+            "  exhibit.caption_height_m, {:.3g} mm, is less than 24 pt: captions are set at 24 pt, "
+            "{:.3g} mm.\n",
+            mm * exhibit.caption_height_m, mm * least_caption_em_m);
+    }
+    const double contrast = (caption_text_share * exhibit.caption_brightness + assumed_black) / assumed_black;
+    if (contrast < least_contrast) {
+        text +=
+            fmt::format("  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
+                        "with the table, and needs "
+                        "7:1, from {:.3g} on, if the projector's black and the room's light are {:g} % of "
+                        "its white; measure "
+                        "these.\n",
+                        exhibit.caption_brightness, contrast,
+                        (least_contrast - 1.0) * assumed_black / caption_text_share, 100.0 * assumed_black);
+    }
+    return text;
+}
+
 std::string describe_picture(const Settings& settings) {
     const ProjectorSettings& projector = settings.projector;
     const Plane table_top{{0.0, 0.0, 1.0}, 0.0};
@@ -145,10 +183,10 @@ std::string describe_picture(const Settings& settings) {
             text += fmt::format(
                 "  One projector pixel is {} on the table, in the picture's middle; a caption's letters "
                 "are {:.0f} pixels high.\n",
-                sides_in_mm(*size), settings.exhibit.caption_height_m / size->x);
+                sides_in_mm(*size), caption_em_m(settings) / size->x);
         }
     }
-    return text;
+    return text + describe_captions(settings);
 }
 
 /// "+X, -X: ...": one line for all faces that are alike.

@@ -26,13 +26,9 @@ constexpr glm::ivec2 visitor_tile{right_width, 471};
 /// The edges of the light between the lens and the picture on the table.
 void draw_beam(Canvas& canvas, const VisitorScene& scene, const VisitorCamera& camera) {
     const RigidTransform camera_from_table = camera.table_from_camera.inverse();
-    const glm::dvec3& lens = scene.table_from_projector.translation;
-    const auto from = camera.pinhole.pixel(camera_from_table.point(lens));
-    const glm::dvec2 size(scene.projector.width, scene.projector.height);
-    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-        const glm::dvec3 ray = scene.table_from_projector.direction(scene.projector.ray(corner * size));
-        const auto to = camera.pinhole.pixel(camera_from_table.point(lens - ray * (lens.z / ray.z)));
-        if (ray.z < 0.0 && from && to) {
+    const auto from = camera.pinhole.pixel(camera_from_table.point(scene.table_from_projector.translation));
+    for (const glm::dvec3& corner : lit_corners(scene)) {
+        if (const auto to = camera.pinhole.pixel(camera_from_table.point(corner)); from && to) {
             canvas.line(*from, *to, 2.0, beam, beam_opacity);
         }
     }

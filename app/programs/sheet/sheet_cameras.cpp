@@ -33,15 +33,30 @@ void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm:
     pinhole.cy = centre.y;
 }
 
+std::vector<glm::dvec3> prop_corners(const VisitorScene& scene) {
+    std::vector<glm::dvec3> corners;
+    for (const glm::dvec3& corner : scene.prop.corners) {
+        corners.push_back(scene.table_from_prop.point(corner));
+    }
+    return corners;
+}
+
 } // namespace
 
 VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size) {
     VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, size.x, size.y);
-    std::vector<glm::dvec3> points;
-    for (const glm::dvec3& corner : scene.prop.corners) {
-        points.push_back(scene.table_from_prop.point(corner));
+    frame(camera, prop_corners(scene), {1.0, prop_share_of_height});
+    return camera;
+}
+
+VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size) {
+    // As if the prop stood in the table's middle: the table does not turn in the picture while the prop is slid.
+    VisitorCamera camera = visitor_camera(scene.prop, RigidTransform{}, scene.eye_m, size.x, size.y);
+    std::vector<glm::dvec3> points = prop_corners(scene);
+    for (const glm::dvec3& corner : lit_corners(scene)) {
+        points.push_back(corner);
     }
-    frame(camera, points, {1.0, prop_share_of_height});
+    frame(camera, points, glm::dvec2(1.0));
     return camera;
 }
 
@@ -56,6 +71,19 @@ VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size) {
     }
     frame(camera, points, glm::dvec2(seen_share));
     return camera;
+}
+
+std::vector<glm::dvec3> lit_corners(const VisitorScene& scene) {
+    const glm::dvec3& lens = scene.table_from_projector.translation;
+    const glm::dvec2 size(scene.projector.width, scene.projector.height);
+    std::vector<glm::dvec3> corners;
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
+        const glm::dvec3 ray = scene.table_from_projector.direction(scene.projector.ray(corner * size));
+        if (ray.z < 0.0) {
+            corners.push_back(lens - ray * (lens.z / ray.z));
+        }
+    }
+    return corners;
 }
 
 std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) {

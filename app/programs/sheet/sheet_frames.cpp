@@ -68,7 +68,15 @@ std::string label_of(const std::vector<FrameRecord>& records, std::int64_t t_us,
     if (found == records.end() || found->artifact.empty()) {
         return otherwise;
     }
-    return found->state.empty() ? found->artifact : found->artifact + ": " + found->state;
+    std::string label = found->artifact;
+    std::string_view before = ": ";
+    for (const std::string& part : {found->state, found->told, found->language}) {
+        if (!part.empty()) {
+            label.append(before).append(part);
+            before = ", ";
+        }
+    }
+    return label;
 }
 
 bool looks_like(const SheetFrame& a, const SheetFrame& b) {
@@ -130,7 +138,8 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         records.push_back({static_cast<std::int64_t>(*t_us), *ms, columns->of(fields, "technique"),
                            number(columns->of(fields, "estimated_error_mm")).value_or(0.0),
                            columns->of(fields, "drawn") != "0", columns->of(fields, "artifact"),
-                           columns->of(fields, "state")});
+                           columns->of(fields, "state"), columns->of(fields, "told"),
+                           columns->of(fields, "language")});
     }
     return records;
 }
@@ -194,12 +203,15 @@ std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_
 
 std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames) {
     std::vector<SheetFrame> kept;
-    for (const SheetFrame& frame : frames) {
-        const bool shown = std::any_of(kept.begin(), kept.end(),
-                                       [&](const SheetFrame& one) { return looks_like(frame, one); });
-        if (!shown) {
-            kept.push_back(frame);
+    for (auto first = frames.begin(); first != frames.end();) {
+        const auto end = std::find_if_not(first, frames.end(),
+                                          [&](const SheetFrame& one) { return looks_like(*first, one); });
+        const SheetFrame& middle = *(first + (end - first) / 2);
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const SheetFrame& one) { return looks_like(middle, one); })) {
+            kept.push_back(middle);
         }
+        first = end;
     }
     return kept;
 }

@@ -26,6 +26,8 @@ struct FrameRecord {
     bool drawn = true;
     std::string artifact; ///< empty if the file does not say
     std::string state;    ///< of the exhibit; the same
+    std::string told;     ///< beside the short text or in its place; the same
+    std::string language; ///< the same
 };
 
 struct SheetFrame {
@@ -52,8 +54,8 @@ struct FrameFolder {
 /// The middle frame of each of `count` equal parts; all frames if there are not more.
 [[nodiscard]] std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_t count);
 
-/// The frames that look different from all before: another artifact, place, turn or eye. The prop rests most
-/// of the time.
+/// The frames that look different from all before: another label, place, turn or eye. The prop rests most of the time. Of those
+/// that follow each other and look alike it is the middle one, where nothing fades any more.
 [[nodiscard]] std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames);
 
 /// Errors: not a PNG; another size than the configured projector's shape.

@@ -52,6 +52,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->capture_default_str();
     app.add_option("--columns", request.sheet_options.columns, "frames beside each other (default: 1 or 2)")
         ->check(CLI::Range(1, 4));
+    app.add_flag("--whole-table", request.sheet_options.whole_table,
+                 "the sheet shows all of the table, with its words, not the prop alone");
     app.add_option("--title", request.sheet_options.title, "the sheet's and the table's title")
         ->capture_default_str();
     app.add_option("--animation", request.animation, "animation of the first folder to write, animated WebP");

@@ -23,9 +23,18 @@ constexpr int margin = 28;
 constexpr int gap = 22;
 constexpr int header_height = 84;
 constexpr int label_height = 46;
-constexpr glm::ivec2 projector_tile{400, 340};
-constexpr glm::ivec2 visitor_tile{544, 340};
-constexpr glm::ivec2 cell(projector_tile.x + 4 + visitor_tile.x, projector_tile.y + label_height);
+constexpr int between_tiles = 4;
+
+/// A frame's two pictures, equally high.
+struct Tiles {
+    glm::ivec2 projector;
+    glm::ivec2 visitor;
+    [[nodiscard]] glm::ivec2 cell() const {
+        return {projector.x + between_tiles + visitor.x, projector.y + label_height};
+    }
+};
+constexpr Tiles around_prop{{400, 340}, {544, 340}};
+constexpr Tiles whole_table{{832, 520}, {832, 520}}; // the words can be read
 
 /// A part of the projector's picture, in its pixels.
 struct Crop {
@@ -33,8 +42,9 @@ struct Crop {
     glm::dvec2 size{1.0};
 };
 
-/// A crop around the prop, in the tile's shape, a little wider.
-Crop around(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture) {
+/// What a tile shows: the prop's outlines and a little more, or the whole picture; in the tile's shape.
+Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture,
+             const glm::ivec2& tile) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     for (const auto& outline : outlines) {
@@ -43,13 +53,15 @@ Crop around(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8
             high = glm::max(high, corner);
         }
     }
+    double margin_factor = 1.12;
     if (outlines.empty()) {
         low = glm::dvec2(0.0);
         high = glm::dvec2(picture.width, picture.height);
+        margin_factor = 1.0;
     }
-    const glm::dvec2 wanted = 1.12 * (high - low);
-    const double scale = std::max(wanted.x / projector_tile.x, wanted.y / projector_tile.y);
-    const glm::dvec2 size = scale * glm::dvec2(projector_tile);
+    const glm::dvec2 wanted = margin_factor * (high - low);
+    const double scale = std::max(wanted.x / tile.x, wanted.y / tile.y);
+    const glm::dvec2 size = scale * glm::dvec2(tile);
     return {(low + high) / 2.0 - size / 2.0, size};
 }
 
@@ -65,28 +77,31 @@ std::string where(const Situation& situation) {
 }
 
 void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& frame, const Image8& picture,
-                const glm::ivec2& corner, const Typesetter& typesetter) {
+                bool whole, const glm::ivec2& corner, const Typesetter& typesetter) {
+    const Tiles& tiles = whole ? whole_table : around_prop;
     const VisitorScene scene = visitor_scene(settings, frame.situation, picture.width, picture.height);
-    const std::vector<std::array<glm::dvec2, 4>> outlines = face_outlines(scene);
-    const Crop crop = around(outlines, picture);
-    Canvas tile(projector_tile.x, projector_tile.y, Colour(0));
-    tile.picture(picture, crop.low, crop.size, {0, 0}, projector_tile);
-    for (std::array<glm::dvec2, 4> outline : outlines) {
+    std::vector<std::array<glm::dvec2, 4>> outlines = face_outlines(scene);
+    const Crop crop =
+        crop_of(whole ? std::vector<std::array<glm::dvec2, 4>>() : outlines, picture, tiles.projector);
+    Canvas tile(tiles.projector.x, tiles.projector.y, Colour(0));
+    tile.picture(picture, crop.low, crop.size, {0, 0}, tiles.projector);
+    for (std::array<glm::dvec2, 4>& outline : outlines) {
         for (glm::dvec2& point : outline) {
-            point = (point - crop.low) / crop.size * glm::dvec2(projector_tile);
+            point = (point - crop.low) / crop.size * glm::dvec2(tiles.projector);
         }
         tile.outline(outline, 1.0, outline_colour, 0.55);
     }
-    canvas.picture(tile.image(), {0, 0}, glm::dvec2(projector_tile), corner, projector_tile);
+    canvas.picture(tile.image(), {0, 0}, glm::dvec2(tiles.projector), corner, tiles.projector);
 
-    const VisitorCamera camera = framed_camera(scene, visitor_tile);
-    const glm::ivec2 right = corner + glm::ivec2(projector_tile.x + 4, 0);
-    canvas.picture(visitor_view(scene, picture, camera), {0, 0}, glm::dvec2(visitor_tile), right,
-                   visitor_tile);
+    const VisitorCamera camera =
+        whole ? table_camera(scene, tiles.visitor) : framed_camera(scene, tiles.visitor);
+    const glm::ivec2 right = corner + glm::ivec2(tiles.projector.x + between_tiles, 0);
+    canvas.picture(visitor_view(scene, picture, camera), {0, 0}, glm::dvec2(tiles.visitor), right,
+                   tiles.visitor);
 
-    const double baseline = corner.y + projector_tile.y + 8.0;
+    const double baseline = corner.y + tiles.projector.y + 8.0;
     canvas.text(typesetter, frame.label, {corner.x, baseline}, 17.0, bright, {}, true);
-    canvas.text(typesetter, where(frame.situation), {right.x + visitor_tile.x, baseline + 2.0}, 14.0, quiet,
+    canvas.text(typesetter, where(frame.situation), {right.x + tiles.visitor.x, baseline + 2.0}, 14.0, quiet,
                 {1.0, 0.0});
 }
 
@@ -99,13 +114,14 @@ Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFr
     const int columns =
         std::clamp(options.columns > 0 ? options.columns : (count > 3 ? 2 : 1), 1, std::max(count, 1));
     const int rows = (count + columns - 1) / columns;
+    const glm::ivec2 cell = (options.whole_table ? whole_table : around_prop).cell();
     Canvas canvas(2 * margin + columns * cell.x + (columns - 1) * gap,
                   header_height + rows * cell.y + (rows - 1) * gap / 2 + margin / 2, background);
     canvas.text(typesetter, options.title, {margin, 20.0}, 26.0, bright, {}, true);
-    canvas.text(
-        typesetter,
-        "left: the projector\u2019s picture around the prop    right: what the visitor\u2019s eye sees",
-        {margin, 52.0}, 15.0, quiet);
+    canvas.text(typesetter,
+                fmt::format("left: the projector\u2019s picture{}    right: what the visitor\u2019s eye sees",
+                            options.whole_table ? "" : " around the prop"),
+                {margin, 52.0}, 15.0, quiet);
     for (int k = 0; k < count; ++k) {
         const SheetFrame& frame = frames[static_cast<std::size_t>(k)];
         const Result<Image8> picture = read_picture(frame, settings.projector.pinhole);
@@ -114,7 +130,7 @@ Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFr
         }
         const glm::ivec2 corner(margin + (k % columns) * (cell.x + gap),
                                 header_height + (k / columns) * (cell.y + gap / 2));
-        draw_frame(canvas, settings, frame, *picture, corner, typesetter);
+        draw_frame(canvas, settings, frame, *picture, options.whole_table, corner, typesetter);
         progress(static_cast<std::size_t>(k) + 1, frames.size());
     }
     return canvas.take();

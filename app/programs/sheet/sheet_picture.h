@@ -1,4 +1,4 @@
-/// The contact sheet: for each frame the projector's picture around the prop and, beside it, the visitor's
+/// The contact sheet: for each frame the projector's picture, around the prop or the whole of it, and beside it the visitor's
 /// view.
 ///
 /// Threads  one; the visitor's views use all cores inside.
@@ -20,6 +20,8 @@ namespace frustumscreen {
 struct SheetOptions {
     std::string title = "FrustumScreen";
     int columns = 0; ///< of frames; 0 = one for up to three frames, else two
+    bool whole_table =
+        false; ///< all that is projected, in place of what is projected on the prop and around it
 };
 
 /// `progress(done, all)` after each frame.
