@@ -226,7 +226,7 @@ private:
         const ShowState state = show_.state();
         status.left_out = state.left_out;
         status.state = name_of(state.state);
-        status.artifact = state.artifact;
+        status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
         status.language = state.language;

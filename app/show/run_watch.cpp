@@ -1,5 +1,6 @@
 #include "app/show/run_watch.h"
 
+#include "app/exhibit/states.h"
 #include "app/render/probe.h"
 #include "firmware_host/base/format_sentence.h"
 
@@ -101,10 +102,22 @@ void RunWatch::note_health(Health health) {
                format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
 }
 
+namespace {
+
+Sentence what_is_shown(const RunStatus& status) {
+    if (status.state == name_of(State::Fault)) {
+        return Sentence("shows that there is no artifact");
+    }
+    if (status.state == name_of(State::Staff) || status.artifact.empty()) {
+        return Sentence("shows the alignment pattern");
+    }
+    return format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
+}
+
+} // namespace
+
 void RunWatch::note(const RunStatus& status) {
-    const Sentence shows = status.artifact.empty() ? Sentence("shows the alignment pattern")
-                                                   : format_sentence("shows {} ({}, {})", status.artifact,
-                                                                     status.language, status.level);
+    const Sentence shows = what_is_shown(status);
     const bool other = Sentence(status.artifact) != artifact_ || Sentence(status.language) != language_;
     artifact_ = Sentence(status.artifact);
     language_ = Sentence(status.language);
