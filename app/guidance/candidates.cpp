@@ -8,8 +8,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-/// A prop on the table that hovers less than this stands well enough.
-constexpr double down_within_m = 0.004;
+/// A prop on the table that hovers less than this stands: trackers err by some millimetres, and downwards too.
+constexpr double down_within_m = 0.012;
 
 constexpr std::array<double, 4> coarse_ways_m{0.05, 0.12, 0.25, 0.50};
 constexpr std::array<double, 10> fine_turns_deg{8, 12, 17, 23, 30, 38, 48, 60, 75, 90};
@@ -111,7 +111,7 @@ void add_standing(const GuidanceSetup& setup, const GuidedSituation& situation, 
     const bool leans = tilt_rad(situation.table_from_prop) > upright_within_rad;
     if (leans) {
         candidates.add({Action::Upright}, setup.in_hand ? 1.0 : 0.2);
-    } else if (!setup.in_hand && std::abs(situation.table_from_prop.translation.z) > down_within_m) {
+    } else if (!setup.in_hand && situation.table_from_prop.translation.z > down_within_m) {
         candidates.add({Action::SetDown}, 0.2);
     }
 }

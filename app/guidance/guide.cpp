@@ -100,7 +100,7 @@ void Guide::raise_stage(MonotonicTime now, bool may_speak) {
 void Guide::rest(MonotonicTime now) {
     guidance_ = {};
     asked_ = false;
-    needed_since_.reset();
+    needed_for_ = Nanoseconds(0);
     next_look_.reset();
     looks_at_.reset();
     // Who managed for as long as a long pause is as new.
@@ -119,10 +119,19 @@ void Guide::answer(MonotonicTime now, bool may_speak) {
     spoken_ = may_speak ? now : spoken_;
 }
 
+/// A hand that trembles at the border of the light makes no sign blink: while the picture is whole, need goes twice as fast as
+/// it came.
+void Guide::note_need(MonotonicTime now, bool needed) {
+    const Nanoseconds gone = last_ ? now - *last_ : Nanoseconds(0);
+    last_ = now;
+    needed_for_ = std::clamp(needed_for_ + (needed ? gone : -2 * gone), Nanoseconds(0), patience);
+}
+
 /// For what may last only a moment.
 bool Guide::waits(MonotonicTime now) const {
     const bool again = guided_ && now - *guided_ < again_within;
-    return !asked_ && now - *needed_since_ < (again ? patience_again : patience);
+    return guidance_.stage == GuidanceStage::Quiet && !asked_ &&
+           needed_for_ < (again ? patience_again : patience);
 }
 
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
@@ -131,11 +140,14 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
     const bool lost = sensing == Sensing::PropLost || sensing == Sensing::TrackerAway;
     const bool dark = !lost && !whole(situation);
     sensing = dark ? Sensing::Good : sensing;
-    if (!dark && sensing == Sensing::Good) {
-        rest(now);
+    const bool needed = dark || sensing != Sensing::Good;
+    note_need(now, needed);
+    if (!needed) {
+        if (needed_for_ <= Nanoseconds(0)) {
+            rest(now);
+        }
         return guidance_;
     }
-    needed_since_ = needed_since_ ? needed_since_ : now;
     if (waits(now)) {
         return guidance_;
     }
@@ -175,7 +187,7 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
 void Guide::forget() {
     guidance_ = {};
     asked_ = false;
-    needed_since_.reset();
+    needed_for_ = Nanoseconds(0);
     next_look_.reset();
     looks_at_.reset();
     spoken_.reset();

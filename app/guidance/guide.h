@@ -80,12 +80,14 @@ private:
     void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
     void answer(MonotonicTime now, bool may_speak);
+    void note_need(MonotonicTime now, bool needed);
     [[nodiscard]] bool waits(MonotonicTime now) const;
 
     Advisor advisor_;
     FaceSets faces_;
     Guidance guidance_;
-    std::optional<MonotonicTime> needed_since_;
+    std::optional<MonotonicTime> last_;   ///< the step before
+    Nanoseconds needed_for_{0};           ///< lately
     std::optional<MonotonicTime> guided_; ///< when an advice was there last
     std::optional<MonotonicTime> next_look_;
     std::optional<GuidedSituation> looks_at_; ///< while an advice is looked for

@@ -50,8 +50,8 @@ struct Execution {
 [[nodiscard]] GuidedSituation after(const Move& move, const GuidanceSetup& setup,
                                     const GuidedSituation& before, const Execution& execution = {});
 
-/// A prop that leans less than this stands well enough.
-inline constexpr double upright_within_rad = 0.026;
+/// A prop that leans less than this stands upright, as far as a tracker can tell: 3.4 degrees.
+inline constexpr double upright_within_rad = 0.06;
 /// The angle between the prop's axis and the vertical.
 [[nodiscard]] double tilt_rad(const RigidTransform& table_from_prop);
 /// Height of the solid's lowest corner over the table.

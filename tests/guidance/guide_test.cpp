@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 #include <string>
 
@@ -65,9 +66,51 @@ TEST_F(GuideTest, ForgetsWhatLastsAMoment) {
     EXPECT_EQ(stages_, std::set<GuidanceStage>{GuidanceStage::Quiet});
 }
 
-TEST_F(GuideTest, IsQuietAtOnceWhenTheVisitorHasManaged) {
+TEST_F(GuideTest, IsQuietSoonWhenTheVisitorHasManaged) {
     at(seconds(10), right_of_the_beam);
-    EXPECT_EQ(at(seconds(10), good).stage, GuidanceStage::Quiet);
+    EXPECT_EQ(at(milliseconds(10250), good).stage, GuidanceStage::Quiet);
+}
+
+/// A tracker's error does not lift a prop, nor press it into the table.
+TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
+    for (const double height_m : {-0.006, 0.0, 0.006}) {
+        for (const double lean_rad : {0.0, 0.04}) {
+            GuidedSituation situation = right_of_the_beam;
+            situation.table_from_prop.translation.z = height_m;
+            situation.table_from_prop.rotation = glm::angleAxis(lean_rad, glm::dvec3(1, 0, 0));
+            guide_.forget();
+            EXPECT_EQ(at(time_ + seconds(2), situation).move.action, Action::Slide)
+                << height_m << " " << lean_rad;
+        }
+    }
+}
+
+/// A prop that lies a little more in the dark than in the light, or the other way round, as a tracker sees it.
+TEST_F(GuideTest, DoesNotBlinkAtTheBorderOfTheLight) {
+    double lit_m = 0.0;
+    double dark_m = 0.3;
+    while (dark_m - lit_m > 1e-6) {
+        const double middle_m = 0.5 * (lit_m + dark_m);
+        (guide_.reader().valid(standing_at(middle_m, 0.0)) ? lit_m : dark_m) = middle_m;
+    }
+    for (const double beyond_m : {-0.0003, 0.0003, 0.0006}) {
+        std::mt19937 random(3);
+        std::normal_distribution<double> noise(0.0, 0.0003);
+        Guide guide(frustum_setup());
+        bool shows = false;
+        int changes = 0;
+        int shown = 0;
+        for (int frame = 0; frame < 3600; ++frame) {
+            const GuidedSituation situation = standing_at(lit_m + beyond_m + noise(random), noise(random));
+            const MonotonicTime now{frame * milliseconds(1000) / 60};
+            const bool before = shows;
+            shows = guide.step(now, situation, Sensing::Good, true).stage != GuidanceStage::Quiet;
+            changes += shows != before ? 1 : 0;
+            shown += shows ? 1 : 0;
+        }
+        EXPECT_LE(changes, 6) << beyond_m;
+        EXPECT_EQ(shown > 3400, beyond_m > 0.0) << beyond_m << ": " << shown;
+    }
 }
 
 TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
