@@ -1,14 +1,20 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
 #include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
+#include "app/pack/zip_archive.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/tracker/packet_file.h"
+#include "tests/fuzz/words_file.h"
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
 #include "tests/pack/samples.h"
+#include "tests/texts/wav_bytes.h"
 #include "tests/tracker/wire_bytes.h"
 
+#include <sndfile.h>
+
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -140,6 +146,33 @@ void glyph_runs(const Seeds& seeds) {
     runs.texts = {
         {"name", TextDirection::RightToLeft, {{9216, 1290, 1395, {{1095, 2}}, {{0, 0, 260}, {1, -16, 0}}}}}};
     seeds.add("glyph_runs", "example", as_text(encode_glyph_runs(runs)));
+    // Two texts, one of them broken for two widths: a paragraph's empty line, a glyph that is used twice.
+    runs.texts[0].settings.push_back(
+        {4096, 1290, 4200, {{1095, 1}, {2400, 0}, {3795, 1}}, {{0, 0, 0}, {0, 7, 0}}});
+    runs.texts.push_back({"title", TextDirection::LeftToRight, {{2048, 0, 1395, {{1095, 1}}, {{1, 0, 0}}}}});
+    seeds.add("glyph_runs", "widths", as_text(encode_glyph_runs(runs)));
+    seeds.add("glyph_runs", "spaces",
+              as_text(encode_glyph_runs(
+                  {12,
+                   2,
+                   0,
+                   0,
+                   {{0, 0, 0, 0, 0, 0}},
+                   {{"text", TextDirection::LeftToRight, {{512, 0, 1400, {{1100, 1}}, {{0, 0, 0}}}}}}})));
+    seeds.add("glyph_runs", "none", as_text(encode_glyph_runs({12, 2, 0, 0, {}, {}})));
+}
+
+void words_files(const Seeds& seeds) {
+    const Bytes file = fuzz::small_words_file();
+    seeds.add("words_file", "two", as_text(file));
+    Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(file);
+    const Result<Bytes> manifest = zip->read(*zip->find("manifest.json"));
+    seeds.add("words_file", "manifest", as_text(*manifest)); // whose second language lacks its parts
+    nlohmann::json one = nlohmann::json::parse(as_text(*manifest));
+    one["languages"].erase(1);
+    seeds.add("words_file", "one", one.dump());
+    one["languages"][0]["sounds"] = nlohmann::json::array();
+    seeds.add("words_file", "silent", one.dump());
 }
 
 void pictures(const Seeds& seeds) {
@@ -162,6 +195,25 @@ void pictures(const Seeds& seeds) {
     }
 }
 
+/// A tenth of a second, written by libsndfile.
+std::string written_sound(int format, int channels) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "frustumscreen_seed_sound";
+    SF_INFO info{};
+    info.samplerate = 8000;
+    info.channels = channels;
+    info.format = format;
+    if (SNDFILE* const sound = sf_open(file.c_str(), SFM_WRITE, &info)) {
+        std::vector<float> samples(static_cast<std::size_t>(800 * channels));
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            samples[k] = 0.3F * std::sin(0.4F * static_cast<float>(k));
+        }
+        sf_writef_float(sound, samples.data(), 800);
+        sf_close(sound);
+    }
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// Recordings of a few packets, which libsndfile wrote.
 void sounds(const Seeds& seeds) {
     const std::string mono = file_text("tests/fuzz/corpus/opus/mono");
@@ -169,6 +221,19 @@ void sounds(const Seeds& seeds) {
     seeds.add("opus", "mono", mono);
     seeds.add("opus", "stereo", stereo);
     seeds.add("opus", "chain", mono + stereo);
+    seeds.add("speech", "mono.opus", mono);
+    seeds.add("speech", "stereo.opus", stereo);
+    using frustumscreen::testing::sine;
+    seeds.add("speech", "16.wav",
+              as_text(frustumscreen::testing::wav16(sine(0.5, 0.01, 997.0, 8000.0), 8000)));
+    seeds.add("speech", "lies.wav",
+              as_text(frustumscreen::testing::wav({1, 2, 44100, 16, 0xffffff00U}, Bytes(64, std::byte{3}))));
+    seeds.add("speech", "float.wav",
+              as_text(frustumscreen::testing::wav({3, 1, 48000, 32}, Bytes(64, std::byte{0x3e}))));
+    seeds.add("speech", "ima.wav", written_sound(SF_FORMAT_WAV | SF_FORMAT_IMA_ADPCM, 1));
+    seeds.add("speech", "mono.flac", written_sound(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 1));
+    seeds.add("speech", "stereo.flac", written_sound(SF_FORMAT_FLAC | SF_FORMAT_PCM_24, 2));
+    seeds.add("speech", "mono.ogg", written_sound(SF_FORMAT_OGG | SF_FORMAT_VORBIS, 1));
 }
 
 void meshes(const Seeds& seeds) {
@@ -198,6 +263,7 @@ int main(int count, char** arguments) {
     packs(seeds);
     folders(seeds);
     glyph_runs(seeds);
+    words_files(seeds);
     pictures(seeds);
     meshes(seeds);
     sounds(seeds);
