@@ -1,8 +1,9 @@
 /// Who speaks a text: a recording of the museum's, else a program that takes text on its standard input and writes WAV to its
 /// standard output.
 ///
-/// Without another program espeak-ng speaks, where it knows all sounds: not what it would spell (Japanese kanji), and not
-/// scripts that leave vowels out (Hebrew, Arabic).
+/// Without another program espeak-ng speaks, where it knows the sounds: not letters that it would spell (Japanese kanji, Cyrillic
+/// in an English text), and not languages that leave vowels out (Hebrew, Arabic). Single words of another language it may read
+/// as that language.
 ///
 /// Errors   one sentence: the program cannot be started, hangs, fails, or writes no recording.
 /// Threads  any; waits for the program.

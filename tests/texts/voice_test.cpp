@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -167,6 +168,42 @@ TEST(Espeak, it_speaks_what_it_knows_all_sounds_of) {
     }
     EXPECT_TRUE(espeak.why_silent("שָׁלוֹם", "he")) << "it spells some of the points";
     EXPECT_TRUE(espeak.why_silent("text", "tlh-XX-none")) << "there is no such voice";
+}
+
+TEST(Espeak, foreign_words_are_spoken_where_it_can_read_them_and_named_where_not) {
+    if (!has_espeak()) {
+        GTEST_SKIP() << "espeak-ng is not installed";
+    }
+    const Voice espeak;
+    const std::vector<std::pair<std::string, std::string>> read{
+        {"de", "Das Team hat den Würfel gefunden."},
+        {"fr", "Le design de la coupe rappelle les vacances d’un week-end au bord de la mer."},
+        {"el", "Το museum είναι εδώ και περιμένει τους επισκέπτες."},
+        {"el", "Ὁ Ἀχιλλεύς."},
+        {"hi", "यह museum बहुत पुराना है और नदी के किनारे है।"},
+        {"zh", "这是museum。"},
+        {"sr", "Музеј је овде, muzej."},
+        {"en", "The α-helix, 5 µm, 2 × 3 Ω."},
+        {"en", "Łódź, café, fac\u0327ade"}};
+    for (const auto& [language, text] : read) {
+        EXPECT_FALSE(espeak.why_silent(text, language)) << text << espeak.why_silent(text, language).value();
+    }
+    const std::vector<std::array<std::string, 3>> unread{{"en", "A cup called كأس from Cairo.", "كأس"},
+                                                         {"en", "The μῆνιν of old", "μῆνιν"},
+                                                         {"en", "Called Ἀχιλλεύς", "Ἀχιλλεύς"},
+                                                         {"de", "Der Буква-Laut", "Буква"},
+                                                         {"ja", "これは白い箱です。", "白"},
+                                                         {"ko", "漢字 상자", "漢字"}};
+    for (const auto& [language, text, word] : unread) {
+        EXPECT_EQ(espeak.why_silent(text, language),
+                  "espeak-ng cannot read '" + word + "' in the language '" + language +
+                      "'; write it in that language's letters, or give a recording or another voice");
+    }
+    EXPECT_EQ(
+        espeak.why_silent("design design", "hi"),
+        "espeak-ng reads most of the text as another language than 'hi'; give a recording or another voice");
+    EXPECT_EQ(espeak.why_silent("text", "fa"),
+              "the language 'fa' is written without its vowels, which espeak-ng cannot guess");
 }
 
 TEST(Espeak, a_sentence_comes_out_as_speech) {
