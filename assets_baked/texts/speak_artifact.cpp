@@ -79,11 +79,13 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
     });
     SpokenArtifact spoken;
     Silences silences;
+    RecordingNames names;
     for (std::size_t k = 0; k < captions.size(); ++k) {
         const std::string& language = captions[k].language;
         if (!all[k]) {
             return tl::unexpected<Error>(all[k].error());
         }
+        names[fmt::format("{}/{}", language, key)] = recording_of(language, sources);
         if (captions[k].description.empty()) {
             if (const auto file = recording_of(language, sources)) {
                 spoken.notes.push_back(
@@ -98,6 +100,8 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
         }
     }
     spoken.silent = silences.sentences();
+    const std::vector<std::string> unused = unused_recordings(sources.folder, names, sources.left_out);
+    spoken.notes.insert(spoken.notes.end(), unused.begin(), unused.end());
     return spoken;
 }
 

@@ -4,6 +4,7 @@
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/check_text.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -61,23 +62,6 @@ constexpr auto keys = std::to_array<std::string_view>({
     "fault.no_tracker",
     "fault.repairing",
 });
-
-/// Letters that must be put in, left out or changed to make one word of the other (Levenshtein 1966).
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t k = 0; k < row.size(); ++k) {
-        row[k] = k;
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t k = 0; k < b.size(); ++k) {
-            const std::size_t change = diagonal + (a[i] == b[k] ? 0 : 1);
-            diagonal = row[k + 1];
-            row[k + 1] = std::min({change, row[k] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 std::string_view nearest_key(std::string_view found) {
     const std::string_view part = found.substr(0, most_word_bytes);

@@ -70,6 +70,36 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
         << spoken->notes.front();
 }
 
+TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_name) {
+    SpeechSources sources;
+    sources.folder = folder / "recordings";
+    sources.left_out = {"it"};
+    for (const char* file :
+         {"de/descripton.wav", "en/description.wav", "en/description.flac", "en/description.mp3",
+          "fr/description.opus", "it/description.wav", "description.wav", "en/notes.txt"}) {
+        tone(std::string("recordings/") + file, 1.0);
+    }
+    const Result<SpokenArtifact> spoken = speak_artifact(
+        std::vector{caption("en", "A jug as any other."), caption("de", "Ein Krug.")}, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    std::vector<std::string> told;
+    for (const std::string& note : spoken->notes) {
+        told.push_back(note.substr(sources.folder.string().size() + 1));
+    }
+    const std::string before = sources.folder.string() + "/en/description.wav goes before it";
+    EXPECT_EQ(told, (std::vector<std::string>{"de/descripton.wav: nobody hears this recording: no text has "
+                                              "this name; the nearest one that has is "
+                                              "de/description.wav",
+                                              "description.wav: nobody hears this recording: no text has "
+                                              "this name; the nearest one that has is "
+                                              "de/description.wav",
+                                              "en/description.flac: nobody hears this recording: " + before,
+                                              "en/description.mp3: nobody hears this recording: " + before,
+                                              "fr/description.opus: nobody hears this recording: no text has "
+                                              "this name; the nearest one that has "
+                                              "is de/description.opus"}));
+}
+
 TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {
     SpeechSources sources;
     ASSERT_TRUE(write_file(folder / "noise.wav", as_bytes("this is no recording")));

@@ -68,6 +68,22 @@ TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
 }
 
+TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
+    for (const char* file : {"de/advice.lift.wav", "de/help.wav", "fr/help.wav"}) {
+        std::filesystem::create_directories((folder / "mine" / file).parent_path());
+        ASSERT_TRUE(write_file(folder / "mine" / file, wav16(sine(0.2, 0.4))));
+    }
+    const std::string command = "frustumscreen-bake --words mine --languages de -o out.fswords --speech none";
+    ASSERT_EQ(run(command), 0) << text("err.txt");
+    EXPECT_NE(
+        text("err.txt").find("mine/de/advice.lift.wav: nobody hears this recording: no text has this name; "
+                             "the nearest one that has is de/advice.lower.wav"),
+        std::string::npos)
+        << text("err.txt");
+    EXPECT_EQ(text("err.txt").find("fr/help.wav"), std::string::npos) << "French was left out on purpose";
+    EXPECT_EQ(run(command + " --strict"), 1);
+}
+
 TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_EQ(run("frustumscreen-bake --words nowhere -o out.fswords"), 1);
     EXPECT_EQ(

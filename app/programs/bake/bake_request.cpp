@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -61,8 +63,23 @@ BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file)
     return options;
 }
 
-SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file, bool is_folder) {
-    SpeechSources sources{file.recordings, {}, std::nullopt};
+/// Languages of the folder's file that the command line leaves out.
+std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector<PackCaption>& captions) {
+    std::vector<std::string> languages;
+    for (const PackCaption& written : file.texts) {
+        const bool is_baked = std::any_of(captions.begin(), captions.end(), [&](const PackCaption& each) {
+            return each.language == written.language;
+        });
+        if (!is_baked) {
+            languages.push_back(written.language);
+        }
+    }
+    return languages;
+}
+
+SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file,
+                        std::vector<std::string> left_out, bool is_folder) {
+    SpeechSources sources{file.recordings, {}, std::move(left_out), std::nullopt};
     if (is_folder) {
         sources.folder = arguments.input / recordings_folder_name;
     }
@@ -106,7 +123,7 @@ Result<BakeRequest> request_of(const BakeArguments& arguments) {
     request.id = file->id;
     request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
     request.captions = *captions;
-    request.speech = speech_of(arguments, *file, is_folder);
+    request.speech = speech_of(arguments, *file, left_out_of(*file, *captions), is_folder);
     return request;
 }
 

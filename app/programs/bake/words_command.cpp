@@ -6,6 +6,7 @@
 #include "app/programs/common/progress_line.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/texts/bake_words.h"
+#include "assets_baked/texts/recorded_speech.h"
 #include "assets_baked/texts/speak_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
@@ -107,6 +108,29 @@ Result<void> speak(BakedWords& baked, const Arguments& arguments) {
     return {};
 }
 
+/// Recordings in the folder that no word takes. Who names languages leaves the others out on purpose.
+std::vector<std::string> unused_recordings_of(const std::vector<CollectedWords>& collected,
+                                              const Arguments& arguments,
+                                              const std::vector<std::string>& all_languages) {
+    RecordingNames names;
+    for (const CollectedWords& words : collected) {
+        for (const Word& word : words.words) {
+            names[words.language + "/" + word.key] =
+                find_recording(arguments.folder, words.language, word.key);
+        }
+    }
+    std::vector<std::string> left_out;
+    for (const std::string& language : all_languages) {
+        const bool is_baked =
+            std::any_of(collected.begin(), collected.end(),
+                        [&](const CollectedWords& each) { return each.language == language; });
+        if (!is_baked) {
+            left_out.push_back(language);
+        }
+    }
+    return unused_recordings(arguments.folder, names, left_out);
+}
+
 Result<void> work(const Arguments& arguments) {
     if (const Result<void> folder = check_folder(arguments.folder); !folder) {
         return folder;
@@ -114,8 +138,9 @@ Result<void> work(const Arguments& arguments) {
     if (const Result<void> place = check_output_place(arguments.output); !place) {
         return place;
     }
-    const std::vector<std::string> languages =
-        arguments.languages.empty() ? builtin_word_languages() : arguments.languages;
+    const std::vector<std::string> all_languages = builtin_word_languages();
+    const std::vector<std::string>& languages =
+        arguments.languages.empty() ? all_languages : arguments.languages;
     if (const Result<void> allowed = check_languages(languages); !allowed) {
         return allowed;
     }
@@ -131,6 +156,8 @@ Result<void> work(const Arguments& arguments) {
     if (!baked) {
         return tl::unexpected<Error>(baked.error());
     }
+    const std::vector<std::string> unused = unused_recordings_of(*collected, arguments, all_languages);
+    baked->notes.insert(baked->notes.end(), unused.begin(), unused.end());
     if (const Result<void> told = tell(baked->notes, arguments.strict); !told) {
         return told;
     }
