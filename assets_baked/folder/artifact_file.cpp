@@ -6,6 +6,7 @@
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <fmt/format.h>
 
@@ -24,12 +25,14 @@ constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-
 constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
 constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
 
+/// Without the blanks around it; of blanks alone it counts as left out.
 void read_text(TableReader& table, std::string_view key, std::string& value,
                TextShape shape = TextShape::Line) {
     table.any_text(key, value);
     if (const std::optional<std::string> fault = fault_of_text(value, shape)) {
         table.refuse(key, *fault);
     }
+    value = std::string(trimmed(value));
 }
 
 /// A path of the folder; one that leads out of it would not travel with it.
@@ -118,6 +121,7 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
         }
         const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
         table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
+        text = std::string(trimmed(text));
         table.require(!text.empty(), "labels", fmt::format("in {} is empty; write what there is", language));
         hotspot.labels.push_back({language, std::move(text)});
     }

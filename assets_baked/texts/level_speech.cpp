@@ -45,6 +45,9 @@ std::vector<double> block_levels(std::span<const float> samples, std::size_t blo
 
 /// Without the silence before and after; empty if all is silent.
 std::vector<float> trimmed(std::span<const float> samples, int rate_hz) {
+    if (samples.empty()) {
+        return {};
+    }
     const auto block = static_cast<std::size_t>(block_s * rate_hz);
     const std::vector<double> levels = block_levels(samples, block);
     const double loudest = *std::max_element(levels.begin(), levels.end());
@@ -141,7 +144,7 @@ Loudness loudness_of(std::span<const float> samples) {
     return loudness;
 }
 
-Result<Speech> level_speech(const Recording& recording) {
+Result<std::optional<Speech>> level_speech(const Recording& recording) {
     Result<std::vector<float>> samples =
         resampled(trimmed(recording.samples, recording.rate_hz), recording.rate_hz);
     if (!samples) {
@@ -149,7 +152,7 @@ Result<Speech> level_speech(const Recording& recording) {
     }
     const Loudness before = loudness_of(*samples);
     if (!std::isfinite(before.lufs)) {
-        return bad_input("the recording is silent; record it again, louder");
+        return std::optional<Speech>();
     }
     double gain_db = std::min(speech_lufs - before.lufs, most_true_peak_db - before.true_peak_db);
     for (int tries = 1;; ++tries) {

@@ -100,9 +100,17 @@ Result<Speech> read_speech(const std::filesystem::path& file) {
     if (!bytes) {
         return tl::unexpected<Error>(bytes.error());
     }
+    const std::string name = printable(file.string(), 300);
     const Result<Recording> recording = read_recording(*bytes, RecordingSource::File);
-    Result<Speech> speech = recording ? level_speech(*recording) : tl::unexpected<Error>(recording.error());
-    return speech ? std::move(speech) : at(printable(file.string(), 300), speech.error());
+    if (!recording) {
+        return at(name, recording.error());
+    }
+    Result<std::optional<Speech>> speech = level_speech(*recording);
+    if (!speech) {
+        return at(name, speech.error());
+    }
+    return *speech ? Result<Speech>(**std::move(speech))
+                   : bad_input(name + ": the recording is silent; record it again, louder");
 }
 
 } // namespace frustumscreen

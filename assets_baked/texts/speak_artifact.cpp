@@ -16,12 +16,6 @@ namespace {
 
 constexpr const char* key = "description";
 
-/// What became of one description.
-struct Spoken {
-    std::optional<Speech> speech;
-    std::string why_silent;
-};
-
 std::optional<std::filesystem::path> recording_of(const std::string& language, const SpeechSources& sources) {
     const auto named = sources.recordings.find(language);
     return named != sources.recordings.end() ? std::optional(named->second)
@@ -40,9 +34,9 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
     if (std::optional<std::string> why = sources.voice->why_silent(caption.description, caption.language)) {
         return Spoken{std::nullopt, *std::move(why)};
     }
-    Result<Speech> speech = sources.voice->speak(caption.description, caption.language);
-    return speech ? Result<Spoken>(Spoken{*std::move(speech), {}})
-                  : at(fmt::format("the description in '{}'", caption.language), speech.error());
+    Result<Spoken> spoken = sources.voice->speak(caption.description, caption.language);
+    return spoken ? std::move(spoken)
+                  : at(fmt::format("the description in '{}'", caption.language), spoken.error());
 }
 
 /// A sentence for each reason, with the languages that have it.

@@ -20,6 +20,12 @@
 
 namespace frustumscreen {
 
+/// What became of a text.
+struct Spoken {
+    std::optional<Speech> speech;
+    std::string why_silent; ///< where there is no speech
+};
+
 class Voice {
 public:
     /// espeak-ng.
@@ -30,7 +36,8 @@ public:
     /// Why this voice cannot speak `text`, a sentence; nothing if it can.
     [[nodiscard]] std::optional<std::string> why_silent(std::string_view text,
                                                         const std::string& language) const;
-    [[nodiscard]] Result<Speech> speak(std::string_view text, const std::string& language) const;
+    /// A voice that says nothing had nothing to speak; that is no error.
+    [[nodiscard]] Result<Spoken> speak(std::string_view text, const std::string& language) const;
 
 private:
     [[nodiscard]] std::vector<std::string> command_for(const std::string& language) const;

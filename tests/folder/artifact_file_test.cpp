@@ -90,6 +90,18 @@ TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
               "vase/artifact.toml: scan is missing; name the file of the scan in this folder");
 }
 
+TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
+    const Result<ArtifactFile> read =
+        parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'en'\ntitle = '  '\n"
+                            "text = \"\"\"\n\n A jug. \u3000\n\"\"\"\n"
+                            "description = \" \u00a0 \"",
+                            "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texts[0].title, "");
+    EXPECT_EQ(read->texts[0].text, "A jug.");
+    EXPECT_EQ(read->texts[0].description, "");
+}
+
 TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
     const std::string scan = "scan = \"a.stl\"\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
@@ -126,6 +138,8 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = 5 }", ":4: hotspots[0].labels.en is 5"},
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { xx = \"x\" }", ":4: hotspots[0].labels is for \"xx\""},
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"\" }", ":4: hotspots[0].labels in en is empty"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \" \u00a0\" }",
+         ":4: hotspots[0].labels in en is empty"},
         {"texture = \"/etc/passwd\"",
          ":2: texture is \"/etc/passwd\"; allowed is the name of a file in this folder"},
         {"texture = \"a/../../b\"", ":2: texture is \"a/../../b\""},

@@ -48,7 +48,26 @@ TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_
         EXPECT_NEAR(seconds_of(spoken->languages[k].sounds.at("description")), expected, 0.3) << k;
     }
     EXPECT_TRUE(spoken->silent.empty());
-    EXPECT_TRUE(spoken->notes.empty());
+    ASSERT_EQ(spoken->notes.size(), 1U);
+    EXPECT_NE(spoken->notes[0].find("en/description.wav: nobody hears this recording"), std::string::npos);
+    EXPECT_TRUE(spoken->notes[0].ends_with("mine.wav goes before it")) << spoken->notes[0];
+}
+
+TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_recording_is_refused) {
+    ASSERT_TRUE(write_file(folder / "silence.wav", wav16(std::vector<double>(9600, 0.0))));
+    SpeechSources sources;
+    sources.voice = Voice("cat " + (folder / "silence.wav").string());
+    const std::vector captions{caption("en", "***")};
+    const Result<SpokenArtifact> spoken = speak_artifact(captions, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    EXPECT_EQ(spoken->silent,
+              (std::vector<std::string>{"the description in 'en' is silent, and shown all the same: cat "
+                                        "finds nothing to speak in '***'"}));
+    sources.recordings = {{"en", folder / "silence.wav"}};
+    const Result<SpokenArtifact> refused = speak_artifact(captions, sources);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(
+        refused.error().message.ends_with("silence.wav: the recording is silent; record it again, louder"));
 }
 
 TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {

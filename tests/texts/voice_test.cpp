@@ -36,8 +36,8 @@ protected:
         return file.string();
     }
     [[nodiscard]] std::string refusal(const std::string& commands, ProgramLimits limits = {}) const {
-        const Result<Speech> speech = Voice(program(commands), limits).speak("A text.", "en");
-        return speech ? std::string() : speech.error().message;
+        const Result<Spoken> spoken = Voice(program(commands), limits).speak("A text.", "en");
+        return spoken ? spoken->why_silent : spoken.error().message;
     }
     [[nodiscard]] std::string text(const std::string& file) const {
         const Result<Bytes> bytes = read_file(folder / file);
@@ -60,16 +60,16 @@ bool has_espeak() {
 TEST_F(Voices, a_program_gets_the_text_and_the_language_and_its_wav_becomes_speech) {
     const Voice voice(program("cat >heard.txt; echo \"$1 $2\" >arguments.txt; cat good.wav") +
                       " --voice {language}");
-    const Result<Speech> speech = voice.speak("Größe: 回", "de-CH");
-    ASSERT_TRUE(speech) << speech.error().message;
+    const Result<Spoken> spoken = voice.speak("Größe: 回", "de-CH");
+    ASSERT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
     EXPECT_EQ(text("heard.txt"), "Größe: 回");
     EXPECT_EQ(text("arguments.txt"), "--voice de-CH\n");
-    EXPECT_NEAR(speech->seconds, 0.5, 0.2);
+    EXPECT_NEAR(spoken->speech->seconds, 0.5, 0.2);
 }
 
 TEST_F(Voices, a_program_need_not_read_its_text) {
-    const Result<Speech> speech = Voice(program("cat good.wav")).speak(std::string(90000, 'a'), "en");
-    EXPECT_TRUE(speech) << speech.error().message;
+    const Result<Spoken> spoken = Voice(program("cat good.wav")).speak(std::string(90000, 'a'), "en");
+    EXPECT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
 }
 
 TEST_F(Voices, one_that_hangs_is_ended) {
@@ -102,18 +102,20 @@ TEST_F(Voices, one_that_writes_without_end_is_ended) {
                          "writes more than 100000 bytes for one text; it was ended"));
 }
 
-TEST_F(Voices, rubbish_nothing_and_silence_are_refused) {
+TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
     EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this is no recording that can be read"));
     EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this is no recording that can be read"));
     ASSERT_TRUE(write_file(folder / "silent.wav", wav16(std::vector<double>(9600, 0.0))));
-    EXPECT_TRUE(contains(refusal("cat silent.wav"), "on 'A text.': the recording is silent"));
+    EXPECT_TRUE(contains(refusal("cat silent.wav"), "voice.sh finds nothing to speak in 'A text.'"));
+    ASSERT_TRUE(write_file(folder / "empty.wav", wav({}, {})));
+    EXPECT_TRUE(contains(refusal("cat empty.wav"), "voice.sh finds nothing to speak in 'A text.'"));
 }
 
 TEST_F(Voices, one_that_fails_is_quoted) {
     const std::string message = refusal("echo 'no such voice' >&2; exit 3");
     EXPECT_TRUE(contains(message, "voice.sh: ends with status 3: no such voice")) << message;
     EXPECT_TRUE(contains(refusal("kill -SEGV $$"), "ends with signal 11"));
-    const Result<Speech> missing = Voice("/nowhere/voice").speak("A text.", "en");
+    const Result<Spoken> missing = Voice("/nowhere/voice").speak("A text.", "en");
     ASSERT_FALSE(missing);
     EXPECT_EQ(
         missing.error().message,
@@ -210,10 +212,10 @@ TEST(Espeak, a_sentence_comes_out_as_speech) {
     if (!has_espeak()) {
         GTEST_SKIP() << "espeak-ng is not installed";
     }
-    const Result<Speech> speech = Voice().speak("Well done! Now you see all of it.", "en");
-    ASSERT_TRUE(speech) << speech.error().message;
-    EXPECT_GT(speech->seconds, 1.0);
-    EXPECT_LT(speech->seconds, 5.0);
-    EXPECT_LE(speech->loudness.true_peak_db, -2.0);
-    EXPECT_LT(speech->opus.size(), 40000U);
+    const Result<Spoken> spoken = Voice().speak("Well done! Now you see all of it.", "en");
+    ASSERT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
+    EXPECT_GT(spoken->speech->seconds, 1.0);
+    EXPECT_LT(spoken->speech->seconds, 5.0);
+    EXPECT_LE(spoken->speech->loudness.true_peak_db, -2.0);
+    EXPECT_LT(spoken->speech->opus.size(), 40000U);
 }

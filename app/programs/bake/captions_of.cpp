@@ -2,6 +2,7 @@
 
 #include "app/settings/language_tag.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -57,7 +58,7 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
                                      found, language));
     }
     seen.push_back(language);
-    caption->text = written.substr(equals + 1);
+    caption->text = std::string(trimmed(std::string_view(written).substr(equals + 1)));
     return {};
 }
 
@@ -73,9 +74,10 @@ Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     if (written.languages.empty()) {
         made = written.from_file.empty() ? std::vector<PackCaption>{{"en", "", ""}} : written.from_file;
     }
+    const std::string_view title = trimmed(written.title);
     for (PackCaption& caption : made) {
-        if (!written.title.empty()) {
-            caption.title = written.title;
+        if (!title.empty()) {
+            caption.title = std::string(title);
         } else if (caption.title.empty()) {
             caption.title = written.usual_title;
         }
