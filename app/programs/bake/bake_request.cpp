@@ -2,6 +2,7 @@
 
 #include "app/pack/pack_text.h"
 #include "app/programs/bake/captions_of.h"
+#include "app/programs/bake/label_notes.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/printable.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <system_error>
-#include <utility>
 
 namespace frustumscreen {
 
@@ -78,8 +78,8 @@ std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector
 }
 
 SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file,
-                        std::vector<std::string> left_out, bool is_folder) {
-    SpeechSources sources{file.recordings, {}, std::move(left_out), std::nullopt};
+                        const std::vector<std::string>& left_out, bool is_folder) {
+    SpeechSources sources{file.recordings, {}, left_out, std::nullopt};
     if (is_folder) {
         sources.folder = arguments.input / recordings_folder_name;
     }
@@ -123,7 +123,9 @@ Result<BakeRequest> request_of(const BakeArguments& arguments) {
     request.id = file->id;
     request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
     request.captions = *captions;
-    request.speech = speech_of(arguments, *file, left_out_of(*file, *captions), is_folder);
+    const std::vector<std::string> left_out = left_out_of(*file, *captions);
+    request.lost = label_notes(file->hotspots, *captions, left_out);
+    request.speech = speech_of(arguments, *file, left_out, is_folder);
     return request;
 }
 
