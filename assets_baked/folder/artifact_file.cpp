@@ -73,12 +73,16 @@ void read_placement(TableReader& table, ArtifactFile& file) {
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
-bool check_language(TableReader& table, std::string_view key, const std::string& language) {
-    if (!has_language_form(language) || !parse_language_tag(language)) {
+/// Brings the tag to its usual case; refuses what is no language.
+bool read_language(TableReader& table, std::string_view key, std::string& language) {
+    const std::optional<std::string> usual =
+        has_language_form(language) ? parse_language_tag(language) : std::nullopt;
+    if (!usual) {
         table.refuse(key, fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
                                       allowed_language_tags));
         return false;
     }
+    language = *usual;
     return true;
 }
 
@@ -87,7 +91,7 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     table.any_text("language", caption.language);
     if (caption.language.empty()) {
         table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
-    } else if (check_language(table, "language", caption.language) &&
+    } else if (read_language(table, "language", caption.language) &&
                !languages.insert(caption.language).second) {
         table.refuse("language",
                      fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
@@ -116,9 +120,13 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.named_texts("labels", labels, pack_format::most_languages);
     table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
     for (auto& [language, text] : labels) {
-        if (!check_language(table, "labels", language)) {
+        if (!read_language(table, "labels", language)) {
             return;
         }
+        const bool is_second = std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
+                                           [&](const PackLabel& each) { return each.language == language; });
+        table.require(!is_second, "labels",
+                      fmt::format("has \"{}\" twice; allowed is each language once", language));
         const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
         table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
         text = std::string(trimmed(text));

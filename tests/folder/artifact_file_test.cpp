@@ -102,6 +102,19 @@ TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
     EXPECT_EQ(read->texts[0].description, "");
 }
 
+TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
+    const Result<ArtifactFile> read =
+        parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'EN'\n[[texts]]\nlanguage = 'zh-HANT-tw'\n"
+                            "description = 'x'\nrecording = 'a.wav'\n"
+                            "[[hotspots]]\npoint = [0, 0, 0]\nlabels = { eN = 'x', ZH-hant-TW = 'y' }",
+                            "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texts[0].language, "en");
+    EXPECT_EQ(read->texts[1].language, "zh-Hant-TW");
+    EXPECT_TRUE(read->recordings.contains("zh-Hant-TW"));
+    EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
+}
+
 TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
     const std::string scan = "scan = \"a.stl\"\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
@@ -140,6 +153,10 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"\" }", ":4: hotspots[0].labels in en is empty"},
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \" \u00a0\" }",
          ":4: hotspots[0].labels in en is empty"},
+        {"[[texts]]\nlanguage = \"en\"\n[[texts]]\nlanguage = \"EN\"",
+         ":5: texts[1].language is \"en\" a second time"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"x\", EN = \"y\" }",
+         ":4: hotspots[0].labels has \"en\" twice"},
         {"texture = \"/etc/passwd\"",
          ":2: texture is \"/etc/passwd\"; allowed is the name of a file in this folder"},
         {"texture = \"a/../../b\"", ":2: texture is \"a/../../b\""},

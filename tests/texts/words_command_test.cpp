@@ -96,7 +96,7 @@ TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_EQ(run("frustumscreen-bake --words --languages ../de -o out.fswords"), 1);
     EXPECT_NE(text("err.txt").find("--languages: '../de' is no language"), std::string::npos)
         << text("err.txt");
-    EXPECT_EQ(run("frustumscreen-bake --words --languages de,de -o out.fswords"), 1);
-    EXPECT_NE(text("err.txt").find("'de' is named twice"), std::string::npos) << text("err.txt");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de,DE -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("'DE' is named twice"), std::string::npos) << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --words --languages de"), 2);
 }

@@ -19,10 +19,11 @@ PackCaption* caption_in(std::vector<PackCaption>& captions, std::string_view lan
     return found != captions.end() ? &*found : nullptr;
 }
 
-Result<void> add_language(const std::string& language, const std::vector<PackCaption>& from_file,
+Result<void> add_language(const std::string& written, const std::vector<PackCaption>& from_file,
                           std::vector<PackCaption>& captions) {
-    const std::string found = fmt::format("--language '{}'", printable(language, 40));
-    if (!parse_language_tag(language)) {
+    const std::string found = fmt::format("--language '{}'", printable(written, 40));
+    const std::string language = parse_language_tag(written).value_or("");
+    if (language.empty()) {
         return bad_input(
             fmt::format("{}: there is no such language; allowed are {}", found, allowed_language_tags));
     }
@@ -43,7 +44,8 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
     if (equals == std::string::npos) {
         return bad_input(found + ": write LANGUAGE=TEXT, such as \"en=A cat.\"");
     }
-    const std::string language = written.substr(0, equals);
+    const std::string tag = written.substr(0, equals);
+    const std::string language = parse_language_tag(tag).value_or(tag);
     PackCaption* const caption = caption_in(captions, language);
     if (caption == nullptr) {
         std::vector<std::string> languages;

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace frustumscreen {
@@ -57,17 +58,21 @@ Result<void> check_folder(const std::filesystem::path& folder) {
     return {};
 }
 
-Result<void> check_languages(const std::vector<std::string>& languages) {
-    for (std::size_t k = 0; k < languages.size(); ++k) {
-        const std::string found = fmt::format("--languages: '{}'", printable(languages[k], 40));
-        if (!parse_language_tag(languages[k])) {
+/// The languages that are named, in the usual case of their tags.
+Result<std::vector<std::string>> named_languages(const std::vector<std::string>& written) {
+    std::vector<std::string> languages;
+    for (const std::string& each : written) {
+        const std::string found = fmt::format("--languages: '{}'", printable(each, 40));
+        const std::optional<std::string> language = parse_language_tag(each);
+        if (!language) {
             return bad_input(fmt::format("{} is no language; allowed are {}", found, allowed_language_tags));
         }
-        if (std::count(languages.begin(), languages.end(), languages[k]) > 1) {
+        if (std::find(languages.begin(), languages.end(), *language) != languages.end()) {
             return bad_input(fmt::format("{} is named twice; write each language once", found));
         }
+        languages.push_back(*language);
     }
-    return {};
+    return languages;
 }
 
 Result<void> write_outputs(const BakedWords& baked, const Arguments& arguments) {
@@ -139,11 +144,11 @@ Result<void> work(const Arguments& arguments) {
         return place;
     }
     const std::vector<std::string> all_languages = builtin_word_languages();
-    const std::vector<std::string>& languages =
-        arguments.languages.empty() ? all_languages : arguments.languages;
-    if (const Result<void> allowed = check_languages(languages); !allowed) {
-        return allowed;
+    const Result<std::vector<std::string>> named = named_languages(arguments.languages);
+    if (!named) {
+        return tl::unexpected<Error>(named.error());
     }
+    const std::vector<std::string>& languages = named->empty() ? all_languages : *named;
     const Result<std::vector<CollectedWords>> collected = collect_words(arguments.folder, languages);
     if (!collected) {
         return tl::unexpected<Error>(collected.error());
