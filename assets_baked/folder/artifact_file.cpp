@@ -5,14 +5,17 @@
 #include "app/settings/language_tag.h"
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
+#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -23,6 +26,27 @@ constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // as th
 constexpr std::size_t most_dots = 5000;
 constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
+struct InnerKey {
+    std::string_view key;
+    std::string_view table;
+};
+constexpr std::array<std::string_view, 10> outer_keys{"scan",  "texture", "id",        "licence", "size",
+                                                      "unlit", "prop",    "placement", "texts",   "hotspots"};
+constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
+                                                     {"title", "[[texts]]"},
+                                                     {"period", "[[texts]]"},
+                                                     {"place", "[[texts]]"},
+                                                     {"maker", "[[texts]]"},
+                                                     {"credit", "[[texts]]"},
+                                                     {"text", "[[texts]]"},
+                                                     {"description", "[[texts]]"},
+                                                     {"recording", "[[texts]]"},
+                                                     {"point", "[[hotspots]]"},
+                                                     {"labels", "[[hotspots]]"},
+                                                     {"up", "[placement]"},
+                                                     {"turn_deg", "[placement]"},
+                                                     {"scale", "[placement]"},
+                                                     {"lift", "[placement]"}});
 constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Without the blanks around it; of blanks alone it counts as left out.
@@ -158,6 +182,46 @@ void read_all(TableReader& table, ArtifactFile& file) {
     }
 }
 
+/// [texts] for [[texts]].
+void refuse_single_tables(const toml::table& root, ReadState& state) {
+    for (const auto& [key, each] : {std::pair("texts", "language"), {"hotspots", "place"}}) {
+        const toml::node* node = root.get(key);
+        if (node != nullptr && node->is_table()) {
+            state.refuse(
+                static_cast<std::uint32_t>(node->source().begin.line),
+                fmt::format("[{}] has one bracket too few on each side; write [[{}]], once for each {}", key,
+                            key, each));
+        }
+    }
+}
+
+/// Tells of a key of the whole file, right or misspelt, which belongs into one of its tables.
+void refuse_misplaced_key(const toml::table& root, ReadState& state) {
+    std::optional<std::pair<std::uint32_t, std::string>> first;
+    for (const auto& [key, node] : root) {
+        const std::string_view name = key.str().substr(0, 60);
+        const auto line = static_cast<std::uint32_t>(key.source().begin.line);
+        const auto apart = [&](std::string_view known) { return letters_apart(name, known); };
+        const auto nearest =
+            std::min_element(inner_keys.begin(), inner_keys.end(), [&](const InnerKey& a, const InnerKey& b) {
+                return apart(a.key) < apart(b.key);
+            });
+        const std::size_t distance = apart(nearest->key);
+        const bool is_outer = std::any_of(outer_keys.begin(), outer_keys.end(),
+                                          [&](std::string_view outer) { return apart(outer) <= distance; });
+        if (!is_outer && 3 * distance <= name.size() + 1 && (!first || line < first->first)) {
+            const std::string found = distance == 0
+                                          ? std::string(name)
+                                          : fmt::format("{} is not a known key; the nearest one, {},",
+                                                        printable(name, 60), nearest->key);
+            first = {line, fmt::format("{} belongs below a line {}", found, nearest->table)};
+        }
+    }
+    if (first) {
+        state.refuse(first->first, first->second);
+    }
+}
+
 /// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
 std::size_t end_of_text(std::string_view text, std::size_t at) {
     const auto after = [&](std::string_view end, std::size_t from) {
@@ -207,6 +271,10 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
             located(state.file, 0,
                     fmt::format("is {} bytes; allowed are at most {}", text.size(), largest_file_bytes)));
     }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
+        return bad_input(
+            located(state.file, static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8"));
+    }
     if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
         return bad_input(located(
             state.file, 0,
@@ -216,7 +284,9 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         const toml::table root = toml::parse(text);
         ArtifactFile read;
         TableReader keys(state, &root, "");
+        refuse_single_tables(root, state);
         read_all(keys, read);
+        refuse_misplaced_key(root, state);
         keys.finish();
         if (state.error) {
             return bad_input(*state.error);

@@ -6,6 +6,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -198,6 +199,9 @@ Result<WrittenWords> parse_words(std::string_view toml, const std::string& file)
     if (toml.size() > most_file_bytes || std::count(toml.begin(), toml.end(), '.') > most_dots) {
         return bad_input(fmt::format("{}: has {} bytes; allowed are {}, with {} dots", file, toml.size(),
                                      most_file_bytes, most_dots));
+    }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(toml)) {
+        return bad_input(fmt::format("{}:{}: is not UTF-8; save the file as UTF-8", file, *line));
     }
     try {
         const toml::table root = toml::parse(toml);

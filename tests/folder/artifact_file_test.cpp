@@ -166,8 +166,17 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
          ":4: texts[0].recording has no description beside it"},
         {"hotspots = 5", ":2: hotspots is 5"},
         {"[[texts]]\nlanguage = \"en\"\ntext = \"not closed", "is not TOML"},
-        {"title = \"\xED\xA0\x80\"", "is not TOML"},
-        {std::string(1, '\0'), "is not TOML"}};
+        {"[texts]\nlanguage = \"en\"",
+         ":2: [texts] has one bracket too few on each side; write [[texts]], once for each language"},
+        {"[hotspots]\npoint = [0, 0, 0]", ":2: [hotspots] has one bracket too few"},
+        {"title = \"Jug\"", ":2: title belongs below a line [[texts]]"},
+        {"titel = \"Jug\"",
+         ":2: titel is not a known key; the nearest one, title, belongs below a line [[texts]]"},
+        {"turn_deg = 3\ntitle = \"Jug\"", ":2: turn_deg belongs below a line [placement]"},
+        {"labels = { en = \"x\" }", ":2: labels belongs below a line [[hotspots]]"},
+        {"# caf\xE9", ":2: is not UTF-8; save the file as UTF-8"},
+        {"title = \"\xED\xA0\x80\"", ":2: is not UTF-8; save the file as UTF-8"},
+        {std::string("s\0c\0", 4), ":2: is not UTF-8; save the file as UTF-8"}};
     for (const auto& [text, words] : wrong) {
         const std::string message = refusal(scan + text);
         EXPECT_EQ(message.find("vase/artifact.toml:"), 0U) << message;

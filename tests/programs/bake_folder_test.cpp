@@ -23,7 +23,7 @@ protected:
     /// The exit status of a bake with these lines in the artifact.toml.
     [[nodiscard]] int bake(const std::string& lines, const std::string& more = "") const {
         put("jug/artifact.toml", "scan = \"jug.obj\"\nsize = 16\n" + lines);
-        return run("frustumscreen-bake jug -o jug.fspack --speech none " + more);
+        return run("frustumscreen-bake jug -o jug.fspack " + (more.empty() ? "--speech none" : more));
     }
     /// Whether `part` was said on standard error.
     [[nodiscard]] ::testing::AssertionResult said(const std::string& part) const {
@@ -45,17 +45,37 @@ TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
     EXPECT_TRUE(said(
         "lost: hotspots[0] has no label in 'de', so its visitors read another language there; write de = "
         "\"...\" under labels"));
-    EXPECT_TRUE(
-        said("lost: hotspots[0] has the label \"Flanc\" in 'fr', and the artifact has no "
-             "[[texts]] in that language; write them, or take the label away"));
+    EXPECT_TRUE(said("lost: hotspots[0] has the label \"Flanc\" in 'fr', and the artifact has no "
+                     "[[texts]] in that language; write them, or take the label away"));
     fs::remove(folder / "jug.fspack");
-    EXPECT_EQ(bake(lines, "--strict"), 1);
+    EXPECT_EQ(bake(lines, "--speech none --strict"), 1);
     EXPECT_FALSE(fs::exists(folder / "jug.fspack"));
     const std::string both =
         std::string(english_and_german) +
         "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\", de = \"Seite\" }\n";
-    EXPECT_EQ(bake(both, "--strict --language en"), 0)
+    EXPECT_EQ(bake(both, "--speech none --strict --language en"), 0)
         << "German is left out on purpose: " << text("err.txt");
+}
+
+TEST_F(BakeFolder, APointOffTheSurfaceIsToldBeforeAnythingIsSpoken) {
+    const std::string lines = "[[texts]]\nlanguage = \"en\"\ndescription = \"A jug.\"\n"
+                              "[[hotspots]]\npoint = [0, 1200, 0]\nlabels = { en = \"Side\" }\n";
+    EXPECT_EQ(bake(lines, "--turn 0 --speech false"), 1);
+    EXPECT_EQ(text("err.txt"),
+              "frustumscreen-bake: jug/artifact.toml:7: hotspots[0].point is [0, 1200, 0], which is 1199 "
+              "times the artifact's size away from its surface; allowed are 5 % of that size; the nearest "
+              "point of it is [0, 1, 0]\n");
+    const std::size_t at = lines.find("1200");
+    EXPECT_EQ(bake(std::string(lines).replace(at, 4, "1.25"), "--turn 0 --speech false"), 1);
+    EXPECT_TRUE(said("which is 25.0 % of the artifact's size away"));
+}
+
+TEST_F(BakeFolder, TheArtifactFileStandsForItsFolder) {
+    ASSERT_EQ(bake("[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-bake jug/artifact.toml -o again.fspack --speech none"), 0)
+        << text("err.txt");
+    EXPECT_EQ((*load_pack(folder / "again.fspack"))->title, "Jug");
+    ASSERT_EQ(run("frustumscreen-bake artifact.toml -o again.fspack"), 1) << "there is none here";
 }
 
 } // namespace

@@ -68,6 +68,13 @@ TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
 }
 
+TEST_F(WordsCommand, the_folder_may_stand_behind_an_equals_sign_and_its_files_are_utf8) {
+    std::filesystem::create_directories(folder / "mine");
+    std::ofstream(folder / "mine" / "de.toml") << "# Latin-1\nhelp = \"Hilfe f\xfcr dich\"\n";
+    EXPECT_EQ(run("frustumscreen-bake --words=mine --languages de -o out.fswords --speech none"), 1);
+    EXPECT_EQ(text("err.txt"), "frustumscreen-bake: mine/de.toml:2: is not UTF-8; save the file as UTF-8\n");
+}
+
 TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
     for (const char* file : {"de/advice.lift.wav", "de/help.wav", "fr/help.wav"}) {
         std::filesystem::create_directories((folder / "mine" / file).parent_path());

@@ -15,6 +15,16 @@ namespace frustumscreen {
 
 namespace {
 
+/// Who names the artifact.toml means its folder.
+BakeArguments with_folder(BakeArguments arguments) {
+    std::error_code none;
+    if (arguments.input.filename() == artifact_file_name &&
+        std::filesystem::is_regular_file(arguments.input, none)) {
+        arguments.input = arguments.input.has_parent_path() ? arguments.input.parent_path() : ".";
+    }
+    return arguments;
+}
+
 Result<ArtifactFile> file_of(const BakeArguments& arguments) {
     std::error_code none;
     if (std::filesystem::is_directory(arguments.input, none)) {
@@ -91,7 +101,8 @@ SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file
 
 } // namespace
 
-Result<BakeRequest> request_of(const BakeArguments& arguments) {
+Result<BakeRequest> request_of(const BakeArguments& written) {
+    const BakeArguments arguments = with_folder(written);
     if (const Result<void> good = check_texts(arguments); !good) {
         return tl::unexpected<Error>(good.error());
     }

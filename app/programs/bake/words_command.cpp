@@ -175,8 +175,9 @@ Result<void> work(const Arguments& arguments) {
 } // namespace
 
 bool asks_for_words(int argc, const char* const* argv) {
-    return std::any_of(argv, argv + argc,
-                       [](const char* argument) { return std::string_view(argument) == "--words"; });
+    return std::any_of(argv, argv + argc, [](std::string_view argument) {
+        return argument == "--words" || argument.starts_with("--words=");
+    });
 }
 
 int words_command(int argc, char** argv) {
