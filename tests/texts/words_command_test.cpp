@@ -1,6 +1,7 @@
 // frustumscreen-bake --words, as a person runs it.
 #include "app/pack/words_file.h"
 #include "assets_baked/texts/fonts.h"
+#include "assets_baked/texts/words.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
@@ -89,6 +90,49 @@ TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
         << text("err.txt");
     EXPECT_EQ(text("err.txt").find("fr/help.wav"), std::string::npos) << "French was left out on purpose";
     EXPECT_EQ(run(command + " --strict"), 1);
+}
+
+TEST_F(WordsCommand, only_words_are_replaced_by_words) {
+    std::filesystem::create_directories(folder / "mine" / "de");
+    ASSERT_TRUE(write_file(folder / "notes.txt", as_bytes("what the curator wrote down")));
+    ASSERT_TRUE(write_file(folder / "mine" / "de.toml", as_bytes("help = \"Hilfe\"")));
+    ASSERT_TRUE(write_file(folder / "mine" / "de" / "help.wav", wav16(sine(0.2, 0.4))));
+    const std::string command = "frustumscreen-bake --words mine --languages de --speech none ";
+    const auto refused = [&](const std::string& more, const std::string& file, const std::string& words) {
+        const std::string before = text(file);
+        EXPECT_EQ(run(command + more), 1) << more;
+        EXPECT_EQ(text(file), before) << more;
+        EXPECT_NE(text("err.txt").find(words), std::string::npos) << text("err.txt");
+    };
+    refused("-o notes.txt", "notes.txt", "notes.txt: this file is there and is not a file of words");
+    refused("-o mine/de.toml", "mine/de.toml", "mine/de.toml: this file is there and is not a file of words");
+    refused("-o mine/de.toml --force", "mine/de.toml", "would replace the input mine/de.toml");
+    refused("-o mine/de/help.wav --force", "mine/de/help.wav", "would replace the input mine/de/help.wav");
+    refused("-o out.fswords --preview notes.txt", "notes.txt", "this file is there and is not a PNG picture");
+    refused("-o new --preview ./new", "new", "the words and their picture have the same name");
+    for (int time = 0; time < 2; ++time) {
+        EXPECT_EQ(run(command + "-o out.fswords --preview words.png"), 0) << text("err.txt");
+    }
+    EXPECT_EQ(run(command + "-o notes.txt --force"), 0) << text("err.txt");
+}
+
+TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
+    for (const std::string& language : builtin_word_languages()) {
+        if (const Result<void> there = Fonts::open()->check(language); !there) {
+            GTEST_SKIP() << there.error().message;
+        }
+    }
+    std::filesystem::create_directories(folder / "mine");
+    std::ofstream(folder / "mine" / "pt.toml") << "name = \"Português\"\n";
+    std::ofstream(folder / "mine" / "german.toml") << "name = \"Deutsch\"\n";
+    ASSERT_EQ(run("frustumscreen-bake --words mine -o out.fswords --speech none"), 0) << text("err.txt");
+    EXPECT_TRUE(baked("pt"));
+    EXPECT_TRUE(baked("de"));
+    EXPECT_NE(
+        text("err.txt").find("mine/german.toml: nobody reads this file; name it after its language, such as "
+                             "de.toml"),
+        std::string::npos)
+        << text("err.txt");
 }
 
 TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
