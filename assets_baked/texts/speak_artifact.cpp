@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace frustumscreen {
@@ -66,9 +67,11 @@ private:
 
 Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, const SpeechSources& sources) {
     std::vector<Result<Spoken>> all(captions.size(), Spoken());
+    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
     parallel_for(captions.size(), 1, [&](std::size_t k, std::size_t) {
-        if (!captions[k].description.empty()) {
+        if (!captions[k].description.empty() && !failed) {
             all[k] = speak(captions[k], sources);
+            failed = failed || !all[k];
         }
     });
     SpokenArtifact spoken;

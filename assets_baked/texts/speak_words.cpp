@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <map>
 
 namespace frustumscreen {
@@ -51,8 +52,13 @@ Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const Sp
 Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options) {
     const VoiceCheck check(options.voice, words);
     std::vector<Result<Spoken>> all(words.words.size(), Spoken());
-    parallel_for(words.words.size(), 1,
-                 [&](std::size_t k, std::size_t) { all[k] = speak(words.words[k], words, options, check); });
+    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
+    parallel_for(words.words.size(), 1, [&](std::size_t k, std::size_t) {
+        if (!failed) {
+            all[k] = speak(words.words[k], words, options, check);
+            failed = failed || !all[k];
+        }
+    });
     std::size_t silent = 0;
     std::string why;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 using namespace frustumscreen;
 using namespace frustumscreen::testing;
@@ -136,6 +138,19 @@ TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_sil
     EXPECT_EQ(
         silent->front(),
         "1 of 2 words in 'de' are silent, and shown all the same: there are no recordings and no voice");
+}
+
+TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
+    const Voice voice(program("echo word >>tried.txt; exit 1"));
+    std::vector<LanguageWords> languages(1);
+    languages[0].language = "de";
+    for (int k = 0; k < 500; ++k) {
+        languages[0].words.push_back({"help", "Hilfe", "de"});
+    }
+    EXPECT_FALSE(speak_words(languages, {{}, voice, {}}));
+    const std::string tried = text("tried.txt");
+    EXPECT_LE(static_cast<unsigned>(std::count(tried.begin(), tried.end(), '\n')),
+              2 * std::thread::hardware_concurrency() + 2);
 }
 
 TEST_F(Voices, a_bad_recording_is_named) {
