@@ -104,6 +104,16 @@ TEST_F(Voices, one_that_writes_without_end_is_ended) {
                          "writes more than 100000 bytes for one text; it was ended"));
 }
 
+TEST_F(Voices, what_one_complains_of_without_end_is_kept_nowhere) {
+    const std::string complaints = "echo 'no such voice' >&2; head -c 20000000 /dev/zero >&2; ";
+    EXPECT_TRUE(contains(refusal(complaints + "stat -L -c %s /proc/self/fd/2 >size.txt; exit 3"),
+                         "voice.sh: ends with status 3: no such voice"));
+    EXPECT_LT(std::stol(text("size.txt")), 1000000);
+    EXPECT_EQ(refusal(complaints + "cat good.wav"), "");
+    EXPECT_TRUE(contains(refusal("exec >&-; cat /dev/zero >&2", {300ms, 1000}), "takes longer than 0.3 s"));
+    EXPECT_TRUE(contains(refusal("exec >&-; head -c 20000000 /dev/zero >&2; exit 4"), "ends with status 4"));
+}
+
 TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
     EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this is no recording that can be read"));
     EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this is no recording that can be read"));
