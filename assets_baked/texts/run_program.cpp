@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,8 +19,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-
-extern char** environ;
 
 namespace frustumscreen {
 
@@ -88,27 +87,88 @@ private:
     std::optional<int> status_;
 };
 
-/// The process; or an error number. `streams`: its standard input, output and error.
-tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams) {
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (int k = 0; k < 3; ++k) {
-        posix_spawn_file_actions_adddup2(&files, streams[static_cast<std::size_t>(k)], k);
+/// Becomes the program; reports an error number if it cannot. Only calls that are safe after a fork among threads.
+[[noreturn]] void become(char* const* arguments, const std::array<int, 3>& streams, int report) {
+    int number = 0;
+    for (const int stream : streams) {
+        stream == number ? ::fcntl(number, F_SETFD, 0) : ::dup2(stream, number);
+        ++number;
     }
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // so that it ends with what it starts
+    ::execvp(arguments[0], arguments);
+    const int error = errno;
+    [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
+    ::_exit(127);
+}
+
+/// Ends as the program did.
+[[noreturn]] void end_like(int status) {
+    if (WIFSIGNALED(status)) {
+        const rlimit no_dump{0, 0}; // the program has made one, if any is wanted
+        ::setrlimit(RLIMIT_CORE, &no_dump);
+        ::signal(WTERMSIG(status), SIG_DFL);
+        ::kill(::getpid(), WTERMSIG(status));
+    }
+    ::_exit(WEXITSTATUS(status));
+}
+
+/// A process between us and the program, in a group of its own with all that the program starts. When we end, however that
+/// happens, the kernel tells it, and it ends the group.
+[[noreturn]] void guard(char* const* arguments, const std::array<int, 3>& streams, int report, pid_t us) {
+    ::setpgid(0, 0);
+    ::signal(SIGTERM, [](int) { ::kill(0, SIGKILL); });
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != us) {
+        ::_exit(127); // it happened before
+    }
+    const pid_t program = ::fork();
+    if (program == 0) {
+        become(arguments, streams, report);
+    }
+    if (program < 0) {
+        const int error = errno;
+        [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
+        ::_exit(127);
+    }
+    ::close_range(0, ~0U, 0); // or pipes of ours would not end before this process
+    int status = 0;
+    while (::waitpid(program, &status, 0) < 0 && errno == EINTR) {
+    }
+    end_like(status);
+}
+
+struct Pipe {
+    Descriptor out = Descriptor();
+    Descriptor in = Descriptor();
+};
+
+/// Numbers of -1 where there can be none.
+Pipe open_pipe() {
+    std::array<int, 2> ends{-1, -1};
+    return ::pipe2(ends.data(), O_CLOEXEC) == 0 ? Pipe{Descriptor(ends[0]), Descriptor(ends[1])} : Pipe{};
+}
+
+/// The process; or an error number. `streams`: its standard input, output and error. It ends with the thread that calls this.
+tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams) {
     std::vector<std::string> words = command;
     std::vector<char*> arguments;
     for (std::string& word : words) {
         arguments.push_back(word.data());
     }
     arguments.push_back(nullptr);
-    pid_t process = 0;
-    const int error = ::posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    if (error != 0) {
+    Pipe report = open_pipe();
+    const pid_t us = ::getpid();
+    const pid_t process = report.in.number() < 0 ? -1 : ::fork();
+    if (process == 0) {
+        guard(arguments.data(), streams, report.in.number(), us);
+    }
+    if (process < 0) {
+        return tl::unexpected<int>(errno);
+    }
+    ::setpgid(process, process); // here too, so that it has its group before anybody ends it
+    report.in = Descriptor();
+    int error = 0;
+    if (::read(report.out.number(), &error, sizeof(error)) == sizeof(error)) {
+        ::waitpid(process, nullptr, 0);
         return tl::unexpected<int>(error);
     }
     return process;
@@ -164,16 +224,6 @@ Ended listen(Running& running, Descriptor& output, Descriptor& complaints, const
             return Ended::Whole;
         }
     }
-}
-
-struct Pipe {
-    Descriptor out, in;
-};
-
-/// Numbers of -1 where there can be none.
-Pipe open_pipe() {
-    std::array<int, 2> ends{-1, -1};
-    return ::pipe2(ends.data(), O_CLOEXEC) == 0 ? Pipe{Descriptor(ends[0]), Descriptor(ends[1])} : Pipe{};
 }
 
 } // namespace

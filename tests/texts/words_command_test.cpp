@@ -5,7 +5,10 @@
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
+#include <unistd.h>
+
 #include <fstream>
+#include <sstream>
 
 using namespace frustumscreen;
 using namespace frustumscreen::testing;
@@ -21,6 +24,19 @@ protected:
         if (const Result<void> there = fonts->check("de"); !there) {
             GTEST_SKIP() << there.error().message;
         }
+    }
+    /// Until somebody collects it, an ended process may stay in the table as a zombie.
+    [[nodiscard]] static bool ends(int process) {
+        for (int tries = 0; tries < 1000; ++tries) {
+            std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+            std::string words;
+            std::getline(stat, words);
+            if (words.empty() || words.find(") Z ") != std::string::npos) {
+                return true;
+            }
+            ::usleep(10000);
+        }
+        return false;
     }
     [[nodiscard]] Result<LanguageWords> baked(const std::string& language) const {
         const Result<Bytes> bytes = read_file(folder / "out.fswords");
@@ -133,6 +149,24 @@ TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
                              "de.toml"),
         std::string::npos)
         << text("err.txt");
+}
+
+TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
+    ASSERT_TRUE(write_file(folder / "voice.sh", as_bytes("sleep 1000 & echo $$ $! >>voices.txt; wait")));
+    for (const char* signal : {"TERM", "KILL"}) {
+        std::filesystem::remove(folder / "voices.txt");
+        const std::string commands = fmt::format(
+            "cd '{}' || exit 4; '{}'/frustumscreen-bake --words --languages de -o out.fswords --speech 'sh "
+            "voice.sh' "
+            "2>err.txt & baker=$!; until test -s voices.txt; do kill -0 $baker || exit 5; sleep 0.02; done; "
+            "kill -{} $baker; wait $baker 2>wait.txt; true",
+            folder.string(), FRUSTUMSCREEN_BIN_DIR, signal);
+        ASSERT_EQ(std::system(commands.c_str()), 0) << text("err.txt");
+        std::istringstream voices(text("voices.txt"));
+        for (int process = 0; voices >> process;) {
+            EXPECT_TRUE(ends(process)) << signal << ": process " << process << " still runs";
+        }
+    }
 }
 
 TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
