@@ -1,5 +1,6 @@
 #include "assets_baked/texts/speak_artifact.h"
 
+#include "app/pack/text_portions.h"
 #include "assets_baked/texts/recorded_speech.h"
 #include "firmware_host/base/parallel.h"
 #include "firmware_host/base/printable.h"
@@ -38,6 +39,22 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
     Result<Spoken> spoken = sources.voice->speak(caption.description, caption.language);
     return spoken ? std::move(spoken)
                   : at(fmt::format("the description in '{}'", caption.language), spoken.error());
+}
+
+/// A sentence where recording and description are of so different lengths that one of them must be another text's.
+std::optional<std::string> length_note(const PackCaption& caption, const std::filesystem::path& file,
+                                       double seconds) {
+    constexpr double least_share = 0.4;
+    constexpr double most_share = 3.0;
+    const double words_s = reading_time_s(caption.description);
+    const double brief_s = 3.0; // a breath more or less
+    if (seconds >= least_share * words_s && seconds <= most_share * words_s + brief_s) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: it lasts {:.0f} s, and to speak the description in '{}' takes about {:.0f} s; see "
+        "whether both are of the same text",
+        printable(file.string(), 300), seconds, caption.language, words_s);
 }
 
 /// A sentence for each reason, with the languages that have it.
@@ -91,6 +108,11 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
                                 printable(file->string(), 300), language));
             }
         } else if (all[k]->speech) {
+            const auto file = recording_of(language, sources);
+            if (const auto note =
+                    file ? length_note(captions[k], *file, all[k]->speech->seconds) : std::nullopt) {
+                spoken.notes.push_back(*note);
+            }
             spoken.languages.push_back({language, {{key, std::move(all[k]->speech->opus)}}});
         } else {
             silences.add(all[k]->why_silent, language);

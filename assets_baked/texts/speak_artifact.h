@@ -31,7 +31,7 @@ struct SpeechSources {
 struct SpokenArtifact {
     std::vector<SpokenLanguage> languages;
     std::vector<std::string> silent; ///< which descriptions, and why, a sentence for each reason
-    std::vector<std::string> notes;  ///< which recordings nobody hears, a sentence each
+    std::vector<std::string> notes; ///< which recordings nobody hears, or fit no description, a sentence each
 };
 
 [[nodiscard]] Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions,

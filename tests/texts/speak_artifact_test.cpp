@@ -89,6 +89,29 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
         << spoken->notes.front();
 }
 
+TEST_F(SpeakArtifact, a_recording_that_is_much_too_short_or_long_for_its_words_is_told) {
+    SpeechSources sources;
+    sources.folder = folder / "recordings";
+    tone("recordings/en/description.wav", 1.0);
+    tone("recordings/de/description.wav", 12.0);
+    tone("recordings/fr/description.wav", 12.0);
+    const Result<SpokenArtifact> spoken =
+        speak_artifact(std::vector{caption("en", std::string(1200, 'x')), caption("de", "Ein Krug."),
+                                   caption("fr", std::string(90, 'x'))},
+                       sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    EXPECT_EQ(spoken->languages.size(), 3U) << "they are spoken all the same";
+    ASSERT_EQ(spoken->notes.size(), 2U);
+    EXPECT_TRUE(spoken->notes[0].ends_with(
+        "en/description.wav: it lasts 1 s, and to speak the description in 'en' takes "
+        "about 80 s; see whether both are of the same text"))
+        << spoken->notes[0];
+    EXPECT_TRUE(spoken->notes[1].ends_with(
+        "de/description.wav: it lasts 12 s, and to speak the description in 'de' takes "
+        "about 1 s; see whether both are of the same text"))
+        << spoken->notes[1];
+}
+
 TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_name) {
     SpeechSources sources;
     sources.folder = folder / "recordings";
