@@ -1,6 +1,7 @@
 /// Makes speech of any recording equally loud, and stores it as Ogg Opus.
 ///
-/// Silence before and after is trimmed, the loudness is brought to -23 LUFS, and lowered where peaks would pass -2 dBTP.
+/// Silence before and after is trimmed, and the loudness is brought to -23 LUFS; peaks that would pass -2 dBTP, such as a knock
+/// beside the microphone, are lowered alone (limit_peaks.h).
 ///
 /// Errors   one sentence: a library that fails.
 /// Threads  pure; any.

@@ -1,5 +1,6 @@
 // Recordings: what is refused, and how loud the speech is that comes out.
 #include "assets_baked/texts/level_speech.h"
+#include "assets_baked/texts/limit_peaks.h"
 #include "tests/texts/wav_bytes.h"
 
 #include <gtest/gtest.h>
@@ -182,6 +183,39 @@ TEST(LevelSpeech, peaks_stay_below_minus_2_db) {
     const std::vector<float> samples = decoded(*speech);
     const float most = *std::max_element(samples.begin(), samples.end());
     EXPECT_LE(20.0 * std::log10(static_cast<double>(most)), -2.0);
+}
+
+/// Speech at a level of -40 dB with one knock against the microphone, at full scale.
+TEST(LevelSpeech, one_knock_does_not_make_the_rest_quiet) {
+    std::vector<double> samples = sine(0.01, 5.0);
+    for (std::size_t k = 0; k < 96; ++k) {
+        samples[120000 + k] = k % 8 < 4 ? 0.99 : -0.99;
+    }
+    const std::optional<Speech> speech = speech_of(samples);
+    ASSERT_TRUE(speech);
+    EXPECT_LE(speech->loudness.true_peak_db, -2.0);
+    std::vector<float> before_knock = decoded(*speech);
+    before_knock.resize(96000);
+    EXPECT_NEAR(middle_level_db(before_knock), -23.0, 1.0);
+    EXPECT_NEAR(speech->loudness.lufs, -23.0, 0.5);
+}
+
+TEST(LevelSpeech, only_peaks_and_their_surroundings_are_lowered) {
+    std::vector<float> samples(48000, 0.25F);
+    samples[20000] = -1.0F;
+    const std::vector<float> limited = limit_peaks(samples, 48000, 0.5F);
+    ASSERT_EQ(limited.size(), samples.size());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const bool is_near = k > 20000 - 500 && k < 20000 + 500;
+        EXPECT_LE(std::abs(limited[k]), 0.5F) << k;
+        EXPECT_GE(std::abs(limited[k]), 0.124F) << k;
+        if (!is_near) {
+            EXPECT_NEAR(limited[k], samples[k], 1e-5) << k;
+        } else if (k != 20000 && k != 20001) {
+            EXPECT_LT(std::abs(limited[k] - limited[k - 1]), 0.001F) << "it clicks at " << k;
+        }
+    }
+    EXPECT_NEAR(limited[20000], -0.5F, 1e-4);
 }
 
 TEST(LevelSpeech, silence_and_a_sound_shorter_than_the_meters_block) {
