@@ -55,7 +55,7 @@ std::string why_unused(const fs::path& file, const std::string& name, const Reco
     const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
         return letters_apart(name, a.first) < letters_apart(name, b.first);
     });
-    return fmt::format("no text has this name; the nearest one that has is {}{}", nearest->first,
+    return fmt::format("no text has this name; the nearest name of a text is {}{}", nearest->first,
                        can_be_read ? file.extension().string() : endings.front());
 }
 
