@@ -1,7 +1,6 @@
 #include "app/settings/language_tag.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace frustumscreen {
 
@@ -20,15 +19,34 @@ bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
+std::string lower(std::string_view text) {
+    std::string made(text);
+    std::transform(made.begin(), made.end(), made.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return made;
+}
+
+char upper(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// A region is written in capitals, a script with one; neither comes after a subtag of one letter.
+std::string in_usual_case(std::string_view subtag, bool after_single) {
+    std::string made = lower(subtag);
+    if (!after_single && made.size() == 2) {
+        made = {upper(made[0]), upper(made[1])};
+    } else if (!after_single && made.size() == 4) {
+        made[0] = upper(made[0]);
+    }
+    return made;
+}
+
 /// Codes of three letters are too many for a list here: any three letters are taken for one.
 bool is_language_code(std::string_view code) {
     if (code.size() == 3) {
         return true;
     }
-    std::string lower(code);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-    return code.size() == 2 && two_letter_codes.find(lower + " ") != std::string_view::npos;
+    return code.size() == 2 && two_letter_codes.find(lower(code) + " ") != std::string_view::npos;
 }
 
 } // namespace
@@ -38,6 +56,8 @@ std::optional<std::string> parse_language_tag(std::string_view tag) {
     if (!std::all_of(code.begin(), code.end(), is_letter) || !is_language_code(code)) {
         return std::nullopt;
     }
+    std::string usual = lower(code);
+    bool after_single = false;
     for (std::size_t begin = code.size(); begin < tag.size();) {
         const std::size_t end = std::min(tag.find('-', begin + 1), tag.size());
         const std::string_view subtag = tag.substr(begin + 1, end - begin - 1);
@@ -46,9 +66,11 @@ std::optional<std::string> parse_language_tag(std::string_view tag) {
             })) {
             return std::nullopt;
         }
+        usual += '-' + in_usual_case(subtag, after_single);
+        after_single = after_single || subtag.size() == 1;
         begin = end;
     }
-    return std::string(tag);
+    return usual;
 }
 
 } // namespace frustumscreen

@@ -13,8 +13,9 @@ namespace frustumscreen {
 inline constexpr std::string_view allowed_language_tags =
     "language tags such as \"en\" or \"de-CH\", which begin with a code of ISO 639";
 
-/// Returns nothing if `tag` is no BCP 47 tag (a language, then subtags of letters and digits), or begins with two
-/// letters that are no language. Codes of three letters are not looked up.
+/// `tag` in the case that is usual (RFC 5646, 2.1.1: "de-CH", "zh-Hant"), so that equal tags are equal texts. Nothing if it is no
+/// BCP 47 tag (a language, then subtags of letters and digits), or begins with two letters that are no language. Codes of three
+/// letters are not looked up.
 [[nodiscard]] std::optional<std::string> parse_language_tag(std::string_view tag);
 
 } // namespace frustumscreen

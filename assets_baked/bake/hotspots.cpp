@@ -77,6 +77,11 @@ std::string words_of(const glm::dvec3& v) {
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }
 
+std::string in_sizes(double distance_box) {
+    return distance_box < 1.0 ? fmt::format("{:.1f} % of the artifact's size", 100.0 * distance_box)
+                              : fmt::format("{:.0f} times the artifact's size", distance_box);
+}
+
 } // namespace
 
 Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
@@ -92,10 +97,10 @@ Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene&
     const glm::dvec3 nearest_file(glm::inverse(frame.box_from_file) * glm::dvec4(nearest.point, 1.0F));
     if (!(distance <= most_hotspot_distance_box)) {
         return bad_input(
-            fmt::format("{} is {}, which is {:.2g} of the artifact's size away from its surface, "
-                        "allowed are {}; the nearest point of it is {}",
-                        given.place, words_of(given.point_file), distance, most_hotspot_distance_box,
-                        words_of(nearest_file)));
+            fmt::format("{} is {}, which is {} away from its surface; allowed are {:g} % of that size; the "
+                        "nearest point of it is {}",
+                        given.place, words_of(given.point_file), in_sizes(distance),
+                        100.0 * most_hotspot_distance_box, words_of(nearest_file)));
     }
     const int front = open_directions(source, nearest.point, nearest.normal, zone);
     const int back = open_directions(source, nearest.point, -nearest.normal, zone);

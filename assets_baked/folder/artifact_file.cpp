@@ -5,13 +5,17 @@
 #include "app/settings/language_tag.h"
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
+#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -22,14 +26,37 @@ constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // as th
 constexpr std::size_t most_dots = 5000;
 constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
+struct InnerKey {
+    std::string_view key;
+    std::string_view table;
+};
+constexpr std::array<std::string_view, 10> outer_keys{"scan",  "texture", "id",        "licence", "size",
+                                                      "unlit", "prop",    "placement", "texts",   "hotspots"};
+constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
+                                                     {"title", "[[texts]]"},
+                                                     {"period", "[[texts]]"},
+                                                     {"place", "[[texts]]"},
+                                                     {"maker", "[[texts]]"},
+                                                     {"credit", "[[texts]]"},
+                                                     {"text", "[[texts]]"},
+                                                     {"description", "[[texts]]"},
+                                                     {"recording", "[[texts]]"},
+                                                     {"point", "[[hotspots]]"},
+                                                     {"labels", "[[hotspots]]"},
+                                                     {"up", "[placement]"},
+                                                     {"turn_deg", "[placement]"},
+                                                     {"scale", "[placement]"},
+                                                     {"lift", "[placement]"}});
 constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
 
+/// Without the blanks around it; of blanks alone it counts as left out.
 void read_text(TableReader& table, std::string_view key, std::string& value,
                TextShape shape = TextShape::Line) {
     table.any_text(key, value);
     if (const std::optional<std::string> fault = fault_of_text(value, shape)) {
         table.refuse(key, *fault);
     }
+    value = std::string(trimmed(value));
 }
 
 /// A path of the folder; one that leads out of it would not travel with it.
@@ -70,12 +97,16 @@ void read_placement(TableReader& table, ArtifactFile& file) {
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
-bool check_language(TableReader& table, std::string_view key, const std::string& language) {
-    if (!has_language_form(language) || !parse_language_tag(language)) {
+/// Brings the tag to its usual case; refuses what is no language.
+bool read_language(TableReader& table, std::string_view key, std::string& language) {
+    const std::optional<std::string> usual =
+        has_language_form(language) ? parse_language_tag(language) : std::nullopt;
+    if (!usual) {
         table.refuse(key, fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
                                       allowed_language_tags));
         return false;
     }
+    language = *usual;
     return true;
 }
 
@@ -84,7 +115,7 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     table.any_text("language", caption.language);
     if (caption.language.empty()) {
         table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
-    } else if (check_language(table, "language", caption.language) &&
+    } else if (read_language(table, "language", caption.language) &&
                !languages.insert(caption.language).second) {
         table.refuse("language",
                      fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
@@ -113,11 +144,16 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.named_texts("labels", labels, pack_format::most_languages);
     table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
     for (auto& [language, text] : labels) {
-        if (!check_language(table, "labels", language)) {
+        if (!read_language(table, "labels", language)) {
             return;
         }
+        const bool is_second = std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
+                                           [&](const PackLabel& each) { return each.language == language; });
+        table.require(!is_second, "labels",
+                      fmt::format("has \"{}\" twice; allowed is each language once", language));
         const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
         table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
+        text = std::string(trimmed(text));
         table.require(!text.empty(), "labels", fmt::format("in {} is empty; write what there is", language));
         hotspot.labels.push_back({language, std::move(text)});
     }
@@ -143,6 +179,46 @@ void read_all(TableReader& table, ArtifactFile& file) {
     table.tables("hotspots", file.hotspots, pack_format::most_hotspots, read_hotspot, {});
     for (PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
+    }
+}
+
+/// [texts] for [[texts]].
+void refuse_single_tables(const toml::table& root, ReadState& state) {
+    for (const auto& [key, each] : {std::pair("texts", "language"), {"hotspots", "place"}}) {
+        const toml::node* node = root.get(key);
+        if (node != nullptr && node->is_table()) {
+            state.refuse(
+                static_cast<std::uint32_t>(node->source().begin.line),
+                fmt::format("[{}] has one bracket too few on each side; write [[{}]], once for each {}", key,
+                            key, each));
+        }
+    }
+}
+
+/// Tells of a key of the whole file, right or misspelt, which belongs into one of its tables.
+void refuse_misplaced_key(const toml::table& root, ReadState& state) {
+    std::optional<std::pair<std::uint32_t, std::string>> first;
+    for (const auto& [key, node] : root) {
+        const std::string_view name = key.str().substr(0, 60);
+        const auto line = static_cast<std::uint32_t>(key.source().begin.line);
+        const auto apart = [&](std::string_view known) { return letters_apart(name, known); };
+        const auto nearest =
+            std::min_element(inner_keys.begin(), inner_keys.end(), [&](const InnerKey& a, const InnerKey& b) {
+                return apart(a.key) < apart(b.key);
+            });
+        const std::size_t distance = apart(nearest->key);
+        const bool is_outer = std::any_of(outer_keys.begin(), outer_keys.end(),
+                                          [&](std::string_view outer) { return apart(outer) <= distance; });
+        if (!is_outer && 3 * distance <= name.size() + 1 && (!first || line < first->first)) {
+            const std::string found = distance == 0
+                                          ? std::string(name)
+                                          : fmt::format("{} is not a known key; the nearest one, {},",
+                                                        printable(name, 60), nearest->key);
+            first = {line, fmt::format("{} belongs below a line {}", found, nearest->table)};
+        }
+    }
+    if (first) {
+        state.refuse(first->first, first->second);
     }
 }
 
@@ -195,6 +271,10 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
             located(state.file, 0,
                     fmt::format("is {} bytes; allowed are at most {}", text.size(), largest_file_bytes)));
     }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
+        return bad_input(
+            located(state.file, static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8"));
+    }
     if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
         return bad_input(located(
             state.file, 0,
@@ -204,7 +284,9 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         const toml::table root = toml::parse(text);
         ArtifactFile read;
         TableReader keys(state, &root, "");
+        refuse_single_tables(root, state);
         read_all(keys, read);
+        refuse_misplaced_key(root, state);
         keys.finish();
         if (state.error) {
             return bad_input(*state.error);

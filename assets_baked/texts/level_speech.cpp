@@ -1,5 +1,6 @@
 #include "assets_baked/texts/level_speech.h"
 
+#include "assets_baked/texts/limit_peaks.h"
 #include "assets_baked/texts/ogg_serial.h"
 #include "assets_baked/texts/sound_bytes.h"
 
@@ -23,7 +24,7 @@ constexpr double quietest_db = -70.0; ///< of the loudest block, below full scal
 constexpr double before_s = 0.06;     ///< that stay: a word's first sound may be soft, its last one longer
 constexpr double after_s = 0.15;
 constexpr double kilobits_a_second = 40.0;
-constexpr int most_tries = 4;
+constexpr int most_tries = 12;
 
 double db(double amplitude) {
     return 20.0 * std::log10(std::max(amplitude, 1e-12));
@@ -45,6 +46,9 @@ std::vector<double> block_levels(std::span<const float> samples, std::size_t blo
 
 /// Without the silence before and after; empty if all is silent.
 std::vector<float> trimmed(std::span<const float> samples, int rate_hz) {
+    if (samples.empty()) {
+        return {};
+    }
     const auto block = static_cast<std::size_t>(block_s * rate_hz);
     const std::vector<double> levels = block_levels(samples, block);
     const double loudest = *std::max_element(levels.begin(), levels.end());
@@ -110,13 +114,47 @@ Result<Bytes> encoded(std::span<const float> samples) {
     return std::move(bytes.written);
 }
 
+float amplitude(double level_db) {
+    return static_cast<float>(std::pow(10.0, level_db / 20.0));
+}
+
 std::vector<float> scaled(std::span<const float> samples, double gain_db) {
-    const auto gain = static_cast<float>(std::pow(10.0, gain_db / 20.0));
+    const float gain = amplitude(gain_db);
     std::vector<float> out(samples.begin(), samples.end());
     for (float& sample : out) {
         sample *= gain;
     }
     return out;
+}
+
+/// At `speech_lufs`, with its peaks lowered. A loud knock passes for loudness until it is lowered: hence in rounds.
+std::vector<float> levelled(std::span<const float> samples, double lufs, double most_db) {
+    constexpr int most_rounds = 8;
+    constexpr double near_db = 0.1;
+    double gain_db = speech_lufs - lufs;
+    for (int round = 1;; ++round) {
+        std::vector<float> limited =
+            limit_peaks(scaled(samples, gain_db), speech_rate_hz, amplitude(most_db));
+        const double missing_db = speech_lufs - loudness_of(limited).lufs;
+        if (std::abs(missing_db) < near_db || round == most_rounds) {
+            return limited;
+        }
+        gain_db += missing_db;
+    }
+}
+
+/// As Opus, with what a player decodes of it.
+Result<Speech> stored(std::span<const float> samples) {
+    Result<Bytes> opus = encoded(samples);
+    if (!opus) {
+        return tl::unexpected<Error>(opus.error());
+    }
+    const Result<Recording> decoded = read_recording(*opus, RecordingSource::File);
+    if (!decoded) {
+        return tl::unexpected<Error>(decoded.error());
+    }
+    return Speech{*std::move(opus), static_cast<double>(decoded->samples.size()) / speech_rate_hz,
+                  loudness_of(decoded->samples)};
 }
 
 } // namespace
@@ -141,7 +179,7 @@ Loudness loudness_of(std::span<const float> samples) {
     return loudness;
 }
 
-Result<Speech> level_speech(const Recording& recording) {
+Result<std::optional<Speech>> level_speech(const Recording& recording) {
     Result<std::vector<float>> samples =
         resampled(trimmed(recording.samples, recording.rate_hz), recording.rate_hz);
     if (!samples) {
@@ -149,29 +187,23 @@ Result<Speech> level_speech(const Recording& recording) {
     }
     const Loudness before = loudness_of(*samples);
     if (!std::isfinite(before.lufs)) {
-        return bad_input("the recording is silent; record it again, louder");
+        return std::optional<Speech>();
     }
-    double gain_db = std::min(speech_lufs - before.lufs, most_true_peak_db - before.true_peak_db);
-    for (int tries = 1;; ++tries) {
-        Speech speech;
-        Result<Bytes> opus = encoded(scaled(*samples, gain_db));
-        if (!opus) {
-            return tl::unexpected<Error>(opus.error());
+    double most_db = most_true_peak_db;
+    for (int tries = 1; tries <= most_tries; ++tries) {
+        Result<Speech> speech = stored(levelled(*samples, before.lufs, most_db));
+        if (!speech) {
+            return tl::unexpected<Error>(speech.error());
         }
-        const Result<Recording> decoded = read_recording(*opus, RecordingSource::File);
-        if (!decoded) {
-            return tl::unexpected<Error>(decoded.error());
+        // Opus does not keep peaks exactly, and between samples a sound rises above them.
+        const double over_db = speech->loudness.true_peak_db - most_true_peak_db;
+        if (over_db <= 0.0) {
+            return std::optional<Speech>(*std::move(speech));
         }
-        speech.opus = *std::move(opus);
-        speech.seconds = static_cast<double>(decoded->samples.size()) / speech_rate_hz;
-        speech.loudness = loudness_of(decoded->samples);
-        // Opus does not keep peaks exactly.
-        const double over_db = speech.loudness.true_peak_db - most_true_peak_db;
-        if (over_db <= 0.0 || tries == most_tries) {
-            return speech;
-        }
-        gain_db -= over_db + 0.1;
+        most_db -= over_db + 0.1 * tries;
     }
+    return fail(ErrorKind::Internal,
+                fmt::format("the speech cannot be brought below {} dBTP", most_true_peak_db));
 }
 
 } // namespace frustumscreen

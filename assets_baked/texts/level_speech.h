@@ -1,8 +1,9 @@
 /// Makes speech of any recording equally loud, and stores it as Ogg Opus.
 ///
-/// Silence before and after is trimmed, the loudness is brought to -23 LUFS, and lowered where peaks would pass -2 dBTP.
+/// Silence before and after is trimmed, and the loudness is brought to -23 LUFS; peaks that would pass -2 dBTP, such as a knock
+/// beside the microphone, are lowered alone (limit_peaks.h).
 ///
-/// Errors   one sentence: the recording is silent.
+/// Errors   one sentence: a library that fails.
 /// Threads  pure; any.
 /// Library  libebur128 (EBU R 128, ITU-R BS.1770-4), libsamplerate, libsndfile with Opus.
 #pragma once
@@ -11,6 +12,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +35,7 @@ struct Speech {
     double seconds = 0.0;
     Loudness loudness; ///< of what a player decodes
 };
-[[nodiscard]] Result<Speech> level_speech(const Recording& recording);
+/// Nothing if nothing can be heard in the recording.
+[[nodiscard]] Result<std::optional<Speech>> level_speech(const Recording& recording);
 
 } // namespace frustumscreen

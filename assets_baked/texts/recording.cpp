@@ -116,7 +116,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
                                          longest_recording_s));
         }
     }
-    if (recording.samples.empty()) {
+    if (recording.samples.empty() && source == RecordingSource::File) {
         return bad_input("the recording has no sound at all; record it again");
     }
     return recording;

@@ -22,7 +22,8 @@ struct Recording {
     std::vector<float> samples; ///< one channel, full scale is 1; two channels are averaged
 };
 
-/// What the bytes come out of: a file's length must be true; a stream's header is written before its length is known.
+/// What the bytes come out of: a file's length must be true, and it must have sound; a stream's header is written before its length
+/// is known, and a program that had nothing to say writes no more.
 enum class RecordingSource { File, Stream };
 
 [[nodiscard]] Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source);

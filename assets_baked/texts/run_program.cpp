@@ -6,19 +6,19 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
-#include <thread>
+#include <span>
 #include <utility>
-
-extern char** environ;
 
 namespace frustumscreen {
 
@@ -45,7 +45,7 @@ private:
     int number_;
 };
 
-/// A file in memory, which a program can read or write however slowly.
+/// A file in memory, which a program can read however slowly.
 Descriptor memory_file(std::string_view text) {
     Descriptor file(::memfd_create("text", MFD_CLOEXEC));
     std::size_t written = 0;
@@ -58,13 +58,6 @@ Descriptor memory_file(std::string_view text) {
     }
     ::lseek(file.number(), 0, SEEK_SET);
     return file;
-}
-
-std::string first_line_of(const Descriptor& file) {
-    std::array<char, 200> text{};
-    const ssize_t count = ::pread(file.number(), text.data(), text.size(), 0);
-    const std::string_view read(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-    return printable(read.substr(0, read.find('\n')), 160);
 }
 
 /// A program and what it started, which end with this.
@@ -80,17 +73,12 @@ public:
             ::waitpid(process_, &status, 0);
         }
     }
-    /// Its status once it has ended; nothing while it runs on to the deadline.
-    [[nodiscard]] std::optional<int> wait(Clock::time_point deadline) {
-        constexpr std::chrono::milliseconds nap(5);
+    /// Its status once it has ended; nothing while it runs.
+    [[nodiscard]] std::optional<int> status() {
         int status = 0;
-        while (::waitpid(process_, &status, WNOHANG) != process_) {
-            if (Clock::now() > deadline) {
-                return std::nullopt;
-            }
-            std::this_thread::sleep_for(nap);
+        if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) {
+            status_ = status;
         }
-        status_ = status;
         return status_;
     }
 
@@ -99,53 +87,142 @@ private:
     std::optional<int> status_;
 };
 
-/// The process; or an error number.
-tl::expected<pid_t, int> start(const std::vector<std::string>& command, const Descriptor& input,
-                               const Descriptor& output, const Descriptor& complaints) {
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input.number(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files, output.number(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, complaints.number(), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // so that it ends with what it starts
+/// Becomes the program; reports an error number if it cannot. Only calls that are safe after a fork among threads.
+[[noreturn]] void become(char* const* arguments, const std::array<int, 3>& streams, int report) {
+    int number = 0;
+    for (const int stream : streams) {
+        stream == number ? ::fcntl(number, F_SETFD, 0) : ::dup2(stream, number);
+        ++number;
+    }
+    ::execvp(arguments[0], arguments);
+    const int error = errno;
+    [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
+    ::_exit(127);
+}
+
+/// Ends as the program did.
+[[noreturn]] void end_like(int status) {
+    if (WIFSIGNALED(status)) {
+        const rlimit no_dump{0, 0}; // the program has made one, if any is wanted
+        ::setrlimit(RLIMIT_CORE, &no_dump);
+        ::signal(WTERMSIG(status), SIG_DFL);
+        ::kill(::getpid(), WTERMSIG(status));
+    }
+    ::_exit(WEXITSTATUS(status));
+}
+
+/// A process between us and the program, in a group of its own with all that the program starts. When we end, however that
+/// happens, the kernel tells it, and it ends the group.
+[[noreturn]] void guard(char* const* arguments, const std::array<int, 3>& streams, int report, pid_t us) {
+    ::setpgid(0, 0);
+    ::signal(SIGTERM, [](int) { ::kill(0, SIGKILL); });
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != us) {
+        ::_exit(127); // it happened before
+    }
+    const pid_t program = ::fork();
+    if (program == 0) {
+        become(arguments, streams, report);
+    }
+    if (program < 0) {
+        const int error = errno;
+        [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
+        ::_exit(127);
+    }
+    ::close_range(0, ~0U, 0); // or pipes of ours would not end before this process
+    int status = 0;
+    while (::waitpid(program, &status, 0) < 0 && errno == EINTR) {
+    }
+    end_like(status);
+}
+
+struct Pipe {
+    Descriptor out = Descriptor();
+    Descriptor in = Descriptor();
+};
+
+/// Numbers of -1 where there can be none.
+Pipe open_pipe() {
+    std::array<int, 2> ends{-1, -1};
+    return ::pipe2(ends.data(), O_CLOEXEC) == 0 ? Pipe{Descriptor(ends[0]), Descriptor(ends[1])} : Pipe{};
+}
+
+/// The process; or an error number. `streams`: its standard input, output and error. It ends with the thread that calls this.
+tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams) {
     std::vector<std::string> words = command;
     std::vector<char*> arguments;
     for (std::string& word : words) {
         arguments.push_back(word.data());
     }
     arguments.push_back(nullptr);
-    pid_t process = 0;
-    const int error = ::posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    if (error != 0) {
+    Pipe report = open_pipe();
+    const pid_t us = ::getpid();
+    const pid_t process = report.in.number() < 0 ? -1 : ::fork();
+    if (process == 0) {
+        guard(arguments.data(), streams, report.in.number(), us);
+    }
+    if (process < 0) {
+        return tl::unexpected<int>(errno);
+    }
+    ::setpgid(process, process); // here too, so that it has its group before anybody ends it
+    report.in = Descriptor();
+    int error = 0;
+    if (::read(report.out.number(), &error, sizeof(error)) == sizeof(error)) {
+        ::waitpid(process, nullptr, 0);
         return tl::unexpected<int>(error);
     }
     return process;
 }
 
+/// What a program writes.
+struct Heard {
+    Bytes output;
+    std::string complaint; ///< the beginning of what it writes to standard error; the rest is passed over
+};
+
 enum class Ended { Whole, TooLate, TooMuch };
 
-Ended read_all(const Descriptor& from, const ProgramLimits& limits, Clock::time_point deadline,
-               Bytes& output) {
+/// Reads what there is; what has ended is closed.
+std::span<const std::byte> read_some(Descriptor& from, std::span<std::byte> block) {
+    const ssize_t count = ::read(from.number(), block.data(), block.size());
+    if (count <= 0) {
+        from = Descriptor();
+        return {};
+    }
+    return block.first(static_cast<std::size_t>(count));
+}
+
+/// Follows a program until it has ended and said all.
+Ended listen(Running& running, Descriptor& output, Descriptor& complaints, const ProgramLimits& limits,
+             Heard& heard) {
+    constexpr std::size_t most_complaint_bytes = 200;
+    constexpr int nap_ms = 5; // the end of a program wakes nobody
+    const Clock::time_point deadline = Clock::now() + limits.time;
     std::array<std::byte, 65536> block{};
     for (;;) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-        pollfd waited{from.number(), POLLIN, 0};
-        if (left <= 0 || ::poll(&waited, 1, static_cast<int>(left)) == 0) {
+        if (left <= 0) {
             return Ended::TooLate;
         }
-        const ssize_t count = ::read(from.number(), block.data(), block.size());
-        if (count <= 0) {
+        const bool has_said_all = output.number() < 0;
+        const bool has_ended = has_said_all && running.status();
+        std::array<pollfd, 2> waited{{{output.number(), POLLIN, 0}, {complaints.number(), POLLIN, 0}}};
+        ::poll(waited.data(), waited.size(), has_ended ? 0 : has_said_all ? nap_ms : static_cast<int>(left));
+        if (waited[0].revents != 0) {
+            const std::span<const std::byte> read = read_some(output, block);
+            if (heard.output.size() + read.size() > limits.output_bytes) {
+                return Ended::TooMuch;
+            }
+            heard.output.insert(heard.output.end(), read.begin(), read.end());
+        }
+        if (waited[1].revents != 0) {
+            heard.complaint += as_text(read_some(complaints, block));
+            heard.complaint.resize(std::min(heard.complaint.size(), most_complaint_bytes));
+        }
+        if (has_ended && (waited[1].revents == 0 || heard.complaint.size() == most_complaint_bytes)) {
             return Ended::Whole;
         }
-        if (output.size() + static_cast<std::size_t>(count) > limits.output_bytes) {
-            return Ended::TooMuch;
-        }
-        output.insert(output.end(), block.begin(), block.begin() + count);
     }
 }
 
@@ -154,43 +231,41 @@ Ended read_all(const Descriptor& from, const ProgramLimits& limits, Clock::time_
 Result<Bytes> run_program(const std::vector<std::string>& command, std::string_view input,
                           const ProgramLimits& limits) {
     const std::string name = command.empty() ? std::string() : printable(command.front());
-    std::array<int, 2> pipe{-1, -1};
     const Descriptor given = memory_file(input);
-    const Descriptor complaints = memory_file({});
-    if (command.empty() || given.number() < 0 || complaints.number() < 0 ||
-        ::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+    Pipe output = open_pipe();
+    Pipe complaints = open_pipe();
+    if (command.empty() || given.number() < 0 || output.in.number() < 0 || complaints.in.number() < 0) {
         return fail(ErrorKind::Internal,
                     fmt::format("{}: cannot be started: {}", name, std::strerror(errno)));
     }
-    const Descriptor out(pipe[0]);
-    Descriptor in(pipe[1]);
-    const auto process = start(command, given, in, complaints);
+    const auto process = start(command, {given.number(), output.in.number(), complaints.in.number()});
     if (!process) {
         return fail(ErrorKind::BadConfiguration,
                     fmt::format("{}: cannot be started: {}; install it, or name another program", name,
                                 std::strerror(process.error())));
     }
-    in = Descriptor(); // else the pipe would never end
+    output.in = Descriptor(); // else the pipes would never end
+    complaints.in = Descriptor();
     Running running(*process);
-    const Clock::time_point deadline = Clock::now() + limits.time;
-    Bytes output;
-    const Ended ended = read_all(out, limits, deadline, output);
-    const std::optional<int> status = ended == Ended::Whole ? running.wait(deadline) : std::nullopt;
+    Heard heard;
+    const Ended ended = listen(running, output.out, complaints.out, limits, heard);
     if (ended == Ended::TooMuch) {
         return bad_input(fmt::format("{}: writes more than {} bytes for one text; it was ended", name,
                                      limits.output_bytes));
     }
-    if (!status) {
+    if (ended == Ended::TooLate) {
         return bad_input(fmt::format("{}: takes longer than {:g} s for one text; it was ended", name,
                                      std::chrono::duration<double>(limits.time).count()));
     }
-    if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0) {
-        const std::string why = first_line_of(complaints);
-        return bad_input(fmt::format(
-            "{}: ends with {} {}{}{}", name, WIFEXITED(*status) ? "status" : "signal",
-            WIFEXITED(*status) ? WEXITSTATUS(*status) : WTERMSIG(*status), why.empty() ? "" : ": ", why));
+    const int status = running.status().value_or(0);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        const std::string why =
+            printable(std::string_view(heard.complaint).substr(0, heard.complaint.find('\n')), 160);
+        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, WIFEXITED(status) ? "status" : "signal",
+                                     WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
+                                     why.empty() ? "" : ": ", why));
     }
-    return output;
+    return std::move(heard.output);
 }
 
 } // namespace frustumscreen

@@ -1,7 +1,7 @@
 /// Runs a program of somebody else on a text, bounded in time and output.
 ///
 /// Errors   one sentence: it cannot be started, takes too long, writes too much, ends with an error (with the first line that it
-///          wrote about it). It and what it started are then ended.
+///          wrote about it). It and what it started are then ended, and also when we end before, even by SIGKILL.
 /// Threads  any; waits for the program.
 #pragma once
 

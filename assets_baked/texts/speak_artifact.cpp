@@ -1,5 +1,6 @@
 #include "assets_baked/texts/speak_artifact.h"
 
+#include "app/pack/text_portions.h"
 #include "assets_baked/texts/recorded_speech.h"
 #include "firmware_host/base/parallel.h"
 #include "firmware_host/base/printable.h"
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace frustumscreen {
@@ -15,12 +17,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr const char* key = "description";
-
-/// What became of one description.
-struct Spoken {
-    std::optional<Speech> speech;
-    std::string why_silent;
-};
 
 std::optional<std::filesystem::path> recording_of(const std::string& language, const SpeechSources& sources) {
     const auto named = sources.recordings.find(language);
@@ -40,9 +36,25 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
     if (std::optional<std::string> why = sources.voice->why_silent(caption.description, caption.language)) {
         return Spoken{std::nullopt, *std::move(why)};
     }
-    Result<Speech> speech = sources.voice->speak(caption.description, caption.language);
-    return speech ? Result<Spoken>(Spoken{*std::move(speech), {}})
-                  : at(fmt::format("the description in '{}'", caption.language), speech.error());
+    Result<Spoken> spoken = sources.voice->speak(caption.description, caption.language);
+    return spoken ? std::move(spoken)
+                  : at(fmt::format("the description in '{}'", caption.language), spoken.error());
+}
+
+/// A sentence where recording and description are of so different lengths that one of them must be another text's.
+std::optional<std::string> length_note(const PackCaption& caption, const std::filesystem::path& file,
+                                       double seconds) {
+    constexpr double least_share = 0.4;
+    constexpr double most_share = 3.0;
+    const double words_s = reading_time_s(caption.description);
+    const double brief_s = 3.0; // a breath more or less
+    if (seconds >= least_share * words_s && seconds <= most_share * words_s + brief_s) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: it lasts {:.0f} s, and to speak the description in '{}' takes about {:.0f} s; see "
+        "whether both are of the same text",
+        printable(file.string(), 300), seconds, caption.language, words_s);
 }
 
 /// A sentence for each reason, with the languages that have it.
@@ -72,18 +84,22 @@ private:
 
 Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, const SpeechSources& sources) {
     std::vector<Result<Spoken>> all(captions.size(), Spoken());
+    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
     parallel_for(captions.size(), 1, [&](std::size_t k, std::size_t) {
-        if (!captions[k].description.empty()) {
+        if (!captions[k].description.empty() && !failed) {
             all[k] = speak(captions[k], sources);
+            failed = failed || !all[k];
         }
     });
     SpokenArtifact spoken;
     Silences silences;
+    RecordingNames names;
     for (std::size_t k = 0; k < captions.size(); ++k) {
         const std::string& language = captions[k].language;
         if (!all[k]) {
             return tl::unexpected<Error>(all[k].error());
         }
+        names[fmt::format("{}/{}", language, key)] = recording_of(language, sources);
         if (captions[k].description.empty()) {
             if (const auto file = recording_of(language, sources)) {
                 spoken.notes.push_back(
@@ -92,12 +108,19 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
                                 printable(file->string(), 300), language));
             }
         } else if (all[k]->speech) {
+            const auto file = recording_of(language, sources);
+            if (const auto note =
+                    file ? length_note(captions[k], *file, all[k]->speech->seconds) : std::nullopt) {
+                spoken.notes.push_back(*note);
+            }
             spoken.languages.push_back({language, {{key, std::move(all[k]->speech->opus)}}});
         } else {
             silences.add(all[k]->why_silent, language);
         }
     }
     spoken.silent = silences.sentences();
+    const std::vector<std::string> unused = unused_recordings(sources.folder, names, sources.left_out);
+    spoken.notes.insert(spoken.notes.end(), unused.begin(), unused.end());
     return spoken;
 }
 

@@ -23,13 +23,15 @@ namespace frustumscreen {
 struct SpeechSources {
     std::map<std::string, std::filesystem::path> recordings; ///< by language, as named
     std::filesystem::path folder;                            ///< empty: none
+    std::vector<std::string>
+        left_out;               ///< languages that are not baked on purpose: their recordings may lie there
     std::optional<Voice> voice; ///< nothing: descriptions without a recording are silent
 };
 
 struct SpokenArtifact {
     std::vector<SpokenLanguage> languages;
     std::vector<std::string> silent; ///< which descriptions, and why, a sentence for each reason
-    std::vector<std::string> notes;  ///< which recordings are left out, a sentence each
+    std::vector<std::string> notes; ///< which recordings nobody hears, or fit no description, a sentence each
 };
 
 [[nodiscard]] Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions,

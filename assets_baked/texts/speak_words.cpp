@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <map>
 
 namespace frustumscreen {
@@ -32,42 +33,43 @@ private:
     std::map<std::string, std::optional<std::string>> why_silent_;
 };
 
-/// A recording, else what the voice says; nothing if neither can.
-Result<std::optional<Speech>> speech_of(const PlainWord& word, const LanguageWords& words,
-                                        const SpeakOptions& options, const VoiceCheck& check) {
+/// A recording, else what the voice says.
+Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const SpeakOptions& options,
+                     const VoiceCheck& check) {
     if (const auto file = find_recording(options.recordings, words.language, word.key)) {
         Result<Speech> recorded = read_speech(*file);
-        return recorded ? Result<std::optional<Speech>>(*std::move(recorded))
+        return recorded ? Result<Spoken>(Spoken{*std::move(recorded), {}})
                         : tl::unexpected<Error>(recorded.error());
     }
-    if (!options.voice || check.why_silent(word.language)) {
-        return std::optional<Speech>();
+    if (const std::optional<std::string>& why = check.why_silent(word.language)) {
+        return Spoken{std::nullopt, *why};
     }
-    Result<Speech> spoken = options.voice->speak(word.text, word.language);
-    if (!spoken) {
-        return at(fmt::format("{}: {}", words.language, word.key), spoken.error());
-    }
-    return std::optional<Speech>(*std::move(spoken));
+    Result<Spoken> spoken = options.voice->speak(word.text, word.language);
+    return spoken ? std::move(spoken) : at(fmt::format("{}: {}", words.language, word.key), spoken.error());
 }
 
 /// Speaks one language; returns why some of its words are silent, or nothing.
 Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options) {
     const VoiceCheck check(options.voice, words);
-    std::vector<Result<std::optional<Speech>>> speeches(words.words.size(), std::optional<Speech>());
+    std::vector<Result<Spoken>> all(words.words.size(), Spoken());
+    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
     parallel_for(words.words.size(), 1, [&](std::size_t k, std::size_t) {
-        speeches[k] = speech_of(words.words[k], words, options, check);
+        if (!failed) {
+            all[k] = speak(words.words[k], words, options, check);
+            failed = failed || !all[k];
+        }
     });
     std::size_t silent = 0;
     std::string why;
-    for (std::size_t k = 0; k < speeches.size(); ++k) {
-        if (!speeches[k]) {
-            return tl::unexpected<Error>(speeches[k].error());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!all[k]) {
+            return tl::unexpected<Error>(all[k].error());
         }
-        if (*speeches[k]) {
-            words.sounds.insert_or_assign(words.words[k].key, std::move((*speeches[k])->opus));
+        if (all[k]->speech) {
+            words.sounds.insert_or_assign(words.words[k].key, std::move(all[k]->speech->opus));
         } else {
             ++silent;
-            why = check.why_silent(words.words[k].language).value_or("");
+            why = all[k]->why_silent;
         }
     }
     return silent == 0 ? std::string()

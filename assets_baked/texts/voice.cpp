@@ -1,9 +1,11 @@
 #include "assets_baked/texts/voice.h"
 
 #include "assets_baked/texts/check_text.h"
+#include "assets_baked/texts/fonts.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+#include <pango/pango.h>
 
 #include <algorithm>
 #include <sstream>
@@ -22,21 +24,66 @@ std::string espeak_voice(const std::string& language) {
     return begins_with_subtag(language, "zh") ? "cmn-latn-pinyin" : language;
 }
 
-bool has_letter(std::string_view text, char32_t first, char32_t last) {
-    while (!text.empty()) {
-        const std::size_t bytes = std::max<std::size_t>(character_bytes(text), 1);
-        const char32_t code = code_point_of(text);
-        if (code >= first && code <= last) {
-            return true;
-        }
-        text.remove_prefix(bytes);
-    }
-    return false;
+/// Of the scripts that espeak-ng has voices for, those from right to left are written in consonants; the vowels are marks, which
+/// texts leave out or have in part.
+bool lacks_vowels(std::string_view language) {
+    return direction_of(language) == TextDirection::RightToLeft;
 }
 
-/// Hebrew and Arabic letters are consonants; the vowels are marks, which texts leave out or have in part.
-bool lacks_vowels(std::string_view text) {
-    return has_letter(text, 0x05D0, 0x05EA) || has_letter(text, 0x0621, 0x064A);
+/// Letters that the voice of `language` has a sound for. Voices of other scripts read Latin words as English ones.
+bool is_read(char32_t letter, const std::string& language) {
+    const auto script = static_cast<PangoScript>(g_unichar_get_script(letter));
+    if (script == PANGO_SCRIPT_HAN) {
+        return begins_with_subtag(language, "zh") || begins_with_subtag(language, "yue");
+    }
+    return script == PANGO_SCRIPT_LATIN ||
+           pango_language_includes_script(pango_language_from_string(language.c_str()), script) != 0;
+}
+
+/// The first letters of `text` in a row that the voice cannot read; empty if it can read all. A Greek letter alone is a sign, and
+/// has a name in every language.
+std::string unread_word(std::string_view text, const std::string& language) {
+    const auto is_sign = [](std::string_view word) {
+        const char32_t letter = code_point_of(word);
+        return word.size() == character_bytes(word) && letter >= 0x0391 && letter <= 0x03C9;
+    };
+    std::string word;
+    for (; !text.empty(); text.remove_prefix(std::max<std::size_t>(character_bytes(text), 1))) {
+        const char32_t letter = code_point_of(text);
+        const bool belongs = g_unichar_isalpha(letter) || (g_unichar_ismark(letter) && !word.empty());
+        if (belongs && !is_read(letter, language)) {
+            word += text.substr(0, character_bytes(text));
+        } else if (!word.empty() && (!belongs || !g_unichar_ismark(letter))) {
+            if (!is_sign(word)) {
+                return word;
+            }
+            word.clear();
+        }
+    }
+    return is_sign(word) ? std::string() : word;
+}
+
+/// Whether more than half of the sounds are those of other voices. espeak-ng writes a voice's name in brackets where it goes over
+/// to that one, and ends with its own.
+bool is_mostly_foreign(std::string_view sounds) {
+    const std::size_t last = sounds.rfind('(');
+    if (last == std::string_view::npos) {
+        return false;
+    }
+    const std::string_view own = sounds.substr(last, sounds.find(')', last) - last);
+    std::size_t foreign = 0;
+    std::size_t all = 0;
+    bool is_foreign = false;
+    for (std::size_t at = 0; at < sounds.size(); ++at) {
+        if (sounds[at] == '(') {
+            is_foreign = !sounds.substr(at).starts_with(own);
+            at = std::min(sounds.find(')', at), sounds.size());
+        } else if (sounds[at] != ' ' && sounds[at] != '\n') {
+            ++all;
+            foreign += is_foreign ? 1 : 0;
+        }
+    }
+    return 2 * foreign > all;
 }
 
 } // namespace
@@ -67,37 +114,46 @@ std::optional<std::string> Voice::why_silent(std::string_view text, const std::s
     if (!program_.empty()) {
         return std::nullopt;
     }
-    if (lacks_vowels(text)) {
+    if (lacks_vowels(language)) {
         return fmt::format("the language '{}' is written without its vowels, which espeak-ng cannot guess",
                            language);
+    }
+    if (const std::string word = unread_word(text, language); !word.empty()) {
+        return fmt::format("espeak-ng cannot read '{}' in the language '{}'; write it in that language's "
+                           "letters, or give a recording or another voice",
+                           printable(word, 60), language);
     }
     const Result<Bytes> sounds =
         run_program({"espeak-ng", "-q", "-x", "--stdin", "-v", espeak_voice(language)}, text, limits_);
     if (!sounds) {
         return fmt::format("the language '{}' has no voice: {}", language, sounds.error().message);
     }
-    // espeak-ng writes the language in brackets where it helps itself with another one.
-    if (as_text(*sounds).find('(') != std::string_view::npos) {
-        return fmt::format("espeak-ng cannot read all letters of the language '{}'", language);
+    if (is_mostly_foreign(as_text(*sounds))) {
+        return fmt::format("espeak-ng reads most of the text as another language than '{}'; give a recording "
+                           "or another voice",
+                           language);
     }
     return std::nullopt;
 }
 
-Result<Speech> Voice::speak(std::string_view text, const std::string& language) const {
+Result<Spoken> Voice::speak(std::string_view text, const std::string& language) const {
     const std::vector<std::string> command = command_for(language);
     const Result<Bytes> wav = run_program(command, text, limits_);
     if (!wav) {
         return tl::unexpected<Error>(wav.error());
     }
+    const std::string place = fmt::format("{} on '{}'", printable(command.front()), printable(text, 40));
     const Result<Recording> recording = read_recording(*wav, RecordingSource::Stream);
     if (!recording) {
-        return at(fmt::format("{} on '{}'", printable(command.front()), printable(text, 40)),
-                  recording.error());
+        return at(place, recording.error());
     }
-    Result<Speech> speech = level_speech(*recording);
-    return speech ? std::move(speech)
-                  : at(fmt::format("{} on '{}'", printable(command.front()), printable(text, 40)),
-                       speech.error());
+    Result<std::optional<Speech>> speech = level_speech(*recording);
+    if (!speech) {
+        return at(place, speech.error());
+    }
+    return *speech ? Spoken{*std::move(speech), {}}
+                   : Spoken{std::nullopt, fmt::format("{} finds nothing to speak in '{}'",
+                                                      printable(command.front()), printable(text, 40))};
 }
 
 } // namespace frustumscreen

@@ -1,8 +1,9 @@
 /// Who speaks a text: a recording of the museum's, else a program that takes text on its standard input and writes WAV to its
 /// standard output.
 ///
-/// Without another program espeak-ng speaks, where it knows all sounds: not what it would spell (Japanese kanji), and not
-/// scripts that leave vowels out (Hebrew, Arabic).
+/// Without another program espeak-ng speaks, where it knows the sounds: not letters that it would spell (Japanese kanji, Cyrillic
+/// in an English text), and not languages that leave vowels out (Hebrew, Arabic). Single words of another language it may read
+/// as that language.
 ///
 /// Errors   one sentence: the program cannot be started, hangs, fails, or writes no recording.
 /// Threads  any; waits for the program.
@@ -19,6 +20,12 @@
 
 namespace frustumscreen {
 
+/// What became of a text.
+struct Spoken {
+    std::optional<Speech> speech;
+    std::string why_silent; ///< where there is no speech
+};
+
 class Voice {
 public:
     /// espeak-ng.
@@ -29,7 +36,8 @@ public:
     /// Why this voice cannot speak `text`, a sentence; nothing if it can.
     [[nodiscard]] std::optional<std::string> why_silent(std::string_view text,
                                                         const std::string& language) const;
-    [[nodiscard]] Result<Speech> speak(std::string_view text, const std::string& language) const;
+    /// A voice that says nothing had nothing to speak; that is no error.
+    [[nodiscard]] Result<Spoken> speak(std::string_view text, const std::string& language) const;
 
 private:
     [[nodiscard]] std::vector<std::string> command_for(const std::string& language) const;

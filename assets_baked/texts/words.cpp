@@ -4,7 +4,9 @@
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/check_text.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,23 +63,6 @@ constexpr auto keys = std::to_array<std::string_view>({
     "fault.no_tracker",
     "fault.repairing",
 });
-
-/// Letters that must be put in, left out or changed to make one word of the other (Levenshtein 1966).
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t k = 0; k < row.size(); ++k) {
-        row[k] = k;
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t k = 0; k < b.size(); ++k) {
-            const std::size_t change = diagonal + (a[i] == b[k] ? 0 : 1);
-            diagonal = row[k + 1];
-            row[k + 1] = std::min({change, row[k] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 std::string_view nearest_key(std::string_view found) {
     const std::string_view part = found.substr(0, most_word_bytes);
@@ -214,6 +199,9 @@ Result<WrittenWords> parse_words(std::string_view toml, const std::string& file)
     if (toml.size() > most_file_bytes || std::count(toml.begin(), toml.end(), '.') > most_dots) {
         return bad_input(fmt::format("{}: has {} bytes; allowed are {}, with {} dots", file, toml.size(),
                                      most_file_bytes, most_dots));
+    }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(toml)) {
+        return bad_input(fmt::format("{}:{}: is not UTF-8; save the file as UTF-8", file, *line));
     }
     try {
         const toml::table root = toml::parse(toml);

@@ -58,8 +58,8 @@ TEST(Hotspots, too_far_from_the_surface_are_refused_with_the_nearest_point) {
     ASSERT_FALSE(far);
     EXPECT_EQ(
         far.error().message,
-        "hotspots[0].point is [16.2, -3, 100], which is 0.06 of the artifact's size away from its surface, "
-        "allowed are 0.05; the nearest point of it is [15, -3, 100]");
+        "hotspots[0].point is [16.2, -3, 100], which is 6.0 % of the artifact's size away from its surface; "
+        "allowed are 5 % of that size; the nearest point of it is [15, -3, 100]");
     EXPECT_FALSE(ball.put({5.0, -3.0, 100.0})) << "the middle";
     EXPECT_FALSE(ball.put({1e9, 1e9, -1e9}));
 }

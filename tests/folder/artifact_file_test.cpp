@@ -90,6 +90,31 @@ TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
               "vase/artifact.toml: scan is missing; name the file of the scan in this folder");
 }
 
+TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
+    const Result<ArtifactFile> read =
+        parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'en'\ntitle = '  '\n"
+                            "text = \"\"\"\n\n A jug. \u3000\n\"\"\"\n"
+                            "description = \" \u00a0 \"",
+                            "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texts[0].title, "");
+    EXPECT_EQ(read->texts[0].text, "A jug.");
+    EXPECT_EQ(read->texts[0].description, "");
+}
+
+TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
+    const Result<ArtifactFile> read =
+        parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'EN'\n[[texts]]\nlanguage = 'zh-HANT-tw'\n"
+                            "description = 'x'\nrecording = 'a.wav'\n"
+                            "[[hotspots]]\npoint = [0, 0, 0]\nlabels = { eN = 'x', ZH-hant-TW = 'y' }",
+                            "artifact.toml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texts[0].language, "en");
+    EXPECT_EQ(read->texts[1].language, "zh-Hant-TW");
+    EXPECT_TRUE(read->recordings.contains("zh-Hant-TW"));
+    EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
+}
+
 TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
     const std::string scan = "scan = \"a.stl\"\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
@@ -126,6 +151,12 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = 5 }", ":4: hotspots[0].labels.en is 5"},
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { xx = \"x\" }", ":4: hotspots[0].labels is for \"xx\""},
         {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"\" }", ":4: hotspots[0].labels in en is empty"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \" \u00a0\" }",
+         ":4: hotspots[0].labels in en is empty"},
+        {"[[texts]]\nlanguage = \"en\"\n[[texts]]\nlanguage = \"EN\"",
+         ":5: texts[1].language is \"en\" a second time"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = { en = \"x\", EN = \"y\" }",
+         ":4: hotspots[0].labels has \"en\" twice"},
         {"texture = \"/etc/passwd\"",
          ":2: texture is \"/etc/passwd\"; allowed is the name of a file in this folder"},
         {"texture = \"a/../../b\"", ":2: texture is \"a/../../b\""},
@@ -135,8 +166,17 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
          ":4: texts[0].recording has no description beside it"},
         {"hotspots = 5", ":2: hotspots is 5"},
         {"[[texts]]\nlanguage = \"en\"\ntext = \"not closed", "is not TOML"},
-        {"title = \"\xED\xA0\x80\"", "is not TOML"},
-        {std::string(1, '\0'), "is not TOML"}};
+        {"[texts]\nlanguage = \"en\"",
+         ":2: [texts] has one bracket too few on each side; write [[texts]], once for each language"},
+        {"[hotspots]\npoint = [0, 0, 0]", ":2: [hotspots] has one bracket too few"},
+        {"title = \"Jug\"", ":2: title belongs below a line [[texts]]"},
+        {"titel = \"Jug\"",
+         ":2: titel is not a known key; the nearest one, title, belongs below a line [[texts]]"},
+        {"turn_deg = 3\ntitle = \"Jug\"", ":2: turn_deg belongs below a line [placement]"},
+        {"labels = { en = \"x\" }", ":2: labels belongs below a line [[hotspots]]"},
+        {"# caf\xE9", ":2: is not UTF-8; save the file as UTF-8"},
+        {"title = \"\xED\xA0\x80\"", ":2: is not UTF-8; save the file as UTF-8"},
+        {std::string("s\0c\0", 4), ":2: is not UTF-8; save the file as UTF-8"}};
     for (const auto& [text, words] : wrong) {
         const std::string message = refusal(scan + text);
         EXPECT_EQ(message.find("vase/artifact.toml:"), 0U) << message;

@@ -228,6 +228,7 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
         {"--caption 'en=A cat.' --caption 'en=A dog.'",
          "--caption 'en=A dog.': there is a caption in en already; write one for each language"},
         {"--language en --language de --language en", "--language 'en': it is named already"},
+        {"--language en --language EN", "--language 'EN': it is named already"},
         {"--language english",
          "--language 'english': there is no such language; allowed are language tags such as"},
         {"--language xx", "--language 'xx': there is no such language"},
@@ -241,7 +242,7 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
         EXPECT_FALSE(fs::exists(folder / "scan.fspack"));
     }
     ASSERT_EQ(
-        bake_to("scan.fspack", "--title Cat --language en --language de --caption 'de=Eine Katze=Kater.'"), 0)
+        bake_to("scan.fspack", "--title Cat --language en --language DE --caption 'de=Eine Katze=Kater.'"), 0)
         << text("err.txt");
     const auto pack = load_pack(folder / "scan.fspack");
     ASSERT_TRUE(pack);

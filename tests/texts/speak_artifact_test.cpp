@@ -48,7 +48,26 @@ TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_
         EXPECT_NEAR(seconds_of(spoken->languages[k].sounds.at("description")), expected, 0.3) << k;
     }
     EXPECT_TRUE(spoken->silent.empty());
-    EXPECT_TRUE(spoken->notes.empty());
+    ASSERT_EQ(spoken->notes.size(), 1U);
+    EXPECT_NE(spoken->notes[0].find("en/description.wav: nobody hears this recording"), std::string::npos);
+    EXPECT_TRUE(spoken->notes[0].ends_with("mine.wav goes before it")) << spoken->notes[0];
+}
+
+TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_recording_is_refused) {
+    ASSERT_TRUE(write_file(folder / "silence.wav", wav16(std::vector<double>(9600, 0.0))));
+    SpeechSources sources;
+    sources.voice = Voice("cat " + (folder / "silence.wav").string());
+    const std::vector captions{caption("en", "***")};
+    const Result<SpokenArtifact> spoken = speak_artifact(captions, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    EXPECT_EQ(spoken->silent,
+              (std::vector<std::string>{"the description in 'en' is silent, and shown all the same: cat "
+                                        "finds nothing to speak in '***'"}));
+    sources.recordings = {{"en", folder / "silence.wav"}};
+    const Result<SpokenArtifact> refused = speak_artifact(captions, sources);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(
+        refused.error().message.ends_with("silence.wav: the recording is silent; record it again, louder"));
 }
 
 TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
@@ -68,6 +87,54 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
     EXPECT_NE(spoken->notes.front().find("de/description.wav: nobody can read what is spoken here"),
               std::string::npos)
         << spoken->notes.front();
+}
+
+TEST_F(SpeakArtifact, a_recording_that_is_much_too_short_or_long_for_its_words_is_told) {
+    SpeechSources sources;
+    sources.folder = folder / "recordings";
+    tone("recordings/en/description.wav", 1.0);
+    tone("recordings/de/description.wav", 12.0);
+    tone("recordings/fr/description.wav", 12.0);
+    const Result<SpokenArtifact> spoken =
+        speak_artifact(std::vector{caption("en", std::string(1200, 'x')), caption("de", "Ein Krug."),
+                                   caption("fr", std::string(90, 'x'))},
+                       sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    EXPECT_EQ(spoken->languages.size(), 3U) << "they are spoken all the same";
+    ASSERT_EQ(spoken->notes.size(), 2U);
+    EXPECT_TRUE(spoken->notes[0].ends_with(
+        "en/description.wav: it lasts 1 s, and to speak the description in 'en' takes "
+        "about 80 s; see whether both are of the same text"))
+        << spoken->notes[0];
+    EXPECT_TRUE(spoken->notes[1].ends_with(
+        "de/description.wav: it lasts 12 s, and to speak the description in 'de' takes "
+        "about 1 s; see whether both are of the same text"))
+        << spoken->notes[1];
+}
+
+TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_name) {
+    SpeechSources sources;
+    sources.folder = folder / "recordings";
+    sources.left_out = {"it"};
+    for (const char* file :
+         {"de/descripton.wav", "en/description.wav", "en/description.flac", "en/description.mp3",
+          "fr/description.opus", "it/description.wav", "description.wav", "en/notes.txt"}) {
+        tone(std::string("recordings/") + file, 1.0);
+    }
+    const Result<SpokenArtifact> spoken = speak_artifact(
+        std::vector{caption("en", "A jug as any other."), caption("de", "Ein Krug.")}, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    std::vector<std::string> told;
+    for (const std::string& note : spoken->notes) {
+        told.push_back(note.substr(sources.folder.string().size() + 1));
+    }
+    const std::string nobody = ": nobody hears this recording: ";
+    const std::string unknown = nobody + "no text has this name; the nearest name of a text is ";
+    const std::string second = nobody + sources.folder.string() + "/en/description.wav goes before it";
+    EXPECT_EQ(told, (std::vector<std::string>{"de/descripton.wav" + unknown + "de/description.wav",
+                                              "description.wav" + unknown + "de/description.wav",
+                                              "en/description.flac" + second, "en/description.mp3" + second,
+                                              "fr/description.opus" + unknown + "de/description.opus"}));
 }
 
 TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {

@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 using namespace frustumscreen;
 using namespace frustumscreen::testing;
@@ -35,8 +38,8 @@ protected:
         return file.string();
     }
     [[nodiscard]] std::string refusal(const std::string& commands, ProgramLimits limits = {}) const {
-        const Result<Speech> speech = Voice(program(commands), limits).speak("A text.", "en");
-        return speech ? std::string() : speech.error().message;
+        const Result<Spoken> spoken = Voice(program(commands), limits).speak("A text.", "en");
+        return spoken ? spoken->why_silent : spoken.error().message;
     }
     [[nodiscard]] std::string text(const std::string& file) const {
         const Result<Bytes> bytes = read_file(folder / file);
@@ -59,16 +62,16 @@ bool has_espeak() {
 TEST_F(Voices, a_program_gets_the_text_and_the_language_and_its_wav_becomes_speech) {
     const Voice voice(program("cat >heard.txt; echo \"$1 $2\" >arguments.txt; cat good.wav") +
                       " --voice {language}");
-    const Result<Speech> speech = voice.speak("Größe: 回", "de-CH");
-    ASSERT_TRUE(speech) << speech.error().message;
+    const Result<Spoken> spoken = voice.speak("Größe: 回", "de-CH");
+    ASSERT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
     EXPECT_EQ(text("heard.txt"), "Größe: 回");
     EXPECT_EQ(text("arguments.txt"), "--voice de-CH\n");
-    EXPECT_NEAR(speech->seconds, 0.5, 0.2);
+    EXPECT_NEAR(spoken->speech->seconds, 0.5, 0.2);
 }
 
 TEST_F(Voices, a_program_need_not_read_its_text) {
-    const Result<Speech> speech = Voice(program("cat good.wav")).speak(std::string(90000, 'a'), "en");
-    EXPECT_TRUE(speech) << speech.error().message;
+    const Result<Spoken> spoken = Voice(program("cat good.wav")).speak(std::string(90000, 'a'), "en");
+    EXPECT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
 }
 
 TEST_F(Voices, one_that_hangs_is_ended) {
@@ -101,18 +104,30 @@ TEST_F(Voices, one_that_writes_without_end_is_ended) {
                          "writes more than 100000 bytes for one text; it was ended"));
 }
 
-TEST_F(Voices, rubbish_nothing_and_silence_are_refused) {
+TEST_F(Voices, what_one_complains_of_without_end_is_kept_nowhere) {
+    const std::string complaints = "echo 'no such voice' >&2; head -c 20000000 /dev/zero >&2; ";
+    EXPECT_TRUE(contains(refusal(complaints + "stat -L -c %s /proc/self/fd/2 >size.txt; exit 3"),
+                         "voice.sh: ends with status 3: no such voice"));
+    EXPECT_LT(std::stol(text("size.txt")), 1000000);
+    EXPECT_EQ(refusal(complaints + "cat good.wav"), "");
+    EXPECT_TRUE(contains(refusal("exec >&-; cat /dev/zero >&2", {300ms, 1000}), "takes longer than 0.3 s"));
+    EXPECT_TRUE(contains(refusal("exec >&-; head -c 20000000 /dev/zero >&2; exit 4"), "ends with status 4"));
+}
+
+TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
     EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this is no recording that can be read"));
     EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this is no recording that can be read"));
     ASSERT_TRUE(write_file(folder / "silent.wav", wav16(std::vector<double>(9600, 0.0))));
-    EXPECT_TRUE(contains(refusal("cat silent.wav"), "on 'A text.': the recording is silent"));
+    EXPECT_TRUE(contains(refusal("cat silent.wav"), "voice.sh finds nothing to speak in 'A text.'"));
+    ASSERT_TRUE(write_file(folder / "empty.wav", wav({}, {})));
+    EXPECT_TRUE(contains(refusal("cat empty.wav"), "voice.sh finds nothing to speak in 'A text.'"));
 }
 
 TEST_F(Voices, one_that_fails_is_quoted) {
     const std::string message = refusal("echo 'no such voice' >&2; exit 3");
     EXPECT_TRUE(contains(message, "voice.sh: ends with status 3: no such voice")) << message;
     EXPECT_TRUE(contains(refusal("kill -SEGV $$"), "ends with signal 11"));
-    const Result<Speech> missing = Voice("/nowhere/voice").speak("A text.", "en");
+    const Result<Spoken> missing = Voice("/nowhere/voice").speak("A text.", "en");
     ASSERT_FALSE(missing);
     EXPECT_EQ(
         missing.error().message,
@@ -133,6 +148,19 @@ TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_sil
     EXPECT_EQ(
         silent->front(),
         "1 of 2 words in 'de' are silent, and shown all the same: there are no recordings and no voice");
+}
+
+TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
+    const Voice voice(program("echo word >>tried.txt; exit 1"));
+    std::vector<LanguageWords> languages(1);
+    languages[0].language = "de";
+    for (int k = 0; k < 500; ++k) {
+        languages[0].words.push_back({"help", "Hilfe", "de"});
+    }
+    EXPECT_FALSE(speak_words(languages, {{}, voice, {}}));
+    const std::string tried = text("tried.txt");
+    EXPECT_LE(static_cast<unsigned>(std::count(tried.begin(), tried.end(), '\n')),
+              2 * std::thread::hardware_concurrency() + 2);
 }
 
 TEST_F(Voices, a_bad_recording_is_named) {
@@ -169,14 +197,50 @@ TEST(Espeak, it_speaks_what_it_knows_all_sounds_of) {
     EXPECT_TRUE(espeak.why_silent("text", "tlh-XX-none")) << "there is no such voice";
 }
 
+TEST(Espeak, foreign_words_are_spoken_where_it_can_read_them_and_named_where_not) {
+    if (!has_espeak()) {
+        GTEST_SKIP() << "espeak-ng is not installed";
+    }
+    const Voice espeak;
+    const std::vector<std::pair<std::string, std::string>> read{
+        {"de", "Das Team hat den Würfel gefunden."},
+        {"fr", "Le design de la coupe rappelle les vacances d’un week-end au bord de la mer."},
+        {"el", "Το museum είναι εδώ και περιμένει τους επισκέπτες."},
+        {"el", "Ὁ Ἀχιλλεύς."},
+        {"hi", "यह museum बहुत पुराना है और नदी के किनारे है।"},
+        {"zh", "这是museum。"},
+        {"sr", "Музеј је овде, muzej."},
+        {"en", "The α-helix, 5 µm, 2 × 3 Ω."},
+        {"en", "Łódź, café, fac\u0327ade"}};
+    for (const auto& [language, text] : read) {
+        EXPECT_FALSE(espeak.why_silent(text, language)) << text << espeak.why_silent(text, language).value();
+    }
+    const std::vector<std::array<std::string, 3>> unread{{"en", "A cup called كأس from Cairo.", "كأس"},
+                                                         {"en", "The μῆνιν of old", "μῆνιν"},
+                                                         {"en", "Called Ἀχιλλεύς", "Ἀχιλλεύς"},
+                                                         {"de", "Der Буква-Laut", "Буква"},
+                                                         {"ja", "これは白い箱です。", "白"},
+                                                         {"ko", "漢字 상자", "漢字"}};
+    for (const auto& [language, text, word] : unread) {
+        EXPECT_EQ(espeak.why_silent(text, language),
+                  "espeak-ng cannot read '" + word + "' in the language '" + language +
+                      "'; write it in that language's letters, or give a recording or another voice");
+    }
+    EXPECT_EQ(
+        espeak.why_silent("design design", "hi"),
+        "espeak-ng reads most of the text as another language than 'hi'; give a recording or another voice");
+    EXPECT_EQ(espeak.why_silent("text", "fa"),
+              "the language 'fa' is written without its vowels, which espeak-ng cannot guess");
+}
+
 TEST(Espeak, a_sentence_comes_out_as_speech) {
     if (!has_espeak()) {
         GTEST_SKIP() << "espeak-ng is not installed";
     }
-    const Result<Speech> speech = Voice().speak("Well done! Now you see all of it.", "en");
-    ASSERT_TRUE(speech) << speech.error().message;
-    EXPECT_GT(speech->seconds, 1.0);
-    EXPECT_LT(speech->seconds, 5.0);
-    EXPECT_LE(speech->loudness.true_peak_db, -2.0);
-    EXPECT_LT(speech->opus.size(), 40000U);
+    const Result<Spoken> spoken = Voice().speak("Well done! Now you see all of it.", "en");
+    ASSERT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
+    EXPECT_GT(spoken->speech->seconds, 1.0);
+    EXPECT_LT(spoken->speech->seconds, 5.0);
+    EXPECT_LE(spoken->speech->loudness.true_peak_db, -2.0);
+    EXPECT_LT(spoken->speech->opus.size(), 40000U);
 }

@@ -1,10 +1,14 @@
 // frustumscreen-bake --words, as a person runs it.
 #include "app/pack/words_file.h"
 #include "assets_baked/texts/fonts.h"
+#include "assets_baked/texts/words.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
+#include <unistd.h>
+
 #include <fstream>
+#include <sstream>
 
 using namespace frustumscreen;
 using namespace frustumscreen::testing;
@@ -20,6 +24,19 @@ protected:
         if (const Result<void> there = fonts->check("de"); !there) {
             GTEST_SKIP() << there.error().message;
         }
+    }
+    /// Until somebody collects it, an ended process may stay in the table as a zombie.
+    [[nodiscard]] static bool ends(int process) {
+        for (int tries = 0; tries < 1000; ++tries) {
+            std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+            std::string words;
+            std::getline(stat, words);
+            if (words.empty() || words.find(") Z ") != std::string::npos) {
+                return true;
+            }
+            ::usleep(10000);
+        }
+        return false;
     }
     [[nodiscard]] Result<LanguageWords> baked(const std::string& language) const {
         const Result<Bytes> bytes = read_file(folder / "out.fswords");
@@ -68,6 +85,89 @@ TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
 }
 
+TEST_F(WordsCommand, the_folder_may_stand_behind_an_equals_sign_and_its_files_are_utf8) {
+    std::filesystem::create_directories(folder / "mine");
+    std::ofstream(folder / "mine" / "de.toml") << "# Latin-1\nhelp = \"Hilfe f\xfcr dich\"\n";
+    EXPECT_EQ(run("frustumscreen-bake --words=mine --languages de -o out.fswords --speech none"), 1);
+    EXPECT_EQ(text("err.txt"), "frustumscreen-bake: mine/de.toml:2: is not UTF-8; save the file as UTF-8\n");
+}
+
+TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
+    for (const char* file : {"de/advice.lift.wav", "de/help.wav", "fr/help.wav"}) {
+        std::filesystem::create_directories((folder / "mine" / file).parent_path());
+        ASSERT_TRUE(write_file(folder / "mine" / file, wav16(sine(0.2, 0.4))));
+    }
+    const std::string command = "frustumscreen-bake --words mine --languages de -o out.fswords --speech none";
+    ASSERT_EQ(run(command), 0) << text("err.txt");
+    EXPECT_NE(text("err.txt").find("mine/de/advice.lift.wav: nobody hears this recording: no text has this "
+                                   "name; the nearest name of a text is de/advice.lower.wav"),
+              std::string::npos)
+        << text("err.txt");
+    EXPECT_EQ(text("err.txt").find("fr/help.wav"), std::string::npos) << "French was left out on purpose";
+    EXPECT_EQ(run(command + " --strict"), 1);
+}
+
+TEST_F(WordsCommand, only_words_are_replaced_by_words) {
+    std::filesystem::create_directories(folder / "mine" / "de");
+    ASSERT_TRUE(write_file(folder / "notes.txt", as_bytes("what the curator wrote down")));
+    ASSERT_TRUE(write_file(folder / "mine" / "de.toml", as_bytes("help = \"Hilfe\"")));
+    ASSERT_TRUE(write_file(folder / "mine" / "de" / "help.wav", wav16(sine(0.2, 0.4))));
+    const std::string command = "frustumscreen-bake --words mine --languages de --speech none ";
+    const auto refused = [&](const std::string& more, const std::string& file, const std::string& words) {
+        const std::string before = text(file);
+        EXPECT_EQ(run(command + more), 1) << more;
+        EXPECT_EQ(text(file), before) << more;
+        EXPECT_NE(text("err.txt").find(words), std::string::npos) << text("err.txt");
+    };
+    refused("-o notes.txt", "notes.txt", "notes.txt: this file is there and is not a file of words");
+    refused("-o mine/de.toml", "mine/de.toml", "mine/de.toml: this file is there and is not a file of words");
+    refused("-o mine/de.toml --force", "mine/de.toml", "would replace the input mine/de.toml");
+    refused("-o mine/de/help.wav --force", "mine/de/help.wav", "would replace the input mine/de/help.wav");
+    refused("-o out.fswords --preview notes.txt", "notes.txt", "this file is there and is not a PNG picture");
+    refused("-o new --preview ./new", "new", "the words and their picture have the same name");
+    for (int time = 0; time < 2; ++time) {
+        EXPECT_EQ(run(command + "-o out.fswords --preview words.png"), 0) << text("err.txt");
+    }
+    EXPECT_EQ(run(command + "-o notes.txt --force"), 0) << text("err.txt");
+}
+
+TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
+    for (const std::string& language : builtin_word_languages()) {
+        if (const Result<void> there = Fonts::open()->check(language); !there) {
+            GTEST_SKIP() << there.error().message;
+        }
+    }
+    std::filesystem::create_directories(folder / "mine");
+    std::ofstream(folder / "mine" / "pt.toml") << "name = \"Português\"\n";
+    std::ofstream(folder / "mine" / "german.toml") << "name = \"Deutsch\"\n";
+    ASSERT_EQ(run("frustumscreen-bake --words mine -o out.fswords --speech none"), 0) << text("err.txt");
+    EXPECT_TRUE(baked("pt"));
+    EXPECT_TRUE(baked("de"));
+    EXPECT_NE(
+        text("err.txt").find("mine/german.toml: nobody reads this file; name it after its language, such as "
+                             "de.toml"),
+        std::string::npos)
+        << text("err.txt");
+}
+
+TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
+    ASSERT_TRUE(write_file(folder / "voice.sh", as_bytes("sleep 1000 & echo $$ $! >>voices.txt; wait")));
+    for (const char* signal : {"TERM", "KILL"}) {
+        std::filesystem::remove(folder / "voices.txt");
+        const std::string commands = fmt::format(
+            "cd '{}' || exit 4; '{}'/frustumscreen-bake --words --languages de -o out.fswords --speech 'sh "
+            "voice.sh' "
+            "2>err.txt & baker=$!; until test -s voices.txt; do kill -0 $baker || exit 5; sleep 0.02; done; "
+            "kill -{} $baker; wait $baker 2>wait.txt; true",
+            folder.string(), FRUSTUMSCREEN_BIN_DIR, signal);
+        ASSERT_EQ(std::system(commands.c_str()), 0) << text("err.txt");
+        std::istringstream voices(text("voices.txt"));
+        for (int process = 0; voices >> process;) {
+            EXPECT_TRUE(ends(process)) << signal << ": process " << process << " still runs";
+        }
+    }
+}
+
 TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_EQ(run("frustumscreen-bake --words nowhere -o out.fswords"), 1);
     EXPECT_EQ(
@@ -80,7 +180,7 @@ TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_EQ(run("frustumscreen-bake --words --languages ../de -o out.fswords"), 1);
     EXPECT_NE(text("err.txt").find("--languages: '../de' is no language"), std::string::npos)
         << text("err.txt");
-    EXPECT_EQ(run("frustumscreen-bake --words --languages de,de -o out.fswords"), 1);
-    EXPECT_NE(text("err.txt").find("'de' is named twice"), std::string::npos) << text("err.txt");
+    EXPECT_EQ(run("frustumscreen-bake --words --languages de,DE -o out.fswords"), 1);
+    EXPECT_NE(text("err.txt").find("'DE' is named twice"), std::string::npos) << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --words --languages de"), 2);
 }

@@ -42,13 +42,14 @@ void set_texts(const BakeRequest& request, ArtifactWords& words) {
     }
     SetArtifact set = set_artifact(request.captions, labels, caption_limits(), *shaper);
     words.set = std::move(set.languages);
-    words.lost = std::move(set.notes);
+    words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }
 
 } // namespace
 
 Result<ArtifactWords> words_of(const BakeRequest& request) {
     ArtifactWords words;
+    words.lost = request.lost;
     set_texts(request, words);
     Result<SpokenArtifact> spoken = speak_artifact(request.captions, request.speech);
     if (!spoken) {

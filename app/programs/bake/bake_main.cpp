@@ -6,6 +6,7 @@
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/bake_request.h"
+#include "app/programs/bake/check_hotspots.h"
 #include "app/programs/bake/words_command.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
@@ -120,17 +121,20 @@ Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
     result.file = request.output;
     result.prop = options.prop;
     result.notes = mesh->notes;
-    Result<ArtifactWords> words = set_and_speak(request, options, result.notes);
-    if (!words) {
-        return tl::unexpected<Error>(words.error());
-    }
-    result.silent = std::move(words->silent);
     result.up = options.up.empty() ? std::string(1, mesh->default_up) : options.up;
     result.up_given = !options.up.empty();
     result.turn_given = request.turn_deg.has_value();
     options.turn_deg = result.turn_deg =
         request.turn_deg ? *request.turn_deg
                          : best_turn_deg(*mesh, result.up, options.lift, options.prop.shape);
+    if (const Result<void> checked = check_hotspots(*mesh, options); !checked) {
+        return tl::unexpected<Error>(checked.error());
+    }
+    Result<ArtifactWords> words = set_and_speak(request, options, result.notes);
+    if (!words) {
+        return tl::unexpected<Error>(words.error());
+    }
+    result.silent = std::move(words->silent);
     Result<Pack> pack = bake(*mesh, options);
     if (!pack) {
         return at(request.scan.string(), pack.error());

@@ -2,16 +2,28 @@
 
 #include "app/pack/pack_text.h"
 #include "app/programs/bake/captions_of.h"
+#include "app/programs/bake/label_notes.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 namespace frustumscreen {
 
 namespace {
+
+/// Who names the artifact.toml means its folder.
+BakeArguments with_folder(BakeArguments arguments) {
+    std::error_code none;
+    if (arguments.input.filename() == artifact_file_name &&
+        std::filesystem::is_regular_file(arguments.input, none)) {
+        arguments.input = arguments.input.has_parent_path() ? arguments.input.parent_path() : ".";
+    }
+    return arguments;
+}
 
 Result<ArtifactFile> file_of(const BakeArguments& arguments) {
     std::error_code none;
@@ -61,8 +73,23 @@ BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file)
     return options;
 }
 
-SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file, bool is_folder) {
-    SpeechSources sources{file.recordings, {}, std::nullopt};
+/// Languages of the folder's file that the command line leaves out.
+std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector<PackCaption>& captions) {
+    std::vector<std::string> languages;
+    for (const PackCaption& written : file.texts) {
+        const bool is_baked = std::any_of(captions.begin(), captions.end(), [&](const PackCaption& each) {
+            return each.language == written.language;
+        });
+        if (!is_baked) {
+            languages.push_back(written.language);
+        }
+    }
+    return languages;
+}
+
+SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file,
+                        const std::vector<std::string>& left_out, bool is_folder) {
+    SpeechSources sources{file.recordings, {}, left_out, std::nullopt};
     if (is_folder) {
         sources.folder = arguments.input / recordings_folder_name;
     }
@@ -74,7 +101,8 @@ SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file
 
 } // namespace
 
-Result<BakeRequest> request_of(const BakeArguments& arguments) {
+Result<BakeRequest> request_of(const BakeArguments& written) {
+    const BakeArguments arguments = with_folder(written);
     if (const Result<void> good = check_texts(arguments); !good) {
         return tl::unexpected<Error>(good.error());
     }
@@ -106,7 +134,9 @@ Result<BakeRequest> request_of(const BakeArguments& arguments) {
     request.id = file->id;
     request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
     request.captions = *captions;
-    request.speech = speech_of(arguments, *file, is_folder);
+    const std::vector<std::string> left_out = left_out_of(*file, *captions);
+    request.lost = label_notes(file->hotspots, *captions, left_out);
+    request.speech = speech_of(arguments, *file, left_out, is_folder);
     return request;
 }
 

@@ -52,6 +52,7 @@ struct BakeRequest {
     std::string licence;
     std::vector<PackCaption> captions; ///< at least one
     SpeechSources speech;
+    std::vector<std::string> lost; ///< what the folder's file says and nobody will see, a sentence each
 };
 
 [[nodiscard]] Result<BakeRequest> request_of(const BakeArguments& arguments);

@@ -2,6 +2,7 @@
 
 #include "app/settings/language_tag.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,10 +19,11 @@ PackCaption* caption_in(std::vector<PackCaption>& captions, std::string_view lan
     return found != captions.end() ? &*found : nullptr;
 }
 
-Result<void> add_language(const std::string& language, const std::vector<PackCaption>& from_file,
+Result<void> add_language(const std::string& written, const std::vector<PackCaption>& from_file,
                           std::vector<PackCaption>& captions) {
-    const std::string found = fmt::format("--language '{}'", printable(language, 40));
-    if (!parse_language_tag(language)) {
+    const std::string found = fmt::format("--language '{}'", printable(written, 40));
+    const std::string language = parse_language_tag(written).value_or("");
+    if (language.empty()) {
         return bad_input(
             fmt::format("{}: there is no such language; allowed are {}", found, allowed_language_tags));
     }
@@ -42,7 +44,8 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
     if (equals == std::string::npos) {
         return bad_input(found + ": write LANGUAGE=TEXT, such as \"en=A cat.\"");
     }
-    const std::string language = written.substr(0, equals);
+    const std::string tag = written.substr(0, equals);
+    const std::string language = parse_language_tag(tag).value_or(tag);
     PackCaption* const caption = caption_in(captions, language);
     if (caption == nullptr) {
         std::vector<std::string> languages;
@@ -57,7 +60,7 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
                                      found, language));
     }
     seen.push_back(language);
-    caption->text = written.substr(equals + 1);
+    caption->text = std::string(trimmed(std::string_view(written).substr(equals + 1)));
     return {};
 }
 
@@ -73,9 +76,10 @@ Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     if (written.languages.empty()) {
         made = written.from_file.empty() ? std::vector<PackCaption>{{"en", "", ""}} : written.from_file;
     }
+    const std::string_view title = trimmed(written.title);
     for (PackCaption& caption : made) {
-        if (!written.title.empty()) {
-            caption.title = written.title;
+        if (!title.empty()) {
+            caption.title = std::string(title);
         } else if (caption.title.empty()) {
             caption.title = written.usual_title;
         }

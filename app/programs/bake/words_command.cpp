@@ -1,6 +1,7 @@
 #include "app/programs/bake/words_command.h"
 
 #include "app/pack/words_file.h"
+#include "app/programs/bake/words_folder.h"
 #include "app/programs/bake/words_preview.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
@@ -18,6 +19,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace frustumscreen {
@@ -33,6 +36,7 @@ struct Arguments {
     std::vector<std::string> languages;
     std::string speech; ///< empty: espeak-ng
     bool strict = false;
+    bool force = false; ///< replace outputs of another kind
 };
 
 Result<void> tell(const std::vector<std::string>& notes, bool strict) {
@@ -56,17 +60,21 @@ Result<void> check_folder(const std::filesystem::path& folder) {
     return {};
 }
 
-Result<void> check_languages(const std::vector<std::string>& languages) {
-    for (std::size_t k = 0; k < languages.size(); ++k) {
-        const std::string found = fmt::format("--languages: '{}'", printable(languages[k], 40));
-        if (!parse_language_tag(languages[k])) {
+/// The languages that are named, in the usual case of their tags.
+Result<std::vector<std::string>> named_languages(const std::vector<std::string>& written) {
+    std::vector<std::string> languages;
+    for (const std::string& each : written) {
+        const std::string found = fmt::format("--languages: '{}'", printable(each, 40));
+        const std::optional<std::string> language = parse_language_tag(each);
+        if (!language) {
             return bad_input(fmt::format("{} is no language; allowed are {}", found, allowed_language_tags));
         }
-        if (std::count(languages.begin(), languages.end(), languages[k]) > 1) {
+        if (std::find(languages.begin(), languages.end(), *language) != languages.end()) {
             return bad_input(fmt::format("{} is named twice; write each language once", found));
         }
+        languages.push_back(*language);
     }
-    return {};
+    return languages;
 }
 
 Result<void> write_outputs(const BakedWords& baked, const Arguments& arguments) {
@@ -107,19 +115,99 @@ Result<void> speak(BakedWords& baked, const Arguments& arguments) {
     return {};
 }
 
+/// Checks before the work that no other file than one of the same kind is replaced, and no input.
+Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, const char* kind,
+                          bool force) {
+    if (Result<void> place = check_output_place(output); !place) {
+        return place;
+    }
+    std::error_code ignored;
+    if (!force && std::filesystem::exists(output, ignored) && !is_of_kind) {
+        return bad_input(
+            fmt::format("{}: this file is there and is not {}; choose another name for the output, "
+                        "or add --force to replace it",
+                        output.string(), kind));
+    }
+    return {};
+}
+
+bool is_words_file(const std::filesystem::path& file) {
+    const Result<Bytes> bytes = read_file(file);
+    return bytes && list_words(*bytes);
+}
+
+bool is_png_file(const std::filesystem::path& file) {
+    const Result<Bytes> bytes = read_file(file);
+    return bytes && as_text(*bytes).starts_with("\x89PNG\r\n");
+}
+
+Result<void> check_outputs(const Arguments& arguments) {
+    Result<void> checked =
+        check_output(arguments.output, is_words_file(arguments.output), "a file of words", arguments.force);
+    if (!checked || arguments.preview.empty()) {
+        return checked;
+    }
+    if (std::filesystem::absolute(arguments.preview).lexically_normal() ==
+        std::filesystem::absolute(arguments.output).lexically_normal()) {
+        return bad_input(fmt::format("{}: the words and their picture have the same name; choose two",
+                                     arguments.output.string()));
+    }
+    return check_output(arguments.preview, is_png_file(arguments.preview), "a PNG picture", arguments.force);
+}
+
+Result<void> check_outputs_are_no_inputs(const Arguments& arguments, const WordsFolder& folder,
+                                         const WordRecordings& recordings) {
+    for (const auto& inputs : {folder.word_files, recordings.taken}) {
+        for (const auto& output : {arguments.output, arguments.preview}) {
+            if (Result<void> safe = check_output_is_no_input(output, inputs); !safe) {
+                return safe;
+            }
+        }
+    }
+    return {};
+}
+
+/// Who names languages leaves the others out on purpose.
+std::vector<std::string> left_out_of(const std::vector<std::string>& all,
+                                     const std::vector<std::string>& baked) {
+    std::vector<std::string> left_out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(left_out), [&](const std::string& language) {
+        return std::find(baked.begin(), baked.end(), language) == baked.end();
+    });
+    return left_out;
+}
+
+/// The words in their files, with all that may be lost of the folder; checked against the outputs.
+Result<std::vector<CollectedWords>> collect(const Arguments& arguments, std::vector<std::string>& notes) {
+    const WordsFolder folder = list_words_folder(arguments.folder);
+    const Result<std::vector<std::string>> named = named_languages(arguments.languages);
+    if (!named) {
+        return tl::unexpected<Error>(named.error());
+    }
+    const std::vector<std::string>& languages = named->empty() ? folder.languages : *named;
+    Result<std::vector<CollectedWords>> collected = collect_words(arguments.folder, languages);
+    if (!collected) {
+        return collected;
+    }
+    const WordRecordings recordings =
+        list_word_recordings(arguments.folder, *collected, left_out_of(folder.languages, languages));
+    if (const Result<void> safe = check_outputs_are_no_inputs(arguments, folder, recordings); !safe) {
+        return tl::unexpected<Error>(safe.error());
+    }
+    notes = folder.notes;
+    notes.insert(notes.end(), recordings.notes.begin(), recordings.notes.end());
+    return collected;
+}
+
 Result<void> work(const Arguments& arguments) {
     if (const Result<void> folder = check_folder(arguments.folder); !folder) {
         return folder;
     }
-    if (const Result<void> place = check_output_place(arguments.output); !place) {
-        return place;
+    if (const Result<void> outputs = check_outputs(arguments); !outputs) {
+        return outputs;
     }
-    const std::vector<std::string> languages =
-        arguments.languages.empty() ? builtin_word_languages() : arguments.languages;
-    if (const Result<void> allowed = check_languages(languages); !allowed) {
-        return allowed;
-    }
-    const Result<std::vector<CollectedWords>> collected = collect_words(arguments.folder, languages);
+    std::vector<std::string> notes;
+    const Result<std::vector<CollectedWords>> collected = collect(arguments, notes);
     if (!collected) {
         return tl::unexpected<Error>(collected.error());
     }
@@ -131,7 +219,8 @@ Result<void> work(const Arguments& arguments) {
     if (!baked) {
         return tl::unexpected<Error>(baked.error());
     }
-    if (const Result<void> told = tell(baked->notes, arguments.strict); !told) {
+    notes.insert(notes.end(), baked->notes.begin(), baked->notes.end());
+    if (const Result<void> told = tell(notes, arguments.strict); !told) {
         return told;
     }
     if (const Result<void> spoken = speak(*baked, arguments); !spoken) {
@@ -143,8 +232,9 @@ Result<void> work(const Arguments& arguments) {
 } // namespace
 
 bool asks_for_words(int argc, const char* const* argv) {
-    return std::any_of(argv, argv + argc,
-                       [](const char* argument) { return std::string_view(argument) == "--words"; });
+    return std::any_of(argv, argv + argc, [](std::string_view argument) {
+        return argument == "--words" || argument.starts_with("--words=");
+    });
 }
 
 int words_command(int argc, char** argv) {
@@ -155,14 +245,16 @@ int words_command(int argc, char** argv) {
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
         ->expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)")->required();
-    app.add_option("--languages", arguments.languages,
-                   "the house's language first, such as en,de (default: all built-in ones)")
+    app.add_option(
+           "--languages", arguments.languages,
+           "the house's language first, such as en,de (default: all built-in ones, and those of the folder)")
         ->delimiter(',');
     app.add_option("--preview", arguments.preview, "also draw all texts into this PNG");
     app.add_option(
         "--speech", arguments.speech,
         "program that takes text on standard input and writes WAV; {language} in it is replaced; none: "
         "no voice (default: espeak-ng)");
+    app.add_flag("--force", arguments.force, "replace the output also if it is not a file of words");
     app.add_flag("--strict", arguments.strict,
                  "refuse words of which something would be lost; nothing is written");
     try {

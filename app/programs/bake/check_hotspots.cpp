@@ -1,0 +1,28 @@
+#include "app/programs/bake/check_hotspots.h"
+
+#include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/hotspots.h"
+#include "assets_baked/bake/source_scene.h"
+
+namespace frustumscreen {
+
+Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options) {
+    if (options.hotspots.empty()) {
+        return {};
+    }
+    const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
+    const Result<BoxFrame> frame = make_box_frame(mesh, {up, options.turn_deg, options.lift});
+    if (!frame) {
+        return {}; // the bake says what is wrong with the scan
+    }
+    const std::vector<glm::dvec3> points = in_box(mesh, *frame);
+    const SourceScene scene(mesh, points);
+    for (const GivenHotspot& given : options.hotspots) {
+        if (const auto put = put_on_surface(given, scene, *frame, options.prop.zone); !put) {
+            return tl::unexpected<Error>(put.error());
+        }
+    }
+    return {};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,21 @@
+/// Compares the languages of the hotspots' labels with those of the texts.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "assets_baked/folder/artifact_file.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A sentence for each label that is missing in a language of `captions`, and for each one in a language that has no texts.
+/// `left_out`: languages that nobody asked for.
+[[nodiscard]] std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
+                                                   std::span<const PackCaption> captions,
+                                                   std::span<const std::string> left_out);
+
+} // namespace frustumscreen

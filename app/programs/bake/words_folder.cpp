@@ -1,0 +1,59 @@
+#include "app/programs/bake/words_folder.h"
+
+#include "app/settings/language_tag.h"
+#include "assets_baked/texts/recorded_speech.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace fs = std::filesystem;
+
+WordsFolder list_words_folder(const fs::path& folder) {
+    WordsFolder listed;
+    listed.languages = builtin_word_languages();
+    std::error_code failed;
+    for (fs::directory_iterator each(folder, failed); !failed && each != fs::directory_iterator();
+         each.increment(failed)) {
+        if (each->path().extension() == ".toml") {
+            listed.word_files.push_back(each->path());
+        }
+    }
+    std::sort(listed.word_files.begin(), listed.word_files.end());
+    for (const fs::path& file : listed.word_files) {
+        const std::string name = file.stem().string();
+        const std::optional<std::string> language = parse_language_tag(name);
+        if (language != name) {
+            listed.notes.push_back(
+                fmt::format("{}: nobody reads this file; name it after its language, such as {}.toml",
+                            printable(file.string(), 300), language.value_or("de")));
+        } else if (std::find(listed.languages.begin(), listed.languages.end(), name) ==
+                   listed.languages.end()) {
+            listed.languages.push_back(name);
+        }
+    }
+    return listed;
+}
+
+WordRecordings list_word_recordings(const fs::path& folder, std::span<const CollectedWords> collected,
+                                    const std::vector<std::string>& left_out) {
+    WordRecordings listed;
+    RecordingNames names;
+    for (const CollectedWords& words : collected) {
+        for (const Word& word : words.words) {
+            const std::optional<fs::path> file = find_recording(folder, words.language, word.key);
+            names[words.language + "/" + word.key] = file;
+            if (file) {
+                listed.taken.push_back(*file);
+            }
+        }
+    }
+    listed.notes = unused_recordings(folder, names, left_out);
+    return listed;
+}
+
+} // namespace frustumscreen

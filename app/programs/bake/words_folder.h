@@ -1,0 +1,33 @@
+/// What a museum's folder of words has, beside what its files say.
+///
+/// Threads  reads the folder; any.
+#pragma once
+
+#include "assets_baked/texts/words.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct WordsFolder {
+    std::vector<std::string> languages;            ///< the built-in ones, then those that the folder adds
+    std::vector<std::filesystem::path> word_files; ///< LANGUAGE.toml
+    std::vector<std::string> notes; ///< files that are named after no language, a sentence each
+};
+
+/// `folder` may be empty: the built-in words alone.
+[[nodiscard]] WordsFolder list_words_folder(const std::filesystem::path& folder);
+
+struct WordRecordings {
+    std::vector<std::filesystem::path> taken;
+    std::vector<std::string> notes; ///< recordings that no word takes, a sentence each
+};
+/// `left_out`: languages that nobody asked for.
+[[nodiscard]] WordRecordings list_word_recordings(const std::filesystem::path& folder,
+                                                  std::span<const CollectedWords> collected,
+                                                  const std::vector<std::string>& left_out);
+
+} // namespace frustumscreen

@@ -1,0 +1,82 @@
+// What `frustumscreen-bake` says of a curator's folder: what is lost of it, and what is wrong in it.
+#include "app/pack/pack_file.h"
+#include "tests/programs/program_folder.h"
+#include "tests/texts/wav_bytes.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BakeFolder : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        fs::create_directory(folder / "jug");
+        put("jug/jug.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    }
+    void put(const std::string& file, const std::string& content) const {
+        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
+    }
+    /// The exit status of a bake with these lines in the artifact.toml.
+    [[nodiscard]] int bake(const std::string& lines, const std::string& more = "") const {
+        put("jug/artifact.toml", "scan = \"jug.obj\"\nsize = 16\n" + lines);
+        return run("frustumscreen-bake jug -o jug.fspack " + (more.empty() ? "--speech none" : more));
+    }
+    /// Whether `part` was said on standard error.
+    [[nodiscard]] ::testing::AssertionResult said(const std::string& part) const {
+        const std::string all = text("err.txt");
+        return (all.find(part) != std::string::npos ? ::testing::AssertionSuccess()
+                                                    : ::testing::AssertionFailure())
+               << all;
+    }
+};
+
+constexpr const char* english_and_german =
+    "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n[[texts]]\nlanguage = \"de\"\ntitle = \"Krug\"\n";
+
+TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
+    const std::string lines =
+        std::string(english_and_german) +
+        "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\", fr = \"Flanc\" }\n";
+    ASSERT_EQ(bake(lines), 0) << text("err.txt");
+    EXPECT_TRUE(said(
+        "lost: hotspots[0] has no label in 'de', so its visitors read another language there; write de = "
+        "\"...\" under labels"));
+    EXPECT_TRUE(said("lost: hotspots[0] has the label \"Flanc\" in 'fr', and the artifact has no "
+                     "[[texts]] in that language; write them, or take the label away"));
+    fs::remove(folder / "jug.fspack");
+    EXPECT_EQ(bake(lines, "--speech none --strict"), 1);
+    EXPECT_FALSE(fs::exists(folder / "jug.fspack"));
+    const std::string both =
+        std::string(english_and_german) +
+        "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\", de = \"Seite\" }\n";
+    EXPECT_EQ(bake(both, "--speech none --strict --language en"), 0)
+        << "German is left out on purpose: " << text("err.txt");
+}
+
+TEST_F(BakeFolder, APointOffTheSurfaceIsToldBeforeAnythingIsSpoken) {
+    const std::string lines = "[[texts]]\nlanguage = \"en\"\ndescription = \"A jug.\"\n"
+                              "[[hotspots]]\npoint = [0, 1200, 0]\nlabels = { en = \"Side\" }\n";
+    EXPECT_EQ(bake(lines, "--turn 0 --speech false"), 1);
+    EXPECT_EQ(text("err.txt"),
+              "frustumscreen-bake: jug/artifact.toml:7: hotspots[0].point is [0, 1200, 0], which is 1199 "
+              "times the artifact's size away from its surface; allowed are 5 % of that size; the nearest "
+              "point of it is [0, 1, 0]\n");
+    const std::size_t at = lines.find("1200");
+    EXPECT_EQ(bake(std::string(lines).replace(at, 4, "1.25"), "--turn 0 --speech false"), 1);
+    EXPECT_TRUE(said("which is 25.0 % of the artifact's size away"));
+}
+
+TEST_F(BakeFolder, TheArtifactFileStandsForItsFolder) {
+    ASSERT_EQ(bake("[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-bake jug/artifact.toml -o again.fspack --speech none"), 0)
+        << text("err.txt");
+    EXPECT_EQ((*load_pack(folder / "again.fspack"))->title, "Jug");
+    ASSERT_EQ(run("frustumscreen-bake artifact.toml -o again.fspack"), 1) << "there is none here";
+}
+
+} // namespace
+} // namespace frustumscreen
