@@ -56,6 +56,10 @@ public:
     [[nodiscard]] FaceSets read(const GuidedSituation& situation) const;
     /// The same as `read(situation).valid()`, in a part of the time.
     [[nodiscard]] bool valid(const GuidedSituation& situation) const;
+    /// Valid, and there is a picture: a prop of the table that lies so that the visitor sees none of its faces shows nothing.
+    [[nodiscard]] bool whole(const FaceSets& faces) const {
+        return faces.valid() && (faces.seen != 0 || setup_.in_hand);
+    }
     /// Area of these faces in the picture of a pinhole at the eye that looks at the prop's middle, square pixels.
     [[nodiscard]] double area_px(const GuidedSituation& situation, std::uint32_t faces) const;
     /// Area of the seen and unlit faces.

@@ -42,12 +42,6 @@ bool has_moved(const GuidedSituation& now, const GuidedSituation& then) {
 
 } // namespace
 
-/// A prop of the table that lies so that the visitor sees none of its faces shows nothing, though nothing is unlit.
-bool Guide::whole(const GuidedSituation& situation) {
-    faces_ = advisor_.reader().read(situation);
-    return faces_.valid() && (faces_.seen != 0 || advisor_.reader().setup().in_hand);
-}
-
 void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing) {
     const Move before = guidance_.move;
     const bool was_sensing = guidance_.sensing == sensing;
@@ -138,7 +132,8 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation,
                             bool may_speak) {
     guidance_.speak = false;
     const bool lost = sensing == Sensing::PropLost || sensing == Sensing::TrackerAway;
-    const bool dark = !lost && !whole(situation);
+    faces_ = advisor_.reader().read(situation);
+    const bool dark = !lost && !advisor_.reader().whole(faces_);
     sensing = dark ? Sensing::Good : sensing;
     const bool needed = dark || sensing != Sensing::Good;
     note_need(now, needed);

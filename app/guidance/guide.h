@@ -75,7 +75,6 @@ public:
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
 
 private:
-    [[nodiscard]] bool whole(const GuidedSituation& situation);
     void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);

@@ -39,8 +39,13 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
         GuidedSituation situation = seeded_situation(setup, seeded);
         Advisor advisor(setup);
         const FaceReader& reader = advisor.reader();
+        const auto whole = [&](const GuidedSituation& now) { return reader.whole(reader.read(now)); };
         std::size_t moves = 0;
-        for (; !reader.valid(situation) && moves < most_moves; ++moves) {
+        for (; !whole(situation) && moves < most_moves; ++moves) {
+            if (reader.valid(situation)) { // none of its faces is seen: what Guide advises then
+                situation = after({Action::Upright}, setup, situation);
+                continue;
+            }
             const MonotonicTime begun = monotonic_now();
             const Advice advice = advisor.advise(situation).value_or(Advice{});
             times_ms.push_back(1e3 * to_seconds(monotonic_now() - begun));
@@ -58,7 +63,7 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
             }
             situation = next;
         }
-        if (!reader.valid(situation)) {
+        if (!whole(situation)) {
             ++proof.never;
         } else if (moves == 0) {
             ++proof.valid;
