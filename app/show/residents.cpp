@@ -104,11 +104,17 @@ Residents::Queue Residents::needed(const ResidentsWish& wish) const {
     return needed;
 }
 
+/// Last the chosen one's captions in the other languages, so that the button for the language is answered at once.
 Residents::Queue Residents::wanted(const ResidentsWish& wish) const {
     Queue wanted;
     for (std::size_t k = 1; k < wish.wanted.size(); ++k) {
-        add_text(wanted, wish.wanted[k], TextPart::Caption, wish.language);
         wanted.add(levels_item(wish.wanted[k]));
+        add_text(wanted, wish.wanted[k], TextPart::Caption, wish.language);
+    }
+    if (!wish.wanted.empty()) {
+        for (const std::string& language : known(wish.wanted.front()).texts.entry.languages) {
+            add_text(wanted, wish.wanted.front(), TextPart::Caption, language);
+        }
     }
     return wanted;
 }

@@ -2,9 +2,9 @@
 ///
 ///     wish -> next_step (residency.h) -> ArtifactReader -> prepared -> some bytes a frame (loaded.h) -> ready
 ///
-/// Texts    of the chosen language alone. The captions of what is wanted come first, as they are small; what is told of an
-///          artifact comes when it is chosen. In another language they come when that is chosen, and the old ones stay while
-///          they are shown and while there is room. No text stays longer than its artifact.
+/// Texts    The chosen artifact's caption comes before the artifact, as it is smaller; what is told of it comes after it, in the
+///          chosen language alone. What may be chosen next brings its caption; last come the chosen one's captions in the other
+///          languages. Texts stay while they are shown and while there is room, and no longer than their artifact.
 /// Budget   counts what an artifact takes of the GPU's memory and of main memory from the moment that it is prepared.
 ///          While one is read, its file's parts and one level of it come on top.
 /// Threads  the render thread, with the display's context current, also where it is destroyed; the reader is a thread of
@@ -14,6 +14,7 @@
 #pragma once
 
 #include "app/exhibit/artifact_state.h"
+#include "app/pack/limits.h"
 #include "app/render/gpu_store.h"
 #include "app/show/artifact_reader.h"
 #include "app/show/loaded.h"
@@ -109,7 +110,7 @@ private:
         [[nodiscard]] std::span<const std::size_t> items() const { return std::span(items_).first(count_); }
 
     private:
-        std::array<std::size_t, 8> items_{};
+        std::array<std::size_t, 8 + pack_format::most_languages> items_{};
         std::size_t count_ = 0;
     };
 

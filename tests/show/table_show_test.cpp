@@ -67,8 +67,10 @@ protected:
         settings = **parse_settings(
             fmt::format("[projector]\nwidth = {}\nheight = {}\n{}", width, height, more), "kiosk.toml");
         settings.panel.script = {{1.0, 2}};
-        show = ArtifactShow::create(settings, plan_devices(settings, false, false),
-                                    {packs, "auto", 1, AllEconomies}, {display->framebuffer(), 0})
+        ArtifactShowOptions options{packs, "auto", 1, AllEconomies};
+        options.waits = waits;
+        show = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
+                                    {display->framebuffer(), 0})
                    .value();
         exhibit.emplace(make_exhibit(settings, *show, now));
         situation.prop_known = true;
@@ -159,6 +161,7 @@ protected:
         EXPECT_GT(outside, width * height / 4);
     }
 
+    bool waits = false; ///< for all that is loaded ahead
     fs::path folder;
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
@@ -288,13 +291,10 @@ TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
 }
 
 TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
+    waits = true; // the next artifact and the one before are loaded ahead; taking in another one allocates
     make(12);
     wait(milliseconds(1500));
     static_cast<void>(picture());
-    // The next artifact and the one before are loaded ahead; taking in another one allocates.
-    for (int k = 0; k < 2000 && show->state(shown).loaded < 3; ++k) {
-        static_cast<void>(picture());
-    }
     ASSERT_GE(show->state(shown).loaded, 3U);
     const std::span<const PlacedPicture> placed = shown.table->pictures();
     const auto next = std::find_if(placed.begin(), placed.end(),
