@@ -128,7 +128,7 @@ struct ExhibitSettings {
     std::filesystem::path words;     ///< the exhibit's own words; empty: none. Resolved as above
     bool table_pictures = true;      ///< the set lies on the table, to choose from
     double rest_s = 60.0; ///< nobody has been there for so long: artifacts in turn, the house's language
-    int memory_mb = 256;  ///< that loaded artifacts may take, 10^6 bytes
+    int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.
