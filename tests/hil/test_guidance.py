@@ -26,6 +26,7 @@ PUSHED_S = 1.0  # when the prop leaves the light in the replay
 STILLS = 3  # in the middle of each third: before there is a sign, then with it, at last with the words that are said
 LANGUAGES = ("en", "de")
 LANGUAGE, HELP = 2, 4  # buttons
+FAULTS = ("drop 0.2", "duplicate 0.3", "reorder 0.2")
 STAGES_S = (0.4, 1.5, 3.0)  # docs/guidance.md: until the sign, from there until the words, from there until the voice
 HEADER_BYTES = 44
 PIECE = 2400  # samples, 50 ms
@@ -163,7 +164,11 @@ class Guidance(HilTest):
             self.bench.buttons.tell("release", LANGUAGE)
 
     def test_advice_in_the_language_of_the_button(self):
+        """All of it while the tracker drops, doubles and mixes up its samples."""
         self.take_language("en")
+        self.addCleanup(self.bench.tracker.tell, "good")
+        for fault in FAULTS:
+            self.bench.tracker.tell(fault)
         self.bench.place(LEFT_OF_THE_LIGHT)
         eventually(self.sign_is_there, TALKS_S, "no sign appears on the screen")
         self.sees_words("en")
