@@ -200,6 +200,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
 
 const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situation, const Stand& stand) {
     const bool lost = attract_->lost();
+    answer_comes_ = false;
     const Sensing sensing = sensed_.update(now, situation, lost, presence_.touched());
     const bool on_way = sensing == Sensing::Good && is_on_way_to_picture(now);
     const bool can_be_guided = lost || (situation.prop_known && !stand.attracts);
@@ -221,6 +222,7 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
         (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
     const Guidance& guidance =
         guide_->step(now, {situation.table_from_prop, situation.eye_m}, sensing, may_speak);
+    answer_comes_ = help_ && guide_->answers();
     return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 

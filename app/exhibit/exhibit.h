@@ -215,9 +215,10 @@ private:
     VisitorSide side_;                ///< what lies on the table is turned to it
     Narration narration_;
     Teller teller_;
-    bool choose_ = false; ///< pressed, and not taken yet
-    bool help_ = false;   ///< the same
-    bool there_ = false;  ///< somebody is
+    bool choose_ = false;       ///< pressed, and not taken yet
+    bool help_ = false;         ///< the same
+    bool answer_comes_ = false; ///< advice for who pressed it is being looked for
+    bool there_ = false;        ///< somebody is
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     HotspotLabels labels_;

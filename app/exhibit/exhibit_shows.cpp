@@ -191,7 +191,8 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     input.there = there_ && state_ != State::Attract;
     input.pressed = pressed;
     input.next = std::exchange(choose_, false);
-    input.help = std::exchange(help_, false);
+    input.help = help_ && !answer_comes_;
+    help_ = answer_comes_;
     input.text_has_place = placer_.at(now).opacity > 0.0;
     input.staff = state_ == State::Staff;
     input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;

@@ -173,7 +173,7 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
         advisor_.begin(situation);
         next_look_ = now + looks_every;
     }
-    if (looks_at_ && advisor_.advance(looks_a_step)) {
+    if (looks_at_ && advisor_.advance(asked_ ? looks_a_step_asked : looks_a_step)) {
         take(now, *looks_at_, sensing);
         looks_at_.reset();
     }

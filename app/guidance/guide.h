@@ -57,6 +57,7 @@ public:
 
     /// About a millisecond's.
     static constexpr int looks_a_step = 2000;
+    static constexpr int looks_a_step_asked = 4 * looks_a_step; ///< somebody waits
 
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
 
@@ -68,6 +69,8 @@ public:
     void rest(MonotonicTime now);
     /// Somebody asks what to do: where there is advice, the next steps find it and give all of it at once.
     void ask() { asked_ = true; }
+    /// Somebody has asked, and the answer is being looked for.
+    [[nodiscard]] bool answers() const { return asked_; }
     /// The visitor has gone: the next one is told everything anew.
     void forget();
     /// The faces of the latest step.

@@ -99,7 +99,7 @@ bool alike(const Move& a, const Move& b) {
         return a.side == b.side;
     case Action::SetDown:
     case Action::Upright: {
-        constexpr double elsewhere_m = 0.06;
+        constexpr double elsewhere_m = 0.10;
         return glm::distance(a.by_m, b.by_m) <=
                std::fmax(elsewhere_m, 0.5 * std::fmax(glm::length(a.by_m), glm::length(b.by_m)));
     }

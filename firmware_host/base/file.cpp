@@ -1,5 +1,7 @@
 #include "firmware_host/base/file.h"
 
+#include "firmware_host/base/open_file.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -7,7 +9,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 
 namespace frustumscreen {
 
@@ -79,25 +80,14 @@ bool is_left_behind(std::string_view name, const std::string& target) {
 } // namespace
 
 Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes) {
-    std::error_code status;
-    if (!std::filesystem::exists(path, status)) {
-        return bad_input(path.string() + ": there is no such file");
+    // Its size is that of the file that is open: another may be put in its place at any time.
+    const Result<OpenFile> file = OpenFile::open(path, limit_bytes);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
     }
-    if (!std::filesystem::is_regular_file(path, status)) {
-        return bad_input(path.string() + ": this is not a regular file");
-    }
-    const std::uintmax_t size = std::filesystem::file_size(path, status);
-    if (status) {
-        return bad_input(path.string() + ": cannot be read: " + status.message());
-    }
-    if (size > limit_bytes) {
-        return bad_input(path.string() + ": " + std::to_string(size) + " bytes; at most " +
-                         std::to_string(limit_bytes) + " are allowed");
-    }
-    std::ifstream stream(path, std::ios::binary);
-    Bytes bytes(static_cast<std::size_t>(size));
-    if (!stream || !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-        return bad_input(path.string() + ": cannot be read: " + system_reason());
+    Bytes bytes(static_cast<std::size_t>(file->bytes()));
+    if (!file->read(0, bytes)) {
+        return bad_input(path.string() + ": cannot be read: it became shorter, or its disk fails");
     }
     return bytes;
 }

@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <atomic>
 #include <string>
+#include <thread>
 
 using namespace frustumscreen;
 namespace fs = std::filesystem;
@@ -52,6 +54,25 @@ TEST_F(OpenFileTest, that_shrinks_meanwhile_gives_nothing_of_what_is_gone) {
     std::array<std::byte, 3> piece{};
     EXPECT_FALSE(file->read(7, piece));
     EXPECT_TRUE(file->read(1, piece));
+}
+
+/// A status file is put in the place of another while it is read.
+TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
+    const std::string names[] = {"0123456789", "01234"};
+    std::atomic<bool> over = false;
+    std::thread writer([&] {
+        for (int k = 0; k < 2000; ++k) {
+            static_cast<void>(write_file(folder / "digits", as_bytes(names[k % 2])));
+        }
+        over = true;
+    });
+    int cut = 0;
+    while (!over) {
+        const Result<Bytes> bytes = read_file(folder / "digits");
+        cut += bytes && (as_text(*bytes) == names[0] || as_text(*bytes) == names[1]) ? 0 : 1;
+    }
+    writer.join();
+    EXPECT_EQ(cut, 0);
 }
 
 TEST_F(OpenFileTest, says_why_it_cannot_be_had) {

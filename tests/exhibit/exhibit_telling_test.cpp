@@ -181,7 +181,7 @@ TEST_F(TellingExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     x_ = 0.3;
     run(milliseconds(100)); // sooner than any sign
     EXPECT_FALSE(shown.sign);
-    run(milliseconds(20), {Command::Help});
+    run(milliseconds(120), {Command::Help});
     EXPECT_TRUE(shown.sign);
     EXPECT_EQ(advised_, 1);
     run(milliseconds(500));
@@ -196,7 +196,7 @@ TEST_F(TellingExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
     EXPECT_TRUE(shown.tells);
     x_ = 0.3;
     run(milliseconds(100));
-    run(milliseconds(20), {Command::Help});
+    run(milliseconds(120), {Command::Help});
     EXPECT_FALSE(shown.tells || shown.leaves);
     run(milliseconds(40)); // the advice has its words first
     EXPECT_TRUE(shown.advice);

@@ -140,8 +140,8 @@ TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
 TEST(GuidedTable, PicturesUnderTheSignAreDim) {
     int over_pictures = 0;
     for (const glm::dvec3& eye : {glm::dvec3(0.0, -0.55, 0.5), glm::dvec3(0.75, 0.0, 0.5)}) {
-        for (const double x : {-0.3, -0.15, 0.15, 0.3}) {
-            for (const double y : {-0.2, 0.0, 0.2}) {
+        for (const double x : {-0.35, -0.3, -0.25, -0.2, -0.15, 0.15, 0.2, 0.25, 0.3, 0.35}) {
+            for (const double y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
                 Visit visit(true);
                 visit.situation.eye_m = eye;
                 visit.signs_in(milliseconds(800));
