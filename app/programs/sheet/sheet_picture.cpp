@@ -70,10 +70,11 @@ std::string where(const Situation& situation) {
     const glm::dvec3 ahead = situation.table_from_prop.direction({1.0, 0.0, 0.0});
     const glm::dvec3 sight = situation.eye_m - prop;
     const double elevation = std::atan2(sight.z, std::hypot(sight.x, sight.y));
-    return fmt::format(
-        "prop at {:+.0f}, {:+.0f} cm, turned {:.0f}\u00b0; eye {:.0f} cm away, {:.0f}\u00b0 up",
-        prop.x * 100.0, prop.y * 100.0, glm::degrees(std::atan2(ahead.y, ahead.x)),
-        glm::length(sight) * 100.0, glm::degrees(elevation));
+    // Whole numbers, because a small negative one would be written as -0.
+    return fmt::format("prop at {:+}, {:+} cm, turned {}\u00b0; eye {} cm away, {}\u00b0 up",
+                       std::lround(prop.x * 100.0), std::lround(prop.y * 100.0),
+                       std::lround(glm::degrees(std::atan2(ahead.y, ahead.x))),
+                       std::lround(glm::length(sight) * 100.0), std::lround(glm::degrees(elevation)));
 }
 
 void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& frame, const Image8& picture,
