@@ -28,8 +28,11 @@ endif()
 
 # Tests run once or twice a build: what -O2 takes longer to compile, it does not win back.
 set(test_options $<$<CONFIG:RelWithDebInfo>:-O1>)
+set(rooms_alone_are_checked OFF)
 if(FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_FUZZ)
-    # The rooms are what is looked at. Checking the tests' own arithmetic too takes twice the time to compile.
+    # The rooms are what is looked at. Checking the arithmetic of the tests and of the programs' options too takes twice the
+    # time to compile, or more.
+    set(rooms_alone_are_checked ON)
     set(test_options -O0 -fno-sanitize=undefined)
 endif()
 include(cmake/precompiled.cmake)
@@ -49,7 +52,11 @@ function(frustumscreen_program name)
     cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
     add_executable(${name} ${PROGRAM_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
-    frustumscreen_use_precompiled(${name} house)
+    if(rooms_alone_are_checked)
+        target_compile_options(${name} PRIVATE ${test_options})
+    else()
+        frustumscreen_use_precompiled(${name} house)
+    endif()
     add_dependencies(programs ${name})
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${name}: ${PROGRAM_USES}")
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS "${name}=${CMAKE_CURRENT_SOURCE_DIR}")
