@@ -10,8 +10,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double text_brightness = 0.8; ///< linear; a little behind the title
-
 constexpr double text_gap_em = 0.3; ///< between title and text
 
 /// Title or text.
@@ -63,7 +61,7 @@ SetParts lay_out(const GlyphRuns& runs, const GlyphText* title, const GlyphText*
         }
     };
     add(title, caption_title_em, 1.0);
-    add(text, 1.0, text_brightness);
+    add(text, 1.0, caption_text_brightness);
     all.height_px = std::max(all.height_px, 1);
     return all;
 }
@@ -74,7 +72,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& title, const std::string
         paragraphs.push_back({title, caption_title_em * em_px, true, 1.0, 0.0});
     }
     if (!text.empty()) {
-        paragraphs.push_back({text, em_px, false, text_brightness, text_gap_em * em_px});
+        paragraphs.push_back({text, em_px, false, caption_text_brightness, text_gap_em * em_px});
     }
     return paragraphs;
 }

@@ -19,6 +19,8 @@ namespace frustumscreen {
 inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 /// A title's type size, in those of the text.
 inline constexpr double caption_title_em = 1.35;
+/// Share of the title's light, linear: a little behind it.
+inline constexpr double caption_text_brightness = 0.8;
 
 struct CaptionImage {
     Image<std::uint8_t> coverage;

@@ -169,6 +169,8 @@ private:
     [[nodiscard]] bool tells() const;
 
     // What is shown in the state that it is in: exhibit_shows.cpp.
+    /// Behind the staff's pattern all goes on but what is told.
+    [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,
                                        bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;

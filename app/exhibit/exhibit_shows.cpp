@@ -97,7 +97,7 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
         }
     }
     StandIn::Output comes = stand_in_.step(now, input);
-    if (state_ == State::Fault) {
+    if (!has_artifact()) {
         return {0.0, std::nullopt, false};
     }
     if (comes.picture) {
@@ -108,7 +108,7 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
                                                  const Situation& situation, const Stand& stand) {
-    if (state_ == State::Fault || catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+    if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
@@ -142,7 +142,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
                                                const Situation& situation, const Stand& stand,
                                                const Presentation& presentation) {
-    if (state_ == State::Fault || catalogue_.empty() || catalogue_[shown.artifact].languages.empty()) {
+    if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
@@ -185,7 +185,7 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     TellerInput input;
     input.subject = description_of(selection_.artifact(), selection_.language());
     input.visible = description_of(shown.artifact, shown.language);
-    input.tellable = state_ == State::Fault ? nullptr : tellable(input.subject);
+    input.tellable = note_of(state_).artifact ? tellable(input.subject) : nullptr;
     input.fades = shown.changing || stand.changing;
     input.attracts = stand.attracts;
     input.there = there_ && state_ != State::Attract;
@@ -194,7 +194,6 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     input.help = help_ && !answer_comes_;
     help_ = answer_comes_;
     input.text_has_place = placer_.at(now).opacity > 0.0;
-    input.staff = state_ == State::Staff;
     input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;
     input.narration = narration_;
     const Told& told = teller_.step(now, situation, input);

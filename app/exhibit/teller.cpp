@@ -20,7 +20,7 @@ const Told& Teller::step(MonotonicTime now, const Situation& situation, const Te
     telling.next = input.next;
     telling.describe = input.help && !has_advice;
     telling.gives_way = gives_way(now, situation, input);
-    telling.stops = input.staff || (input.help && has_advice) || is_unread(now, input);
+    telling.stops = (input.help && has_advice) || is_unread(now, input);
     telling.narration = input.narration;
     told_ = telling_.step(now, telling);
     follow_text(now, input);

@@ -26,7 +26,7 @@ namespace frustumscreen {
 struct TellerInput {
     DescriptionIndex subject;           ///< chosen; it may not be visible yet
     DescriptionIndex visible;           ///< what is on show, perhaps fading
-    const Tellable* tellable = nullptr; ///< of the subject; stays the same as long as the subject does
+    const Tellable* tellable = nullptr; ///< of the subject, unless nothing of it is to be told now
     bool fades = false;                 ///< the artifact or its caption does
     bool attracts = false;              ///< the artifact stands at a place of its own
     bool there = true;                  ///< somebody is
@@ -34,7 +34,6 @@ struct TellerInput {
     bool next = false;                  ///< asked for the next thing
     bool help = false;                  ///< asked for help
     bool text_has_place = true;         ///< the caption is seen, or fades
-    bool staff = false;
     GuidanceStage stage = GuidanceStage::Quiet;
     Narration narration;
 };

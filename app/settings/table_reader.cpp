@@ -1,5 +1,6 @@
 #include "app/settings/table_reader.h"
 
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -7,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -34,27 +35,11 @@ std::string found(const toml::node& node) {
     return node.is_table() ? "a table" : "a date or a time";
 }
 
-/// Levenshtein's distance.
-std::size_t edits(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row.back();
-}
-
 /// How far a mistyped key is from one that there is; a shortened one is near.
 std::size_t distance(std::string_view mistyped, std::string_view key) {
     const bool shortened =
         key.substr(0, mistyped.size()) == mistyped || mistyped.substr(0, key.size()) == key;
-    return shortened ? 1 : edits(mistyped, key);
+    return shortened ? 1 : letters_apart(mistyped, key);
 }
 
 std::uint32_t line_of(const toml::node& node) {

@@ -121,6 +121,8 @@ public:
     void refuse(std::string_view key, std::string_view what);
     /// `file:line: name` of a key that was read, for messages about what it names.
     [[nodiscard]] std::string place(std::string_view key) const;
+    /// The keys that were asked for so far.
+    [[nodiscard]] std::span<const std::string> known() const { return known_; }
 
 private:
     [[nodiscard]] std::string full_name(std::string_view key) const;

@@ -183,7 +183,7 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
     if (!guides_visitors(settings)) {
         return {};
     }
-    const double texels_per_m = projector_.fx / table_from_projector_.translation.z;
+    const double texels_per_m = text_style(settings).texels_per_m;
     for (std::size_t k = 0; k < signs_.size(); ++k) {
         const Image<std::uint8_t> picture = sign_picture(static_cast<Sign>(k), texels_per_m);
         const Result<TextureId> texture = renderer_.store().upload(picture);
@@ -200,10 +200,11 @@ void ArtifactShow::load_words(const Settings& settings, const DevicePlan& device
     if (!guides_visitors(settings) || settings.exhibit.words.empty()) {
         return;
     }
+    const TextStyle style = text_style(settings);
     AdviceWordsRequest request{settings.exhibit.words,
                                {settings.exhibit.language},
-                               advice_em * settings.exhibit.caption_height_m,
-                               projector_.fx / table_from_projector_.translation.z,
+                               advice_em * style.em_m,
+                               style.texels_per_m,
                                settings.sound.kind != SoundKind::None};
     for (const CatalogueEntry& artifact : catalogue_) {
         if (devices.language) {

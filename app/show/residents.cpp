@@ -51,8 +51,10 @@ Result<std::unique_ptr<Residents>> Residents::create(ResidentsSetUp set_up, Prep
                                                      GpuStore& store) {
     std::unique_ptr<Residents> made(new Residents(std::move(set_up), texture_bytes_of(first)));
     made->receive(0, std::move(first));
-    Queue all = made->needed({0, made->set_up_.language, {}, {}});
-    for (const std::size_t item : all.items()) {
+    Queue seen_first;
+    seen_first.add(made->levels_item(0));
+    made->add_text(seen_first, 0, TextPart::Caption, made->set_up_.language);
+    for (const std::size_t item : seen_first.items()) {
         if (item != 0) {
             Result<ArtifactReader::Prepared> texts = made->prepare(item, [] { return false; });
             if (!texts) {

@@ -40,7 +40,7 @@ struct ResidentsSetUp {
     double deadline_ms = 16.0;
     std::uint64_t budget_bytes = 0;
     TextStyle style = {};
-    std::string language = "en"; ///< of the first texts, BCP 47
+    std::string language = "en"; ///< of the first caption, BCP 47
     bool waits = false; ///< a step ends when all is there, so that a run of simulated time is repeatable
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
     std::vector<PackLeftOut> left_out = {};     ///< before
@@ -60,7 +60,7 @@ public:
     static constexpr std::uint64_t urgent_bytes = std::uint64_t{4} << 20U;
     static constexpr std::uint64_t early_bytes = std::uint64_t{1} << 20U;
 
-    /// `first`: of the first artifact, uploaded at once, and its texts with it.
+    /// `first`: of the first artifact, uploaded at once, and its caption with it.
     [[nodiscard]] static Result<std::unique_ptr<Residents>> create(ResidentsSetUp set_up,
                                                                    PreparedArtifact first, GpuStore& store);
     ~Residents();

@@ -14,6 +14,16 @@ namespace {
 /// The interval of a policy without a service manager's watchdog.
 constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
 
+Sentence what_is_shown(const RunStatus& status) {
+    if (status.state == name_of(State::Fault)) {
+        return Sentence("shows that there is no artifact");
+    }
+    if (status.state == name_of(State::Staff) || status.artifact.empty()) {
+        return Sentence("shows the alignment pattern");
+    }
+    return format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
+}
+
 } // namespace
 
 void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_file) {
@@ -101,20 +111,6 @@ void RunWatch::note_health(Health health) {
     note_state(well ? LogPriority::Notice : LogPriority::Error, "watchdog", sentence_of(health),
                format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
 }
-
-namespace {
-
-Sentence what_is_shown(const RunStatus& status) {
-    if (status.state == name_of(State::Fault)) {
-        return Sentence("shows that there is no artifact");
-    }
-    if (status.state == name_of(State::Staff) || status.artifact.empty()) {
-        return Sentence("shows the alignment pattern");
-    }
-    return format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
-}
-
-} // namespace
 
 void RunWatch::note(const RunStatus& status) {
     const Sentence shows = what_is_shown(status);

@@ -30,8 +30,6 @@ struct InnerKey {
     std::string_view key;
     std::string_view table;
 };
-constexpr std::array<std::string_view, 10> outer_keys{"scan",  "texture", "id",        "licence", "size",
-                                                      "unlit", "prop",    "placement", "texts",   "hotspots"};
 constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
                                                      {"title", "[[texts]]"},
                                                      {"period", "[[texts]]"},
@@ -196,7 +194,8 @@ void refuse_single_tables(const toml::table& root, ReadState& state) {
 }
 
 /// Tells of a key of the whole file, right or misspelt, which belongs into one of its tables.
-void refuse_misplaced_key(const toml::table& root, ReadState& state) {
+void refuse_misplaced_key(const toml::table& root, std::span<const std::string> outer_keys,
+                          ReadState& state) {
     std::optional<std::pair<std::uint32_t, std::string>> first;
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
@@ -286,7 +285,7 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         TableReader keys(state, &root, "");
         refuse_single_tables(root, state);
         read_all(keys, read);
-        refuse_misplaced_key(root, state);
+        refuse_misplaced_key(root, keys.known(), state);
         keys.finish();
         if (state.error) {
             return bad_input(*state.error);

@@ -1,6 +1,7 @@
 #include "firmware_host/tracker/text_rows.h"
 
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <fmt/format.h>
 
@@ -10,16 +11,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::string_view blanks = " \t";
+constexpr std::string_view blanks = " \t"; ///< between fields
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) {
-        return {};
-    }
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 template <typename T> std::optional<T> whole(std::string_view field) {
     T value{};

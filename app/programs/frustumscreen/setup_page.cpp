@@ -1,5 +1,6 @@
 #include "app/programs/frustumscreen/setup_page.h"
 
+#include "app/exhibit/caption_image.h"
 #include "app/exhibit/captions.h"
 #include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
@@ -21,8 +22,6 @@ namespace {
 
 constexpr double mm = 1e3;             ///< millimetres in a metre
 constexpr double least_contrast = 7.0; ///< WCAG 2.2, 1.4.6
-constexpr double caption_text_share =
-    0.8; ///< of the captions' light; a title has all of it (caption_image.cpp)
 /// The projector's dark level and the room's light on the table, as a share of its white; WCAG reckons with as much. No setting
 /// says what they are.
 constexpr double assumed_black = 0.05;
@@ -148,16 +147,17 @@ std::string describe_captions(const Settings& settings) {
             "{:.3g} mm.\n",
             mm * exhibit.caption_height_m, mm * least_caption_em_m);
     }
-    const double contrast = (caption_text_share * exhibit.caption_brightness + assumed_black) / assumed_black;
+    const double contrast =
+        (caption_text_brightness * exhibit.caption_brightness + assumed_black) / assumed_black;
     if (contrast < least_contrast) {
-        text +=
-            fmt::format("  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
-                        "with the table, and needs "
-                        "7:1, from {:.3g} on, if the projector's black and the room's light are {:g} % of "
-                        "its white; measure "
-                        "these.\n",
-                        exhibit.caption_brightness, contrast,
-                        (least_contrast - 1.0) * assumed_black / caption_text_share, 100.0 * assumed_black);
+        text += fmt::format(
+            "  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
+            "with the table, and needs "
+            "7:1, from {:.3g} on, if the projector's black and the room's light are {:g} % of "
+            "its white; measure "
+            "these.\n",
+            exhibit.caption_brightness, contrast,
+            (least_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
     }
     return text;
 }

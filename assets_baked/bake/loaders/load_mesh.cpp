@@ -6,6 +6,7 @@
 #include "assets_baked/bake/loaders/load_ply.h"
 #include "assets_baked/bake/loaders/load_stl.h"
 #include "assets_baked/bake/loaders/text.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <algorithm>
 #include <exception>

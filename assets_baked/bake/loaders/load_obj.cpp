@@ -4,6 +4,7 @@
 #include "assets_baked/bake/loaders/polygon.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <tiny_obj_loader.h>
 

@@ -3,6 +3,7 @@
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <algorithm>
 

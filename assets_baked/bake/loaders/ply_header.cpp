@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/trimmed.h"
 
 #include <array>
 #include <string_view>

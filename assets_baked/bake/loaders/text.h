@@ -28,6 +28,5 @@ private:
 [[nodiscard]] std::optional<double> number_from(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> whole_from(std::string_view word);
 [[nodiscard]] bool is_blank(char c);
-[[nodiscard]] std::string_view trimmed(std::string_view text);
 
 } // namespace frustumscreen
