@@ -65,10 +65,10 @@ protected:
     const std::array<Command, 1> language{Command::NextLanguage};
 };
 
-TEST_F(TextsComing, AtTheStartThereAreThoseOfTheFirstArtifactInTheHousesLanguage) {
+TEST_F(TextsComing, AtTheStartThereIsTheCaptionOfTheFirstArtifactInTheHousesLanguage) {
     start(5, false);
     const ShowUse use = show->use();
-    EXPECT_EQ(use.text_gpu_bytes, bytes_of(0, 0));
+    EXPECT_EQ(use.text_gpu_bytes, caption_bytes(0, 0));
     EXPECT_EQ(use.gpu_bytes, use.planned_gpu_bytes);
     EXPECT_EQ(use.captions, 10U); // that may come to be shown
     start(1, false, false);
