@@ -1,0 +1,69 @@
+/// What the importer says of a stick while it reads it, and what came of it: for the table, the journal and the status.
+///
+/// File     JSON, renewed by rename, a few times a second at most while something is copied. It stays when the importer ends.
+/// Threads  values; any.
+/// Errors   one sentence: bytes that are no report.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class ImportStage : std::uint8_t {
+    Found,      ///< a stick is there; it is looked through
+    Copying,    ///< `done_bytes` of `total_bytes`
+    MayTakeOut, ///< nothing more is read from it; what was copied is checked and switched to
+    Done,       ///< the new set can be shown, or all is as it was
+    Failed,     ///< the stick as a whole: `refusal` and `reason`
+};
+
+/// What became of a pack.
+enum class ImportOutcome : std::uint8_t { Pending, Taken, AlreadyThere, Refused, Removed };
+
+/// Why a pack or a stick was refused. The exhibit's own words have `stick.refused.NAME` for each.
+enum class ImportRefusal : std::uint8_t {
+    None,
+    Unsigned,   ///< no signature
+    WrongKey,   ///< signed with a key that is not one of the museum's, or with one that has ended
+    Altered,    ///< signature, hash or checksum do not match
+    Older,      ///< than what is installed
+    NotAPack,   ///< damaged, or of no known format; beyond a limit
+    NoRoom,     ///< the kiosk's disk is too full
+    Unreadable, ///< the stick cannot be read, or was pulled out
+    Unwritable, ///< the kiosk's disk cannot be written
+    TooMuch,    ///< more files or folders than a stick may have; too slow
+};
+inline constexpr std::array<std::string_view, 10> import_refusal_names{
+    "none",       "unsigned", "wrong_key",  "altered",    "older",
+    "not_a_pack", "no_room",  "unreadable", "unwritable", "too_much"};
+
+struct ImportedPack {
+    std::string file;  ///< its name on the stick, printable
+    std::string title; ///< empty as long as nothing of the pack may be believed
+    ImportOutcome outcome = ImportOutcome::Pending;
+    ImportRefusal refusal = ImportRefusal::None;
+    std::string reason; ///< a sentence
+    [[nodiscard]] bool operator==(const ImportedPack&) const = default;
+};
+struct ImportReport {
+    std::string import_id; ///< another one for each stick that is put in
+    std::string stick;     ///< its label, printable; may be empty
+    ImportStage stage = ImportStage::Found;
+    std::uint64_t done_bytes = 0, total_bytes = 0;
+    ImportRefusal refusal = ImportRefusal::None;
+    std::string reason;
+    std::uint64_t set_number = 0; ///< that is installed now
+    std::vector<ImportedPack> packs;
+    [[nodiscard]] bool operator==(const ImportReport&) const = default;
+};
+
+[[nodiscard]] Result<ImportReport> parse_import_report(std::string_view json);
+[[nodiscard]] std::string write_import_report(const ImportReport& report);
+
+} // namespace frustumscreen

@@ -1,0 +1,72 @@
+/// The installed set of packs: which files the exhibit shows, in which order, and what is known of them.
+///
+/// Files    all below one folder:
+///          set.txt            first line `frustumscreen-set 1 SHA256`, the hash of all that follows: JSON (write_set_file).
+///                             It is switched by rename. Only the importer writes it.
+///          packs/SHA256.fspack  named by their bytes, so that a file is never changed, only added or removed. Only the importer.
+///          shown/verdict.json what the exhibit has seen of a set. Only the exhibit writes it.
+/// Trial    a new set is on trial until the exhibit has shown it for 30 s without a fault; till then `last_good` stays, and comes
+///          back if the verdict is bad, or if the exhibit began with the set `most_starts` times without coming to a verdict.
+/// Threads  pure; any.
+/// Errors   one sentence: a file that is not as above.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct InstalledPack {
+    std::string file;         ///< relative to the folder
+    std::string id;           ///< the artifact's own name; empty: it has none
+    std::string title;        ///< from the manifest
+    std::uint64_t serial = 0; ///< of its signature; 0: it is unsigned
+    std::string sha256;       ///< of the file
+    std::uint64_t bytes = 0;
+    [[nodiscard]] bool operator==(const InstalledPack&) const = default;
+};
+/// A text of the attract mode.
+struct AttractText {
+    std::string language; ///< BCP 47
+    std::string text;
+    [[nodiscard]] bool operator==(const AttractText&) const = default;
+};
+struct InstalledSet {
+    std::uint64_t number = 0;         ///< each switch has a higher one
+    std::vector<InstalledPack> packs; ///< in the order in which they are shown
+    std::vector<AttractText> attract;
+    [[nodiscard]] bool operator==(const InstalledSet&) const = default;
+};
+
+enum class Verdict : std::uint8_t { Trying, Good, Bad };
+struct SetVerdict {
+    std::uint64_t number = 0; ///< of the set
+    Verdict verdict = Verdict::Trying;
+    int starts = 0;     ///< of the exhibit with this set, while it is on trial
+    std::string reason; ///< of a bad one, a sentence
+    [[nodiscard]] bool operator==(const SetVerdict&) const = default;
+};
+inline constexpr int most_starts = 3;
+
+inline constexpr std::string_view set_file_name = "set.txt";
+inline constexpr std::string_view packs_folder_name = "packs";
+inline constexpr std::string_view verdict_file_name = "shown/verdict.json";
+
+/// What set.txt holds, as far as the exhibit needs it.
+struct SetChoice {
+    InstalledSet set;
+    std::optional<InstalledSet> last_good; ///< none: `set` has been good, or was the first
+};
+/// The set that an exhibit started now would show.
+[[nodiscard]] const InstalledSet& set_to_show(const SetChoice& choice,
+                                              const std::optional<SetVerdict>& verdict);
+
+[[nodiscard]] Result<SetVerdict> parse_verdict(std::string_view json);
+[[nodiscard]] std::string write_verdict(const SetVerdict& verdict);
+
+} // namespace frustumscreen

@@ -1,0 +1,67 @@
+/// Signatures in minisign's format: `minisign -V` accepts ours, and ours accept minisign's.
+///
+/// Bytes    signature: an untrusted comment, base64 of algorithm (2 bytes: "ED", over the BLAKE2b-512 hash; "Ed", over the bytes
+///          themselves), key id (8) and Ed25519 signature (64), a trusted comment, base64 of a signature over signature and
+///          trusted comment. Public key: an untrusted comment, base64 of "Ed", key id (8) and key (32); the second line alone will do.
+/// Serial   of what is signed, from the trusted comment: `serial:N`, else `timestamp:N` (as minisign writes it), fields apart by
+///          tabs or spaces. A higher one replaces a lower one.
+/// Threads  pure; any.
+/// Errors   one sentence for who holds the stick; what is refused says why as a value too.
+/// Source   https://jedisct1.github.io/minisign/
+/// Library  libsodium.
+#pragma once
+
+#include "firmware_host/base/result.h"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct PublicKey {
+    std::array<std::uint8_t, 8> id{};
+    std::array<std::uint8_t, 32> key{};
+    [[nodiscard]] bool operator==(const PublicKey&) const = default;
+};
+/// A file of minisign's, or its second line.
+[[nodiscard]] Result<PublicKey> parse_public_key(std::string_view text);
+/// The second line, without a line break.
+[[nodiscard]] std::string public_key_line(const PublicKey& key);
+
+/// One of the museum's keys.
+struct TrustedKey {
+    std::string name;
+    PublicKey key;
+    std::optional<std::chrono::sys_days> until; ///< its last day; none: it does not end
+};
+
+enum class SignatureFault : std::uint8_t {
+    Unsigned,   ///< there is none
+    Malformed,  ///< it is not of minisign's format, or has no serial
+    UnknownKey, ///< made with a key that is not one of the museum's
+    KeyEnded,   ///< the key's last day is over
+    Altered,    ///< it is not the signature of these bytes, or of its trusted comment
+};
+struct SignatureRefusal {
+    SignatureFault fault = SignatureFault::Unsigned;
+    std::string message;
+};
+
+struct Signer {
+    std::string key; ///< its name
+    std::uint64_t serial = 0;
+    std::string trusted_comment;
+};
+/// `signature`: the bytes of a `.minisig` file; none: Unsigned. `today`: none: no key has ended.
+[[nodiscard]] tl::expected<Signer, SignatureRefusal>
+check_signature(std::span<const std::byte> signed_bytes, std::optional<std::string_view> signature,
+                std::span<const TrustedKey> keys, std::optional<std::chrono::sys_days> today);
+
+} // namespace frustumscreen
