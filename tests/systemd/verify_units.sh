@@ -42,19 +42,19 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
             die "$1 is locked in less than it was: $(grep '✗' "$root/security")"
     }
     locked_in frustumscreen.service 16
-    # The units of sticks, for a stick that is sda1; what they start is there, their sandbox too.
+    # The units of sticks, for a stick that is stick1p1; what they start is there, their sandbox too.
     for name in stick ntfs import import-refused; do
-        instance=$units/frustumscreen-$name@sda1.service
+        instance=$units/frustumscreen-$name@stick1p1.service
         cp "$units/frustumscreen-$name@.service" "$instance"
         said=$(systemd-analyze verify --root="$root" "$instance" 2>&1) || true
         said=$(grep "frustumscreen-$name@" <<<"$said" | grep -v 'is not executable: No such file' || true)
         [[ -z $said ]] || die "systemd-analyze verify: $said"
         rm "$instance"
     done
-    locked_in frustumscreen-import@sda1.service 1
-    locked_in frustumscreen-import-refused@sda1.service 1
-    locked_in frustumscreen-stick@sda1.service 13
-    locked_in frustumscreen-ntfs@sda1.service 34
+    locked_in frustumscreen-import@stick1p1.service 1
+    locked_in frustumscreen-import-refused@stick1p1.service 1
+    locked_in frustumscreen-stick@stick1p1.service 24
+    locked_in frustumscreen-ntfs@stick1p1.service 34
 else
     skip "systemd-analyze is not installed"
 fi
