@@ -15,6 +15,8 @@ namespace frustumscreen {
 
 inline constexpr std::size_t most_trusted_keys = 32;
 
+/// One file. Messages begin with its name.
+[[nodiscard]] Result<PublicKey> read_public_key(const std::filesystem::path& file);
 /// In the order of their names; a key's name is its file's without `.pub`. None of them ends.
 [[nodiscard]] Result<std::vector<TrustedKey>> read_key_folder(const std::filesystem::path& folder);
 
