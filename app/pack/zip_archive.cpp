@@ -28,6 +28,7 @@ struct ArchiveBytes {
     }
 
     std::uint64_t cursor = 0;
+    bool failed = false; ///< something could not be read that should be there
 };
 
 namespace {
@@ -75,13 +76,15 @@ public:
     [[nodiscard]] std::uint64_t size() const override { return file_.bytes(); }
     [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
         if (out.size() > step_bytes) {
-            return file_.read(offset, out);
+            failed = failed || !file_.read(offset, out);
+            return !failed;
         }
         if (offset < begin_ || offset + out.size() > begin_ + window_.size()) {
             begin_ = offset / step_bytes * step_bytes;
             window_.resize(std::min<std::uint64_t>(2 * step_bytes, file_.bytes() - begin_));
             if (!file_.read(begin_, window_)) {
                 window_.clear();
+                failed = true;
                 return false;
             }
         }
@@ -223,6 +226,34 @@ void ZipWriter::add(const std::string& name, std::span<const std::byte> bytes, P
             zipCloseFileInZip(zip_) == ZIP_OK;
 }
 
+Result<void> ZipWriter::copy(ZipReader& from, const ZipEntry& entry) {
+    const unz64_file_pos position{entry.position, entry.number};
+    unz_file_info64 packed{};
+    int method = 0;
+    int level = 0;
+    bool good = unzGoToFilePos64(from.zip_, &position) == UNZ_OK &&
+                unzGetCurrentFileInfo64(from.zip_, &packed, nullptr, 0, nullptr, 0, nullptr, 0) == UNZ_OK &&
+                unzOpenCurrentFile2(from.zip_, &method, &level, 1) == UNZ_OK;
+    if (good) {
+        zip_fileinfo info{};
+        info.dosDate = first_of_1980;
+        good_ = good_ && zipOpenNewFileInZip2(zip_, entry.name.c_str(), &info, nullptr, 0, nullptr, 0,
+                                              nullptr, method, level, 1) == ZIP_OK;
+        Bytes piece(1U << 16U);
+        std::uint64_t left = packed.compressed_size;
+        while (left > 0 && good && good_) {
+            const auto step = static_cast<unsigned>(std::min<std::uint64_t>(left, piece.size()));
+            good = unzReadCurrentFile(from.zip_, piece.data(), step) == static_cast<int>(step);
+            good_ = zipWriteInFileInZip(zip_, piece.data(), step) == ZIP_OK;
+            left -= step;
+        }
+        unzCloseCurrentFile(from.zip_);
+        good_ = good_ && zipCloseFileInZipRaw64(zip_, packed.uncompressed_size, packed.crc) == ZIP_OK;
+    }
+    return good ? Result<void>()
+                : from.refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+}
+
 Result<Bytes> ZipWriter::finish() {
     const bool closed = zip_ != nullptr && zipClose(zip_, nullptr) == ZIP_OK;
     zip_ = nullptr;
@@ -250,19 +281,25 @@ Result<ZipReader> ZipReader::open(OpenFile file) {
     return open(std::make_unique<FileBytes>(std::move(file)));
 }
 
+tl::unexpected<Error> ZipReader::refusal(std::string message) const {
+    return file_->failed
+               ? fail(ErrorKind::DeviceLost, "it cannot be read; its disk or stick fails, or was pulled out")
+               : bad_input(std::move(message));
+}
+
 Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
-    if (!is_whole(*bytes)) {
-        std::array<std::byte, 4> first{};
-        const bool begins_as_zip = bytes->size() >= first.size() && bytes->read(0, first) &&
-                                   ByteReader(first).read<std::uint32_t>() == 0x04034b50;
-        return bad_input(begins_as_zip ? "the pack is truncated or altered; copy it again"
-                                       : "this is not a pack (not a ZIP container)");
-    }
     ZipReader reader(std::move(bytes));
+    if (!is_whole(*reader.file_)) {
+        std::array<std::byte, 4> first{};
+        const bool begins_as_zip = reader.file_->size() >= first.size() && reader.file_->read(0, first) &&
+                                   ByteReader(first).read<std::uint32_t>() == 0x04034b50;
+        return reader.refusal(begins_as_zip ? "the pack is truncated or altered; copy it again"
+                                            : "this is not a pack (not a ZIP container)");
+    }
     zlib_filefunc64_def functions = functions_over(*reader.file_);
     reader.zip_ = unzOpen2_64("", &functions);
     if (reader.zip_ == nullptr) {
-        return bad_input("the pack's directory is damaged; copy it again");
+        return reader.refusal("the pack's directory is damaged; copy it again");
     }
     if (const Result<void> directory = reader.read_directory(); !directory) {
         return tl::unexpected(directory.error());
@@ -299,7 +336,7 @@ Result<void> ZipReader::read_directory() {
         entries_.push_back(std::move(entry));
     }
     if (found != UNZ_END_OF_LIST_OF_FILE || entries_.size() != global.number_entry) {
-        return bad_input("the pack's directory is damaged; copy it again");
+        return refusal("the pack's directory is damaged; copy it again");
     }
     return {};
 }
@@ -328,7 +365,7 @@ Result<Bytes> ZipReader::read(const ZipEntry& entry) {
         good = unzCloseCurrentFile(zip_) == UNZ_OK && good;
     }
     if (!good) {
-        return bad_input(fmt::format("{} is damaged; copy the pack again", entry.name));
+        return refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
     }
     return bytes;
 }

@@ -2,7 +2,8 @@
 /// piece from a file.
 ///
 /// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
-///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum.
+///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum;
+///          DeviceLost: a file that cannot be read to its end any more.
 /// Threads  one caller.
 /// Library  minizip (ioapi functions over bytes of our own).
 #pragma once
@@ -21,6 +22,8 @@
 namespace frustumscreen::pack_format {
 
 struct ArchiveBytes;
+class ZipReader;
+struct ZipEntry;
 
 enum class Packing { Stored, Deflated };
 
@@ -33,6 +36,8 @@ public:
     ZipWriter& operator=(const ZipWriter&) = delete;
 
     void add(const std::string& name, std::span<const std::byte> bytes, Packing packing);
+    /// An entry of another archive as it is packed there. Errors: as ZipReader::read, but its checksum is not looked at.
+    [[nodiscard]] Result<void> copy(ZipReader& from, const ZipEntry& entry);
     /// The archive; call once, last. Errors: Internal, when the library failed on the way.
     [[nodiscard]] Result<Bytes> finish();
 
@@ -66,6 +71,9 @@ public:
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
 
 private:
+    friend class ZipWriter;
+    /// `message`, or that the file cannot be read any more.
+    [[nodiscard]] tl::unexpected<Error> refusal(std::string message) const;
     explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
     static Result<ZipReader> open(std::unique_ptr<ArchiveBytes> bytes);
     Result<void> read_directory();
