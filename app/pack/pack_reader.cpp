@@ -142,6 +142,23 @@ Result<Bytes> PackReader::take(const std::string& name) {
     return bytes;
 }
 
+Result<void> PackReader::check(const std::string& name,
+                               const std::function<void(std::uint64_t bytes)>& progress) {
+    const Result<const PartRecord*> part = use(name);
+    if (!part) {
+        return tl::unexpected(part.error());
+    }
+    Sha256 hash;
+    Result<void> read = zip_.read_through(*zip_.find(name), [&](std::span<const std::byte> bytes) {
+        hash.add(bytes);
+        progress(bytes.size());
+    });
+    if (read && hash.hex() != (*part)->sha256) {
+        return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
+    }
+    return read;
+}
+
 Result<void> PackReader::finish() const {
     for (const PartRecord& part : manifest_.parts) {
         if (!taken_.contains(part.name)) {

@@ -29,6 +29,9 @@ public:
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
     /// A part's bytes; each part can be taken once.
     [[nodiscard]] Result<Bytes> take(const std::string& name);
+    /// Holds a part against its hash without keeping it; else as take(). `progress` hears of bytes as they pass.
+    [[nodiscard]] Result<void> check(const std::string& name,
+                                     const std::function<void(std::uint64_t bytes)>& progress);
     /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
     [[nodiscard]] Result<void> pass_over(const std::string& name);
     /// Refuses parts that nothing refers to.

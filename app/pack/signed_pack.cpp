@@ -1,5 +1,7 @@
 #include "app/pack/signed_pack.h"
 
+#include "app/pack/sha256.h"
+
 namespace frustumscreen {
 
 using namespace pack_format;
@@ -39,7 +41,7 @@ tl::expected<SignedPack, PackRefusal> open_zip(Result<ZipReader> zip, const Pack
     if (!reader) {
         return refused(reader.error());
     }
-    return SignedPack{std::move(signer), *std::move(reader)};
+    return SignedPack{std::move(signer), *std::move(reader), sha256_hex(*manifest)};
 }
 
 } // namespace

@@ -42,6 +42,7 @@ struct PackRefusal {
 struct SignedPack {
     std::optional<Signer> signer; ///< none: it is unsigned, and allowed
     pack_format::PackReader reader;
+    std::string manifest_sha256; ///< of the manifest's bytes, which stand for all that the pack holds
 
     /// 0: it is unsigned.
     [[nodiscard]] std::uint64_t serial() const { return signer ? signer->serial : 0; }

@@ -40,6 +40,7 @@ constexpr uLong encrypted_flag = 1;
 /// wrong.
 constexpr std::uint64_t most_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
+constexpr std::size_t through_step_bytes = 64U << 10U;
 
 struct GrowingBytes final : ArchiveBytes {
     Bytes bytes;
@@ -251,7 +252,7 @@ Result<void> ZipWriter::copy(ZipReader& from, const ZipEntry& entry) {
         good_ = good_ && zipCloseFileInZipRaw64(zip_, packed.uncompressed_size, packed.crc) == ZIP_OK;
     }
     return good ? Result<void>()
-                : from.refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+                : from.damaged(entry);
 }
 
 Result<Bytes> ZipWriter::finish() {
@@ -346,28 +347,52 @@ const ZipEntry* ZipReader::find(std::string_view name) const {
     return number != numbers_.end() ? &entries_[number->second] : nullptr;
 }
 
+tl::unexpected<Error> ZipReader::damaged(const ZipEntry& entry) const {
+    return refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+}
+
 Result<Bytes> ZipReader::read(const ZipEntry& entry) {
-    const unz64_file_pos position{entry.position, entry.number};
     Bytes bytes(entry.bytes);
-    bool good = unzGoToFilePos64(zip_, &position) == UNZ_OK && unzOpenCurrentFile(zip_) == UNZ_OK;
-    if (good) {
-        std::size_t filled = 0;
-        int count = 1;
-        while (filled < bytes.size() && count > 0) {
-            const std::size_t step = std::min<std::size_t>(bytes.size() - filled, 1U << 30);
-            count = unzReadCurrentFile(zip_, bytes.data() + filled, static_cast<unsigned>(step));
-            filled += count > 0 ? static_cast<std::size_t>(count) : 0;
+    std::size_t filled = 0;
+    const auto fill = [&] {
+        const std::size_t step = std::min<std::size_t>(bytes.size() - filled, 1U << 30);
+        const int count = unzReadCurrentFile(zip_, bytes.data() + filled, static_cast<unsigned>(step));
+        filled += count > 0 ? static_cast<std::size_t>(count) : 0;
+        return count > 0 && filled < bytes.size();
+    };
+    const Result<void> whole = read_whole(entry, fill);
+    return whole && filled == bytes.size() ? Result<Bytes>(std::move(bytes)) : damaged(entry);
+}
+
+Result<void> ZipReader::read_through(const ZipEntry& entry,
+                                     const std::function<void(std::span<const std::byte>)>& take) {
+    std::array<std::byte, through_step_bytes> step{};
+    std::uint64_t taken = 0;
+    const auto pass = [&] {
+        const std::uint64_t most = std::min<std::uint64_t>(entry.bytes - taken, step.size());
+        const int count = unzReadCurrentFile(zip_, step.data(), static_cast<unsigned>(most));
+        if (count > 0) {
+            take(std::span(step).first(static_cast<std::size_t>(count)));
+            taken += static_cast<std::uint64_t>(count);
         }
-        // There must not be one byte more. Closing compares the checksum, but only if the entry was read to
-        // its end.
-        std::byte beyond{};
-        good = filled == bytes.size() && unzReadCurrentFile(zip_, &beyond, 1) == 0;
-        good = unzCloseCurrentFile(zip_) == UNZ_OK && good;
+        return count > 0 && taken < entry.bytes;
+    };
+    const Result<void> whole = read_whole(entry, pass);
+    return whole && taken == entry.bytes ? Result<void>() : damaged(entry);
+}
+
+/// `step` reads on and says whether there is more.
+Result<void> ZipReader::read_whole(const ZipEntry& entry, const std::function<bool()>& step) {
+    const unz64_file_pos position{entry.position, entry.number};
+    if (unzGoToFilePos64(zip_, &position) != UNZ_OK || unzOpenCurrentFile(zip_) != UNZ_OK) {
+        return damaged(entry);
     }
-    if (!good) {
-        return refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+    while (entry.bytes > 0 && step()) {
     }
-    return bytes;
+    // There must not be one byte more. Closing compares the checksum, but only if the entry was read to its end.
+    std::byte beyond{};
+    const bool ends = unzReadCurrentFile(zip_, &beyond, 1) == 0;
+    return unzCloseCurrentFile(zip_) == UNZ_OK && ends ? Result<void>() : damaged(entry);
 }
 
 } // namespace frustumscreen::pack_format

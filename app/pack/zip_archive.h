@@ -13,6 +13,7 @@
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -69,14 +70,19 @@ public:
     [[nodiscard]] const ZipEntry* find(std::string_view name) const;
     /// Unpacks an entry; the caller must have checked entry.bytes against a limit.
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
+    /// The same bytes, some at a time; they count only if all is well in the end.
+    [[nodiscard]] Result<void> read_through(const ZipEntry& entry,
+                                            const std::function<void(std::span<const std::byte>)>& take);
 
 private:
     friend class ZipWriter;
     /// `message`, or that the file cannot be read any more.
     [[nodiscard]] tl::unexpected<Error> refusal(std::string message) const;
+    [[nodiscard]] tl::unexpected<Error> damaged(const ZipEntry& entry) const;
     explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
     static Result<ZipReader> open(std::unique_ptr<ArchiveBytes> bytes);
     Result<void> read_directory();
+    Result<void> read_whole(const ZipEntry& entry, const std::function<bool()>& step);
     std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     std::vector<ZipEntry> entries_;

@@ -170,7 +170,7 @@ FileResult<std::unique_ptr<const FileContent>> DiskTree::open(const std::string&
         return file_fault(errno);
     }
     if (!S_ISREG(status.st_mode)) {
-        return file_fault(ENXIO);
+        return file_fault(EINVAL);
     }
     return content_of(file.release(), static_cast<std::uint64_t>(status.st_size));
 }

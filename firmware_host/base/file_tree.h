@@ -44,7 +44,7 @@ public:
     /// In no order, without "." and "..", until `visit` returns false.
     virtual FileResult<void> list(const std::string& folder,
                                   const std::function<bool(const FolderEntry&)>& visit) = 0;
-    /// ENXIO: not a regular file.
+    /// EINVAL: not a regular file.
     virtual FileResult<std::unique_ptr<const FileContent>> open(const std::string& path) = 0;
 };
 
