@@ -251,8 +251,7 @@ Result<void> ZipWriter::copy(ZipReader& from, const ZipEntry& entry) {
         unzCloseCurrentFile(from.zip_);
         good_ = good_ && zipCloseFileInZipRaw64(zip_, packed.uncompressed_size, packed.crc) == ZIP_OK;
     }
-    return good ? Result<void>()
-                : from.damaged(entry);
+    return good ? Result<void>() : from.damaged(entry);
 }
 
 Result<Bytes> ZipWriter::finish() {
