@@ -26,7 +26,8 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
     report.reason = "the import was stopped before its end; put the stick in again";
     if (service_result == "timeout" || service_result == "oom-kill" || service_result == "resources") {
         report.refusal = ImportRefusal::TooMuch;
-        report.reason = "the stick takes more time or memory than it may; put fewer files on it, or try another one";
+        report.reason =
+            "the stick takes more time or memory than it may; put fewer files on it, or try another one";
     }
     return report;
 }

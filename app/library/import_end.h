@@ -15,8 +15,8 @@ namespace frustumscreen {
 /// Of the import `import_id` that has ended, while the report said `last`; none: it was said, or the report is that of another
 /// stick which is being read. `service_result`: why it ended, as systemd calls it in SERVICE_RESULT. `set_number`: of what is
 /// installed.
-[[nodiscard]] std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, std::string import_id,
-                                                    std::string_view service_result,
+[[nodiscard]] std::optional<ImportReport> last_word(const std::optional<ImportReport>& last,
+                                                    std::string import_id, std::string_view service_result,
                                                     std::uint64_t set_number);
 
 } // namespace frustumscreen

@@ -116,14 +116,18 @@ class Signer:
         self._secret = self._folder / "museum.key"
         subprocess.run(["minisign", "-G", "-W", "-f", "-p", self.public, "-s", self._secret], check=True, capture_output=True)
 
-    def sign(self, data, serial=1):
-        """The bytes of a .minisig file."""
+    def sign_all(self, texts, serial=1):
+        """The bytes of a .minisig file for each."""
         with tempfile.TemporaryDirectory(dir=self._folder) as folder:
-            file = pathlib.Path(folder) / "signed"
-            file.write_bytes(data)
-            subprocess.run(["minisign", "-S", "-s", self._secret, "-m", file, "-t", f"serial:{serial}"], check=True,
+            files = [pathlib.Path(folder) / str(number) for number in range(len(texts))]
+            for file, text in zip(files, texts):
+                file.write_bytes(text)
+            subprocess.run(["minisign", "-S", "-s", self._secret, "-t", f"serial:{serial}", "-m", *files], check=True,
                            capture_output=True)
-            return file.with_suffix(".minisig").read_bytes()
+            return [pathlib.Path(f"{file}.minisig").read_bytes() for file in files]
+
+    def sign(self, data, serial=1):
+        return self.sign_all([data], serial)[0]
 
 
 def pack_entries(text, files, signature=None):
