@@ -248,7 +248,7 @@ class Machine:
 
     # Sticks at the USB ports.
 
-    def plug(self, name, source, bytes_per_s=None):
+    def plug(self, name, source, bytes_per_s=None, serial=None):
         """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD)."""
         source = pathlib.Path(source)
         if source.is_socket():
@@ -262,7 +262,7 @@ class Machine:
             self.monitor("blockdev-add", **{"driver": "throttle", "node-name": f"{name}-slow", "throttle-group": f"{name}-pace",
                                             "file": nodes[0]})
             nodes.insert(0, f"{name}-slow")
-        self.monitor("device_add", driver="usb-storage", id=name, bus="usb.0", drive=nodes[0], removable=True)
+        self.monitor("device_add", driver="usb-storage", id=name, bus="usb.0", drive=nodes[0], removable=True, serial=serial or name)
         self._sticks[name] = nodes
 
     def pull(self, name):
