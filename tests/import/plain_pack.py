@@ -116,7 +116,7 @@ class Signer:
         self._secret = self._folder / "museum.key"
         subprocess.run(["minisign", "-G", "-W", "-f", "-p", self.public, "-s", self._secret], check=True, capture_output=True)
 
-    def sign_all(self, texts, serial=1):
+    def sign_all(self, texts, serial=20):
         """The bytes of a .minisig file for each."""
         with tempfile.TemporaryDirectory(dir=self._folder) as folder:
             files = [pathlib.Path(folder) / str(number) for number in range(len(texts))]
@@ -126,7 +126,7 @@ class Signer:
                            capture_output=True)
             return [pathlib.Path(f"{file}.minisig").read_bytes() for file in files]
 
-    def sign(self, data, serial=1):
+    def sign(self, data, serial=20):
         return self.sign_all([data], serial)[0]
 
 
@@ -139,7 +139,7 @@ def pack_entries(text, files, signature=None):
     return entries
 
 
-def pack(signer=None, serial=1, description=None, files=None):
+def pack(signer=None, serial=20, description=None, files=None):
     """The bytes of a pack, signed where there is a signer."""
     files = parts() if files is None else files
     text = described(manifest() if description is None else description, files)
