@@ -7,13 +7,10 @@
 #include "app/pack/signature.h"
 #include "firmware_host/base/result.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <vector>
 
 namespace frustumscreen {
-
-inline constexpr std::size_t most_trusted_keys = 32;
 
 /// One file. Messages begin with its name.
 [[nodiscard]] Result<PublicKey> read_public_key(const std::filesystem::path& file);

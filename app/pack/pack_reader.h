@@ -15,6 +15,11 @@
 
 namespace frustumscreen::pack_format {
 
+/// The bytes of manifest.json, and nothing of what they say.
+[[nodiscard]] Result<Bytes> read_manifest_bytes(ZipReader& zip);
+/// The bytes of the entry `signature`; nothing if there is none.
+[[nodiscard]] Result<std::optional<std::string>> read_signature_entry(ZipReader& zip);
+
 class PackReader {
 public:
     /// Reads the manifest, and checks that the parts are exactly those that it lists, with the sizes that it
@@ -34,6 +39,8 @@ public:
                                      const std::function<void(std::uint64_t bytes)>& progress);
     /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
     [[nodiscard]] Result<void> pass_over(const std::string& name);
+    /// The bytes of the entry `signature`, unchecked; nothing if there is none.
+    [[nodiscard]] Result<std::optional<std::string>> signature() { return read_signature_entry(zip_); }
     /// Refuses parts that nothing refers to.
     [[nodiscard]] Result<void> finish() const;
 
@@ -46,10 +53,6 @@ private:
     std::set<std::string> taken_;
 };
 
-/// The bytes of manifest.json, and nothing of what they say.
-[[nodiscard]] Result<Bytes> read_manifest_bytes(ZipReader& zip);
-/// The bytes of the entry `signature`; nothing if there is none.
-[[nodiscard]] Result<std::optional<std::string>> read_signature_entry(ZipReader& zip);
 /// Refuses a file of more bytes than a pack may have.
 [[nodiscard]] Result<void> check_pack_size(std::uint64_t bytes);
 

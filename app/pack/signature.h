@@ -39,12 +39,18 @@ struct PublicKey {
 /// A key's id as minisign writes it: 16 digits, upper case.
 [[nodiscard]] std::string text_of_key_id(std::span<const std::uint8_t, 8> id);
 
+/// As many as the settings or a folder may name.
+inline constexpr std::size_t most_trusted_keys = 32;
 /// One of the museum's keys.
 struct TrustedKey {
     std::string name;
     PublicKey key;
     std::optional<std::chrono::sys_days> until; ///< its last day; none: it does not end
+    [[nodiscard]] bool operator==(const TrustedKey&) const = default;
 };
+
+/// What becomes of packs that have no signature. A signature that is there must be right in any case.
+enum class UnsignedPacks : std::uint8_t { Refuse, Allow };
 
 enum class SignatureFault : std::uint8_t {
     Unsigned,   ///< there is none

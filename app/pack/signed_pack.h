@@ -18,9 +18,6 @@
 
 namespace frustumscreen {
 
-/// What becomes of packs that have no signature. A signature that is there must be right in any case.
-enum class UnsignedPacks : std::uint8_t { Refuse, Allow };
-
 /// Whom the kiosk believes.
 struct PackTrust {
     std::span<const TrustedKey> keys;
@@ -53,5 +50,8 @@ struct SignedPack {
 /// `bytes` must outlive the reader.
 [[nodiscard]] tl::expected<SignedPack, PackRefusal> open_signed_pack(std::span<const std::byte> bytes,
                                                                      const PackTrust& trust);
+
+/// What an opened pack's signature says, checked or not; nothing if it has none.
+[[nodiscard]] Result<std::optional<SignatureClaim>> claim_of(pack_format::PackReader& reader);
 
 } // namespace frustumscreen

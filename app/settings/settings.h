@@ -13,6 +13,7 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+#include "app/pack/signature.h"
 #include "app/settings/display_mode.h"
 #include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
@@ -129,6 +130,8 @@ struct ExhibitSettings {
     bool table_pictures = true;      ///< the set lies on the table, to choose from
     double rest_s = 60.0; ///< nobody has been there for so long: artifacts in turn, the house's language
     int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
+    std::vector<TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
+    UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.

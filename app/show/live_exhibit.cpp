@@ -99,7 +99,11 @@ void LiveExhibit::follow_staff_mode() {
 
 void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
-        pattern_->set_lines(lines_of(status, driver_, presentation_.state_before));
+        std::vector<std::string> lines = lines_of(status, driver_, presentation_.state_before);
+        if (settings_.exhibit.unsigned_packs == UnsignedPacks::Allow) {
+            lines.emplace_back("unsigned packs are allowed: for the bench only");
+        }
+        pattern_->set_lines(std::move(lines));
     }
     speaker_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }
