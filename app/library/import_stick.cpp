@@ -109,7 +109,11 @@ Outcome Import::read_library() {
         return failed(known.error());
     }
     known_ = *std::move(known);
-    verdict_ = read_verdict(library_);
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
+    if (!verdict) {
+        return failed(verdict.error());
+    }
+    verdict_ = *verdict;
     report_.set_number = known_.choice.set.number;
     if (const FileResult<void> settled = settle(library_); !settled) {
         return failed(disk_failure(packs_folder_name, settled.error()));
@@ -224,8 +228,9 @@ Outcome Import::copy() {
         if (!pack.is_wanted()) {
             continue;
         }
-        const tl::expected<InstalledPack, ImportFailure> copied = copy_pack(
-            stick_, library_, pack, trust(), [this](std::uint64_t bytes) { return progress(bytes); });
+        const tl::expected<InstalledPack, ImportFailure> copied =
+            copy_pack(stick_, library_, pack, trust(), request_.limits.step_bytes,
+                      [this](std::uint64_t bytes) { return progress(bytes); });
         if (!copied && copied.error().whole) {
             return failed(copied.error());
         }

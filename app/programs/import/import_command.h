@@ -1,0 +1,33 @@
+/// What frustumscreen-import does: takes a stick's packs, lists the installed set, or says that a stick could not be mounted.
+///
+/// Threads  the main one.
+/// Errors   one line each: what could not be begun. What becomes of a stick stands in its report.
+#pragma once
+
+#include "app/library/import_report.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <string>
+
+namespace frustumscreen {
+
+struct ImportArguments {
+    std::filesystem::path from;   ///< the stick's folder
+    std::filesystem::path into;   ///< the installed set's; it is made where it is missing
+    std::filesystem::path keys;   ///< folder of *.pub; empty: those of `config`
+    std::filesystem::path config; ///< settings; empty: none
+    std::filesystem::path report; ///< file; empty: none
+    std::string label;            ///< the stick's
+    bool allow_unsigned = false;
+    bool json = false;
+};
+
+/// Waits until no other import works on the same folder.
+[[nodiscard]] Result<ImportReport> import_from(const ImportArguments& arguments);
+/// Leaves the report of a stick whose file system could not be mounted.
+[[nodiscard]] Result<ImportReport> tell_unmounted(const ImportArguments& arguments);
+/// The set that an exhibit started now would show, as text.
+[[nodiscard]] Result<std::string> list_installed(const ImportArguments& arguments);
+
+} // namespace frustumscreen
