@@ -18,7 +18,7 @@ protected:
         VolatileDisk first;
         first.put("a.fspack", museum.pack("a", 1));
         first.put("b.fspack", museum.pack("b", 1));
-        before.make_folder("shown").value();
+        ASSERT_TRUE(before.make_folder("shown"));
         ASSERT_EQ(import_quietly(first, before, request).stage, ImportStage::Done);
         judge(before, Verdict::Good);
         before.sync_all();
@@ -92,7 +92,24 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
         });
     }
     std::printf("%d operations, %d cuts, %d imports after them\n", operations, cuts, imports);
-    EXPECT_GT(cuts, 500);
+}
+
+/// The names of all packs are synced at once: then the most may be there without the others.
+TEST_F(PowerCut, WithManyPacksOnTheStick) {
+    for (const std::string id : {"d", "e", "f", "g"}) {
+        stick.put("more/" + id + ".fspack", museum.pack(id, 1, 3000));
+    }
+    const auto after = before.copy();
+    ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
+    new_text = text_of(*after);
+    for (int operation = 0; operation <= after->operations; ++operation) {
+        const auto disk = stopped(before, operation);
+        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+            expect_old_or_new(left, fmt::format("cut before operation {}", operation));
+        });
+        expect_new_after_import(*disk, fmt::format("stopped before {}", operation));
+    }
+    std::printf("%d operations, %d cuts\n", after->operations, cuts);
 }
 
 TEST_F(PowerCut, AfterAStoppedImportAndInTheMiddleOfTheNextOne) {

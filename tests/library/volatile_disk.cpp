@@ -263,18 +263,28 @@ FileResult<std::uint64_t> VolatileDisk::free_bytes() {
     return free;
 }
 
-void VolatileDisk::put(const std::string& path, const Bytes& bytes) {
+void VolatileDisk::undisturbed(const std::function<void()>& change) {
     const FaultPlan planned = std::exchange(plan, {});
     const auto meanwhile = std::exchange(before_operation, {});
     const int counted = operations;
-    if (const std::size_t slash = path.rfind('/'); slash != std::string::npos) {
-        static_cast<void>(make_folder(path.substr(0, slash)));
-    }
-    static_cast<void>(create(path).value()->append(bytes));
+    change();
     sync_all();
     plan = planned;
     before_operation = meanwhile;
     operations = counted;
+}
+
+void VolatileDisk::take_away(const std::string& path) {
+    undisturbed([&] { static_cast<void>(remove(path)); });
+}
+
+void VolatileDisk::put(const std::string& path, const Bytes& bytes) {
+    undisturbed([&] {
+        if (const std::size_t slash = path.rfind('/'); slash != std::string::npos) {
+            static_cast<void>(make_folder(path.substr(0, slash)));
+        }
+        static_cast<void>(create(path).value()->append(bytes));
+    });
 }
 
 void VolatileDisk::put(const std::string& path, std::string_view text) {

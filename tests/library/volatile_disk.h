@@ -75,6 +75,7 @@ public:
     /// For a test: a file with these bytes, on the disk; its folder is made.
     void put(const std::string& path, const Bytes& bytes);
     void put(const std::string& path, std::string_view text);
+    void take_away(const std::string& path);
     [[nodiscard]] std::optional<Content> content(const std::string& path) const;
     /// All is on the disk.
     void sync_all();
@@ -96,6 +97,7 @@ public:
 
 private:
     friend class VolatileFile;
+    void undisturbed(const std::function<void()>& change);
     [[nodiscard]] std::optional<int> find(const std::string& path) const;
     [[nodiscard]] std::optional<std::pair<int, std::string>> place_of(const std::string& path) const;
     FileResult<void> change(int folder, NameChange names, const Step& step);
