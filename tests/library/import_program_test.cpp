@@ -41,14 +41,16 @@ protected:
     }
     [[nodiscard]] std::vector<std::string> titles() const {
         std::vector<std::string> titles;
-        for (const json& pack : listed()["packs"]) {
+        const json set = listed();
+        for (const json& pack : set["packs"]) {
             titles.push_back(pack["title"]);
         }
         return titles;
     }
     /// Every file that is listed is there with its hash.
     void expect_whole() const {
-        for (const json& pack : listed()["packs"]) {
+        const json set = listed();
+        for (const json& pack : set["packs"]) {
             const Result<Bytes> bytes = read_file(folder / "library" / pack["file"].get<std::string>());
             ASSERT_TRUE(bytes) << pack;
             EXPECT_EQ(sha256_hex(*bytes), pack["sha256"].get<std::string>());
