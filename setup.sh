@@ -42,7 +42,12 @@ for part; do
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
-        hil) packages+=(python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static) ;;
+        hil)
+            packages+=(
+                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
+            )
+            ;;
         *)
             echo "usage: ./setup.sh [window|tests|fuzz|hil]..." >&2
             exit 2

@@ -1,11 +1,13 @@
 #include "app/programs/import/import_command.h"
 
+#include "app/library/import_end.h"
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
 #include "app/pack/key_folder.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
+#include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fcntl.h>
@@ -59,7 +61,10 @@ Nanoseconds processor_time() {
 }
 
 /// Another one for each stick, also after a start with the clock set back.
-std::string new_import_id() {
+std::string import_id(const ImportArguments& arguments) {
+    if (!arguments.id.empty()) {
+        return printable(arguments.id);
+    }
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return fmt::format("{}-{}", std::chrono::duration_cast<std::chrono::milliseconds>(now).count(),
                        ::getpid());
@@ -109,11 +114,16 @@ Result<InstalledSet> installed_set(const std::filesystem::path& folder) {
     return set_to_show(file->choice, *verdict);
 }
 
+/// Of what is installed; 0 where that is not known.
+std::uint64_t set_number(const ImportArguments& arguments) {
+    return installed_set(arguments.into).map([](const InstalledSet& set) { return set.number; }).value_or(0);
+}
+
 } // namespace
 
 Result<ImportReport> import_from(const ImportArguments& arguments) {
     ImportRequest request;
-    request.import_id = new_import_id();
+    request.import_id = import_id(arguments);
     request.stick = arguments.label;
     request.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     if (const Result<void> trusted = read_trust(arguments, request); !trusted) {
@@ -140,19 +150,28 @@ Result<ImportReport> import_from(const ImportArguments& arguments) {
 
 Result<ImportReport> tell_unmounted(const ImportArguments& arguments) {
     ImportReport report;
-    report.import_id = new_import_id();
+    report.import_id = import_id(arguments);
     report.stick = printable(arguments.label);
     report.stage = ImportStage::Failed;
     report.refusal = ImportRefusal::Unreadable;
     report.reason = "the stick's file system cannot be read; format it as FAT32 or exFAT, and copy the packs "
                     "onto it again";
-    if (!arguments.into.empty()) {
-        if (const Result<InstalledSet> set = installed_set(arguments.into)) {
-            report.set_number = set->number;
-        }
-    }
+    report.set_number = set_number(arguments);
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
+}
+
+Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
+    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
+    std::optional<ImportReport> last;
+    if (const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes)) {
+        if (Result<ImportReport> report = parse_import_report(as_text(*bytes))) {
+            last = *std::move(report);
+        }
+    }
+    const std::optional<ImportReport> word =
+        last_word(last, import_id(arguments), service_result, set_number(arguments));
+    return word ? write_file(arguments.report, as_bytes(write_import_report(*word))) : Result<void>();
 }
 
 Result<std::string> list_installed(const ImportArguments& arguments) {

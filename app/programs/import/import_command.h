@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -19,6 +20,7 @@ struct ImportArguments {
     std::filesystem::path config; ///< settings; empty: none
     std::filesystem::path report; ///< file; empty: none
     std::string label;            ///< the stick's
+    std::string id;               ///< of this import; empty: a new one
     bool allow_unsigned = false;
     bool json = false;
 };
@@ -27,6 +29,9 @@ struct ImportArguments {
 [[nodiscard]] Result<ImportReport> import_from(const ImportArguments& arguments);
 /// Leaves the report of a stick whose file system could not be mounted.
 [[nodiscard]] Result<ImportReport> tell_unmounted(const ImportArguments& arguments);
+/// Leaves the last word of the import `id`, if it could not say it itself; else the report stays. `service_result`: why it ended,
+/// as systemd says.
+[[nodiscard]] Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result);
 /// The set that an exhibit started now would show, as text.
 [[nodiscard]] Result<std::string> list_installed(const ImportArguments& arguments);
 

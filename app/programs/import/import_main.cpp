@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 namespace frustumscreen {
@@ -60,6 +61,7 @@ int run(int argc, char** argv) {
     std::string unsigned_packs = "refuse";
     bool to_list = false;
     bool is_unmounted = false;
+    bool has_ended = false;
     auto* from = app.add_option("--from", arguments.from, "the stick's folder; nothing is written to it");
     auto* into =
         app.add_option("--into", arguments.into, "folder of the installed set; made where it is missing");
@@ -68,17 +70,22 @@ int run(int argc, char** argv) {
         app.add_option("--config", arguments.config, "settings (TOML): exhibit.keys, exhibit.unsigned");
     app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
         ->check(CLI::IsMember({"refuse", "allow"}));
-    app.add_option("--report", arguments.report, "file that says what happens, renewed while it does (JSON)");
+    auto* report = app.add_option("--report", arguments.report,
+                                  "file that says what happens, renewed while it does (JSON)");
     app.add_option("--label", arguments.label, "the stick's name, for the report");
     app.add_flag("--json", arguments.json, "for programs");
     auto* list_flag =
         app.add_flag("--list", to_list, "the set that an exhibit started now would show; takes nothing");
     app.add_flag("--unmounted", is_unmounted,
                  "only leaves the report of a stick whose file system cannot be mounted");
+    auto* ended = app.add_flag("--ended", has_ended,
+                               "only leaves the last word on an import that was stopped (ExecStopPost=)");
+    auto* id = app.add_option("--id", arguments.id, "name of this import; another one for each stick");
+    ended->needs(id)->needs(report);
     list_flag->needs(into)->excludes(from);
     try {
         app.parse(argc, argv);
-        if (!to_list && !is_unmounted) {
+        if (!to_list && !is_unmounted && !has_ended) {
             for (const CLI::Option* wanted : {from, into}) {
                 if (wanted->count() == 0) {
                     throw CLI::RequiredError(wanted->get_name());
@@ -90,6 +97,10 @@ int run(int argc, char** argv) {
         }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (has_ended) {
+        const char* result = std::getenv("SERVICE_RESULT");
+        return exit_status("frustumscreen-import", tell_ended(arguments, result != nullptr ? result : ""));
     }
     arguments.allow_unsigned = unsigned_packs == "allow";
     return to_list ? list(arguments)
