@@ -1,6 +1,6 @@
 # What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
     systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
     DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)

@@ -14,8 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t step_bytes = 1U << 20U;
-
 /// Remembers the first fault, which otherwise is lost in the ZIP library.
 class WatchedContent final : public FileContent {
 public:
@@ -76,7 +74,8 @@ tl::unexpected<ImportFailure> changed() {
 
 /// Returns the hash of what was written.
 tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, const StickPack& pack,
-                                                    NewFile& to, const CopyProgress& progress) {
+                                                    NewFile& to, std::size_t step_bytes,
+                                                    const CopyProgress& progress) {
     Bytes step(std::min<std::uint64_t>(step_bytes, pack.pack.bytes));
     Sha256 hash;
     for (std::uint64_t at = 0; at < pack.pack.bytes; at += step.size()) {
@@ -99,7 +98,8 @@ tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, con
 }
 
 tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree& library,
-                                                   const StickPack& pack, const CopyProgress& progress) {
+                                                   const StickPack& pack, std::size_t step_bytes,
+                                                   const CopyProgress& progress) {
     const FileResult<std::unique_ptr<const FileContent>> from = stick.open(pack.path);
     if (!from) {
         return failed(stick_failure(pack.path, from.error()));
@@ -111,7 +111,7 @@ tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree
     if (!to) {
         return failed(disk_failure(incoming_file_name, to.error()));
     }
-    return copy_bytes(**from, pack, **to, progress);
+    return copy_bytes(**from, pack, **to, step_bytes, progress);
 }
 
 std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
@@ -124,7 +124,8 @@ std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
 
 /// From the copy alone.
 tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, const StickPack& pack,
-                                                      const PackTrust& trust, const CopyProgress& progress) {
+                                                      const PackTrust& trust, std::size_t step_bytes,
+                                                      const CopyProgress& progress) {
     int fault = 0;
     FileResult<WatchedPack> opened = open_watched(library, std::string(incoming_file_name), trust, fault);
     if (!opened) {
@@ -182,12 +183,14 @@ tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::s
 
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
                                                      const StickPack& pack, const PackTrust& trust,
-                                                     const CopyProgress& progress) {
-    const tl::expected<std::string, ImportFailure> hash = copy_file(stick, library, pack, progress);
+                                                     std::size_t step_bytes, const CopyProgress& progress) {
+    const tl::expected<std::string, ImportFailure> hash =
+        copy_file(stick, library, pack, step_bytes, progress);
     if (!hash) {
         return failed(hash.error());
     }
-    tl::expected<InstalledPack, ImportFailure> copied = check_copy(library, pack, trust, progress);
+    tl::expected<InstalledPack, ImportFailure> copied =
+        check_copy(library, pack, trust, step_bytes, progress);
     if (!copied) {
         return copied;
     }

@@ -2,7 +2,7 @@
 ///
 /// Checked  everything that is said of the pack afterwards comes from the copy, whose signature, manifest and parts were checked:
 ///          a stick that says other things the second time changes nothing.
-/// Memory   1 MiB, and what the pack's directory and manifest take.
+/// Memory   a step, and what the pack's directory and manifest take.
 /// Threads  one caller.
 #pragma once
 
@@ -24,10 +24,9 @@ namespace frustumscreen {
 /// the work.
 using CopyProgress = std::function<std::optional<ImportFailure>(std::uint64_t bytes)>;
 
-/// `pack`: as it was looked at. Its file and sha256 are filled in. The name is on the disk once the folder of packs was synced.
-[[nodiscard]] tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
-                                                                   const StickPack& pack,
-                                                                   const PackTrust& trust,
-                                                                   const CopyProgress& progress);
+/// `pack`: as it was looked at. `step_bytes` are copied at a time. Its file and sha256 are filled in. The name is on the disk once the folder of packs was synced.
+[[nodiscard]] tl::expected<InstalledPack, ImportFailure>
+copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const PackTrust& trust,
+          std::size_t step_bytes, const CopyProgress& progress);
 
 } // namespace frustumscreen

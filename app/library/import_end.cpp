@@ -19,6 +19,10 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         return std::nullopt;
     }
     ImportReport report = is_ours ? *last : ImportReport{};
+    if (report.stage == ImportStage::MayTakeOut) { // what was left to do nobody needs to hear of
+        report.stage = ImportStage::Done;
+        return report;
+    }
     report.import_id = std::move(import_id);
     report.stage = ImportStage::Failed;
     report.set_number = set_number;
@@ -28,6 +32,13 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         report.refusal = ImportRefusal::TooMuch;
         report.reason =
             "the stick takes more time or memory than it may; put fewer files on it, or try another one";
+    }
+    for (ImportedPack& pack : report.packs) { // none was switched to
+        if (pack.outcome == ImportOutcome::Pending || pack.outcome == ImportOutcome::Taken) {
+            pack.outcome = ImportOutcome::Refused;
+            pack.refusal = report.refusal;
+            pack.reason = "nothing of this stick was taken: " + report.reason;
+        }
     }
     return report;
 }

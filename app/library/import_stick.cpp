@@ -41,6 +41,7 @@ private:
     Outcome look_at_packs(const std::vector<std::string>& paths);
     Outcome look_for_room();
     Outcome copy();
+    Outcome copy_one(StickPack& pack);
     Outcome switch_set();
     [[nodiscard]] std::optional<ImportFailure> progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
@@ -109,7 +110,11 @@ Outcome Import::read_library() {
         return failed(known.error());
     }
     known_ = *std::move(known);
-    verdict_ = read_verdict(library_);
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
+    if (!verdict) {
+        return failed(verdict.error());
+    }
+    verdict_ = *verdict;
     report_.set_number = known_.choice.set.number;
     if (const FileResult<void> settled = settle(library_); !settled) {
         return failed(disk_failure(packs_folder_name, settled.error()));
@@ -218,30 +223,40 @@ std::optional<ImportFailure> Import::progress(std::uint64_t bytes) {
 
 Outcome Import::copy() {
     pace_began_ = outside_.now();
-    std::uint64_t before = 0; // of the packs that are done with, however far they came
-    bool copied_any = false;
-    for (StickPack& pack : packs_) {
+    std::uint64_t done = 0; // with the packs that are decided on, however far they came
+    for (const std::size_t k : copy_order(packs_)) {
+        StickPack& pack = packs_[k];
         if (!pack.is_wanted()) {
             continue;
         }
-        const tl::expected<InstalledPack, ImportFailure> copied = copy_pack(
-            stick_, library_, pack, trust(), [this](std::uint64_t bytes) { return progress(bytes); });
-        if (!copied && copied.error().whole) {
-            return failed(copied.error());
+        done += 2 * pack.pack.bytes;
+        weigh_against_taken(pack, packs_);
+        if (pack.is_wanted()) {
+            const Outcome copied = copy_one(pack);
+            if (!copied) {
+                return copied;
+            }
         }
-        before += 2 * pack.pack.bytes;
-        report_.done_bytes = before;
-        if (copied) {
-            pack.pack = *copied;
-            pack.told.outcome = ImportOutcome::Taken;
-            copied_any = true;
-        } else {
-            refuse(pack, copied.error());
-        }
+        report_.done_bytes = done;
     }
     const FileResult<void> synced =
-        copied_any ? library_.sync_folder(std::string(packs_folder_name)) : FileResult<void>();
+        done > 0 ? library_.sync_folder(std::string(packs_folder_name)) : FileResult<void>();
     return synced ? Outcome() : failed(disk_failure(packs_folder_name, synced.error()));
+}
+
+Outcome Import::copy_one(StickPack& pack) {
+    const tl::expected<InstalledPack, ImportFailure> copied =
+        copy_pack(stick_, library_, pack, trust(), request_.limits.step_bytes,
+                  [this](std::uint64_t bytes) { return progress(bytes); });
+    if (copied) {
+        pack.pack = *copied;
+        pack.told.outcome = ImportOutcome::Taken;
+    } else if (copied.error().whole) {
+        return failed(copied.error());
+    } else {
+        refuse(pack, copied.error());
+    }
+    return {};
 }
 
 /// Serials and keys are kept even where the set stays as it is.

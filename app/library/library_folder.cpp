@@ -60,12 +60,12 @@ tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library) {
     return *std::move(file);
 }
 
-std::optional<SetVerdict> read_verdict(FileTree& library) {
+tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& library) {
     const FileResult<std::string> text = read_text(library, verdict_file_name, most_verdict_bytes);
-    if (!text) {
-        return std::nullopt;
+    if (!text && text.error().number != ENOENT) {
+        return tl::unexpected<ImportFailure>(disk_failure(verdict_file_name, text.error()));
     }
-    const Result<SetVerdict> verdict = parse_verdict(*text);
+    const Result<SetVerdict> verdict = parse_verdict(text.value_or(""));
     return verdict ? std::optional(*verdict) : std::nullopt;
 }
 

@@ -18,8 +18,8 @@ inline constexpr std::string_view next_set_file_name = "set.txt.new";
 
 /// An empty one where there is none yet. Errors: it cannot be read, or is damaged.
 [[nodiscard]] tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library);
-/// Nothing if there is none, or none that can be read: the exhibit has said nothing then.
-[[nodiscard]] std::optional<SetVerdict> read_verdict(FileTree& library);
+/// Nothing if there is none, or it is none: the exhibit has said nothing then. Errors: it cannot be read.
+[[nodiscard]] tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& library);
 
 /// Makes sure that what set.txt says now is on the disk, and that the folder for packs is.
 [[nodiscard]] FileResult<void> settle(WritableTree& library);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace frustumscreen {
 
@@ -53,22 +54,6 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
     }
 }
 
-/// Of two packs with one id, the one with the higher serial counts; of equals the first.
-void weigh_against_each_other(StickPack& one, StickPack& other) {
-    StickPack& loser = one.pack.serial >= other.pack.serial ? other : one;
-    const StickPack& winner = &loser == &one ? other : one;
-    const std::string name = printable(winner.path);
-    if (winner.pack.serial == loser.pack.serial &&
-        winner.pack.manifest_sha256 == loser.pack.manifest_sha256) {
-        be_there_already(loser, fmt::format("it is the same as {} on this stick", name));
-        return;
-    }
-    refuse(loser, {ImportRefusal::Older,
-                   fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
-                               winner.pack.serial, loser.pack.serial),
-                   false});
-}
-
 } // namespace
 
 void refuse(StickPack& pack, const ImportFailure& failure) {
@@ -87,13 +72,33 @@ void weigh_packs(std::vector<StickPack>& packs, const InstalledSet& shown, const
             weigh(pack, shown, known);
         }
     }
-    for (std::size_t k = 0; k < packs.size(); ++k) {
-        for (std::size_t other = 0; other < k && packs[k].is_wanted(); ++other) {
-            if (packs[other].is_wanted() && is_same_artifact(packs[k].pack, packs[other].pack)) {
-                weigh_against_each_other(packs[other], packs[k]);
-            }
-        }
+}
+
+std::vector<std::size_t> copy_order(const std::vector<StickPack>& packs) {
+    std::vector<std::size_t> order(packs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return packs[a].pack.serial > packs[b].pack.serial;
+    });
+    return order;
+}
+
+void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
+    const auto taken = std::find_if(packs.begin(), packs.end(), [&](const StickPack& other) {
+        return other.told.outcome == ImportOutcome::Taken && is_same_artifact(other.pack, pack.pack);
+    });
+    if (taken == packs.end()) {
+        return;
     }
+    const std::string name = printable(taken->path);
+    if (taken->pack.serial == pack.pack.serial && taken->pack.manifest_sha256 == pack.pack.manifest_sha256) {
+        be_there_already(pack, fmt::format("it is the same as {} on this stick", name));
+        return;
+    }
+    refuse(pack, {ImportRefusal::Older,
+                  fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
+                              taken->pack.serial, pack.pack.serial),
+                  false});
 }
 
 } // namespace frustumscreen
