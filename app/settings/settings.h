@@ -132,6 +132,8 @@ struct ExhibitSettings {
     int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
     std::vector<TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
+    /// What the importer says of a stick (library/import_report.h); not there: nothing. Resolved as above.
+    std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.

@@ -106,7 +106,8 @@ Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
-           words_.planned_gpu_bytes + table_.planned_gpu_bytes() + hotspots_.planned_gpu_bytes();
+           words_.planned_gpu_bytes + table_.planned_gpu_bytes() + hotspots_.planned_gpu_bytes() +
+           notice_.planned_gpu_bytes();
 }
 
 void ArtifactShow::note_language(const Settings& settings, const std::vector<std::string>& languages) {
@@ -171,7 +172,8 @@ ArtifactShow::ArtifactShow(const Settings& settings, const OpenedArtifacts& open
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
       needs_(opened.needs), renderer_(std::move(renderer)), notes_(opened.notes),
-      catalogue_(catalogue_of(opened.known)), attract_place_m_(0.0), dark_(make_plan(prop_, 0, 1)) {
+      catalogue_(catalogue_of(opened.known)), attract_place_m_(0.0),
+      picture_m_(picture_on_table(settings, 0.0)), dark_(make_plan(prop_, 0, 1)) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -317,6 +319,8 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     }
     place_hotspot(presentation);
     place_signs(presentation);
+    notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
+                  renderer_.store(), on_table_);
     view.on_table = on_table_.pictures();
     RunLevels* const levels = residents_->find(presentation.artifact);
     if (levels == nullptr) {

@@ -14,6 +14,7 @@
 #include "app/show/advice_words.h"
 #include "app/show/artifact_opener.h"
 #include "app/show/hotspot_show.h"
+#include "app/show/notice_show.h"
 #include "app/show/on_table.h"
 #include "app/show/residents.h"
 #include "app/show/run_levels.h"
@@ -133,6 +134,8 @@ private:
     AdviceWords words_;
     HotspotShow hotspots_;
     TableShow table_; ///< what lies there to choose from
+    NoticeTextures notice_;
+    std::vector<glm::dvec2> picture_m_; ///< what the projector's picture covers of the table
     OnTable on_table_;
     std::optional<std::size_t> on_; ///< the artifact that was drawn last; none: it was not there
     double load_ = 1.0;             ///< of the GPU (governor.h)

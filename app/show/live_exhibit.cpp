@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace frustumscreen {
@@ -54,8 +56,10 @@ Volume volume_of(const SoundSettings& settings) {
 LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit,
                          std::string driver, PromptReader::Answer answer)
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
+      notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always
+                                                               : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)) {
-    if (stage_->speaks()) {
+    if (speaks()) {
         speaker_.begin(answer);
     }
 }
@@ -63,9 +67,27 @@ LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage,
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
-    presentation_ = exhibit_.step(now, commands, on_table);
+    presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
+    notice_.step(now, on_table, presentation_);
     follow_staff_mode();
-    speaker_.step(presentation_, *stage_);
+    if (speaker_.step(presentation_, *stage_, notice_.announcement())) {
+        notice_.announced();
+    }
+}
+
+std::span<const Command> LiveExhibit::left_by_notice(MonotonicTime now, std::span<const Command> commands) {
+    static constexpr std::array chord{Command::StaffMode};
+    if (!notice_.take_press(now, commands)) {
+        return commands;
+    }
+    bool has_chord = false;
+    for (const Command command : commands) {
+        has_chord = has_chord || command == Command::StaffMode;
+        if (command != Command::StaffMode) {
+            exhibit_.forget_press(command);
+        }
+    }
+    return std::span(chord).first(has_chord ? 1 : 0);
 }
 
 void LiveExhibit::hear(const SoundReport& report) {
@@ -76,6 +98,7 @@ void LiveExhibit::hear(const SoundReport& report) {
 ShowState LiveExhibit::state() const {
     ShowState state = stage_->state(presentation_);
     state.told = told_by(presentation_);
+    state.import = notice_.import();
     return state;
 }
 

@@ -126,6 +126,9 @@ void RunWatch::note(const RunStatus& status) {
     note_device("panel", status.panel, panel_);
     note_device("sound", status.sound, sound_);
     note_device("recording", status.recording, recording_);
+    imports_.note(status.import, [this](LogPriority priority, const Sentence& line) {
+        note_state(priority, "stick", line.view(), line);
+    });
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
