@@ -10,6 +10,7 @@
 #include "app/exhibit/exhibit.h"
 #include "app/settings/settings.h"
 #include "app/show/pattern_show.h"
+#include "app/show/set_switch.h"
 #include "app/show/show.h"
 #include "app/show/speaker.h"
 #include "firmware_host/sound/volume.h"
@@ -30,6 +31,9 @@ public:
     LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver,
                 PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
+    /// Other sets may come from here on; `artifacts` is the stage.
+    void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
+
     void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
     void tell(const RunStatus& status) override;
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
@@ -39,6 +43,7 @@ public:
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
     void hear(const SoundReport& report) override;
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
 
 private:
     void follow_staff_mode();
@@ -46,6 +51,7 @@ private:
     const Settings& settings_;
     std::unique_ptr<Stage> stage_;
     std::string driver_;
+    std::unique_ptr<SetSwitch> set_switch_; ///< none: this set is shown for good
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
