@@ -22,6 +22,7 @@
 #include "app/exhibit/captions.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/notice_place.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/sensed.h"
@@ -121,6 +122,7 @@ struct Presentation {
     std::string_view table_language;          ///< of its titles; valid as long as the exhibit
     double set_share = 1.0;                   ///< of the table's pictures: 0..1, the same
     double title_brightness = 1.0;            ///< of its titles: 0..1, a factor on linear light
+    std::optional<PresentedNotice> notice;    ///< what is told of a stick; the exhibit leaves it out
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -145,6 +147,8 @@ public:
                                     const Situation& situation);
     /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
     void note(std::span<const ArtifactState> states);
+    /// This press did something else, which the exhibit knows nothing of: no chord undoes it.
+    void forget_press(Command command) { selected_.at(static_cast<std::size_t>(button_of(command))) = false; }
     /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then no advice begins to be. `narration`: of the description told.

@@ -131,6 +131,8 @@ struct ExhibitSettings {
     bool table_pictures = true;      ///< the set lies on the table, to choose from
     double rest_s = 60.0; ///< nobody has been there for so long: artifacts in turn, the house's language
     int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
+    /// What the importer says of a stick (library/import_report.h); not there: nothing. Resolved as above.
+    std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.

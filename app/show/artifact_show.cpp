@@ -94,7 +94,7 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
-           hotspots_.planned_gpu_bytes();
+           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes();
 }
 
 void ArtifactShow::note_language(const Settings& settings) {
@@ -163,7 +163,8 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
 ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
-      renderer_(std::move(renderer)), names_{settings.exhibit.language}, attract_place_m_(0.0), dark_(make_plan(prop_, 0, 1)) {
+      renderer_(std::move(renderer)), names_{settings.exhibit.language}, attract_place_m_(0.0),
+      picture_m_(picture_on_table(settings, 0.0)), dark_(make_plan(prop_, 0, 1)) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -300,6 +301,8 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     }
     place_hotspot(presentation);
     place_signs(presentation);
+    notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
+                  renderer_.store(), on_table_);
     view.on_table = on_table_.pictures();
     RunLevels* const levels = residents.find(presentation.artifact);
     if (levels == nullptr) {

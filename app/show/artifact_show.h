@@ -12,6 +12,7 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/hotspot_show.h"
+#include "app/show/notice_show.h"
 #include "app/show/on_table.h"
 #include "app/show/run_levels.h"
 #include "app/show/show.h"
@@ -152,6 +153,8 @@ private:
     std::array<TextureId, sign_count> signs_{}; ///< by Sign; none without guidance
     std::uint64_t planned_sign_bytes_ = 0;
     HotspotShow hotspots_;
+    NoticeTextures notice_;
+    std::vector<glm::dvec2> picture_m_; ///< what the projector's picture covers of the table
     OnTable on_table_;
     std::optional<std::size_t> on_; ///< the artifact that was drawn last; none: it was not there
     double load_ = 1.0;             ///< of the GPU (governor.h)

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace frustumscreen {
@@ -58,8 +60,10 @@ Volume volume_of(const SoundSettings& settings) {
 LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit,
                          std::string driver, PromptReader::Answer answer)
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
+      notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always
+                                                               : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)) {
-    if (stage_->speaks()) {
+    if (speaks()) {
         speaker_.begin(answer);
     }
 }
@@ -73,17 +77,35 @@ std::optional<MonotonicTime> LiveExhibit::alive_until() const {
 }
 
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
-    if (set_switch_) {
-        set_switch_->step(now, presentation_.state, exhibit_);
+    if (set_switch_ && set_switch_->step(now, presentation_.state, exhibit_)) {
+        presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
-    presentation_ = exhibit_.step(now, commands, on_table);
+    presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
     if (set_switch_) {
         set_switch_->report(now, presentation_.state);
     }
+    notice_.step(now, on_table, presentation_);
     follow_staff_mode();
-    speaker_.step(presentation_, *stage_);
+    if (speaker_.step(presentation_, *stage_, notice_.announcement())) {
+        notice_.announced();
+    }
+}
+
+std::span<const Command> LiveExhibit::left_by_notice(MonotonicTime now, std::span<const Command> commands) {
+    static constexpr std::array chord{Command::StaffMode};
+    if (!notice_.take_press(now, commands)) {
+        return commands;
+    }
+    bool has_chord = false;
+    for (const Command command : commands) {
+        has_chord = has_chord || command == Command::StaffMode;
+        if (command != Command::StaffMode) {
+            exhibit_.forget_press(command);
+        }
+    }
+    return std::span(chord).first(has_chord ? 1 : 0);
 }
 
 void LiveExhibit::hear(const SoundReport& report) {
@@ -95,6 +117,7 @@ ShowState LiveExhibit::state() const {
     ShowState state = stage_->state(presentation_);
     state.told = told_by(presentation_);
     state.set = set_switch_ ? set_switch_->status() : nullptr;
+    state.import = notice_.import();
     return state;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/settings/settings.h"
+#include "app/show/notice_show.h"
 #include "app/show/pattern_show.h"
 #include "app/show/set_switch.h"
 #include "app/show/show.h"
@@ -41,11 +42,14 @@ public:
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
-    [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
+    [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
 
 private:
+    /// Those that a notice leaves to the exhibit.
+    [[nodiscard]] std::span<const Command> left_by_notice(MonotonicTime now,
+                                                          std::span<const Command> commands);
     void follow_staff_mode();
 
     const Settings& settings_;
@@ -55,6 +59,7 @@ private:
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
+    NoticeShow notice_;
     Volume volume_;
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never

@@ -230,6 +230,7 @@ private:
         status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
+        status.import = state.import;
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;

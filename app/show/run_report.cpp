@@ -102,6 +102,12 @@ nlohmann::ordered_json json_of(const SharedSetStatus& status) {
             {"trouble", status->trouble}};
 }
 
+/// The importer's own report, as its file has it.
+nlohmann::ordered_json json_of(const SharedImport& import) {
+    return import ? nlohmann::ordered_json::parse(write_import_report(import->report), nullptr, false)
+                  : nlohmann::ordered_json(nullptr);
+}
+
 /// The kernel's name for the time since it was started (random(4)); empty where it does not say.
 Sentence boot_id() {
     std::string id;
@@ -189,6 +195,7 @@ std::string status_json(const RunStatus& status) {
         {"sound", status.sound.view()},
         {"sound_underruns", status.sound_underruns},
         {"recording", status.recording.view()},
+        {"import", json_of(status.import)},
         {"prop_known", status.prop_known},
         {"head_known", status.head_known},
         {"uptime_s", rounded(status.uptime_s)},

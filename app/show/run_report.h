@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/geometry/transform.h"
+#include "app/show/import_watch.h"
 #include "app/show/set_status.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/sentence.h"
@@ -129,6 +130,7 @@ struct RunStatus {
     bool head_known = false;
     std::size_t loaded = 0; ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0;
+    SharedImport import; ///< what the importer says; none: nothing
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);

@@ -134,6 +134,9 @@ void RunWatch::note(const RunStatus& status) {
         noted_set_ = status.set;
         note_device("set", Sentence(sentence_of(*status.set)), set_);
     }
+    imports_.note(status.import, [this](LogPriority priority, const Sentence& line) {
+        note_state(priority, "stick", line.view(), line);
+    });
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),

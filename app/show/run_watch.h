@@ -2,12 +2,14 @@
 ///
 /// Watched  what is presented, by a code in it (app/render/probe.h), if a service manager's watchdog or a
 ///          status file needs it; the loop itself, by a thread that reports when the loop is silent.
-/// Journal  one line for each change of a device's state, of what is shown, of the installed set, and of the watchdog's opinion;
+/// Journal  one line for each change of a device's state, of what is shown, of the installed set, and of the watchdog's opinion,
+///          and for what is done with a stick;
 ///          every line has what is shown in its fields ARTIFACT, LANGUAGE and LEVEL.
 /// Time     the loop's `now`. A run on a simulated clock is not watched.
 /// Threads  the render thread, with the display's context current; allocates nothing in a frame.
 #pragma once
 
+#include "app/show/import_journal.h"
 #include "app/show/inputs.h"
 #include "app/show/run_report.h"
 #include "firmware_host/display/display.h"
@@ -63,6 +65,7 @@ private:
     std::optional<std::uint8_t> shown_code_;
     SharedSetStatus noted_set_;
     Sentence display_, tracker_, panel_, sound_, recording_, set_, artifact_, language_, level_;
+    ImportJournal imports_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above
 };
 

@@ -34,6 +34,7 @@ struct ShowState {
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
     State state = State::Staff;
     ToldText told = {};
+    SharedImport import = {}; ///< what the importer says; none: nothing
 };
 
 class Show {
