@@ -244,6 +244,8 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     if constexpr (Fields::reads) {
         exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
     }
+    fields.path("library", exhibit.library,
+                "where packs from sticks are installed; a set there goes before `packs`");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
                   "of the captions, at first");
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");

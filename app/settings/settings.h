@@ -120,6 +120,8 @@ struct PanelSettings {
 struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
     std::string packs_key;                    ///< where the settings name them, for messages
+    /// The installed set, which goes before `packs`; resolved as above. Empty: none is looked for.
+    std::filesystem::path library = "/var/lib/frustumscreen/library";
     std::string language = "en";
     bool captions = true;
     double caption_height_m = 0.010;

@@ -11,6 +11,7 @@
 #include "app/settings/settings.h"
 #include "app/show/notice_show.h"
 #include "app/show/pattern_show.h"
+#include "app/show/set_switch.h"
 #include "app/show/show.h"
 #include "app/show/speaker.h"
 #include "firmware_host/sound/volume.h"
@@ -31,6 +32,9 @@ public:
     LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver,
                 PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
+    /// Other sets may come from here on; `artifacts` is the stage.
+    void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
+
     void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
     void tell(const RunStatus& status) override;
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
@@ -40,6 +44,7 @@ public:
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
 
 private:
     /// Those that a notice leaves to the exhibit.
@@ -50,6 +55,7 @@ private:
     const Settings& settings_;
     std::unique_ptr<Stage> stage_;
     std::string driver_;
+    std::unique_ptr<SetSwitch> set_switch_; ///< none: this set is shown for good
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
