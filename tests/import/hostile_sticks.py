@@ -132,17 +132,16 @@ def bombs(folder, signer):
 
 
 def large_part(folder, signer):
-    """512 MiB of zeros with the right hash, as large as a part may be."""
-    block, total = bytes(1 << 20), hashlib.sha256()
+    """512 MiB of zeros with the right hash, as large as a part may be. It is the museum's own, so it may take its time."""
+    block, total, check = bytes(1 << 20), hashlib.sha256(), 0
     for _ in range(512):
         total.update(block)
-    description = manifest()
-    files = {"levels/0.bin": triangle()}
-    text = json.loads(described(description, files))
+        check = zlib.crc32(block, check)
+    text = json.loads(described(manifest(), {"levels/0.bin": triangle()}))
     text["parts"].append({"name": "textures/0.png", "bytes": 512 << 20, "sha256": total.hexdigest()})
     text = json.dumps(text).encode()
-    entries = pack_entries(text, files, signer.sign(text))
-    entries.insert(1, Entry(b"textures/0.png", b"", DEFLATED, packed=zeros(512), size=512 << 20))
+    entries = pack_entries(text, {"levels/0.bin": triangle()}, signer.sign(text))
+    entries.insert(1, Entry(b"textures/0.png", b"", DEFLATED, packed=zeros(512), size=512 << 20, check=check))
     (folder / "large.fspack").write_bytes(zip_file(entries))
 
 
@@ -313,11 +312,7 @@ def deep_set_file(folder, signer):
 
 CASES = (zip_directories, many_parts, bombs, large_part, no_numbers, manifests, broken_parts, signatures, no_files, names, many_files,
          many_folders, deep_folders, two_terabytes, sparse_with_end, set_files, deep_set_file)
-# Whose packs are whole, and taken if there is time.
-MAY_BE_TAKEN = {large_part}
-
-
-arguments_verbose = "-v" in sys.argv
+WHOLE = (large_part,)  # signed, and as its manifest says: its time goes by its size
 
 
 class Wrong(Exception):
@@ -368,16 +363,12 @@ def check(kiosk, case, stick, before):
     row = (case.__name__, len(report["packs"]), mib, work_s, clock_s, said.split("\n")[0])
     if status not in (0, 1):
         raise Wrong(f"it ended with {status}: {said[-500:]}")
-    if mib > MOST_MIB or work_s > MOST_WORK_S or clock_s > MOST_CLOCK_S:
+    if mib > MOST_MIB or (work_s > MOST_WORK_S and case not in WHOLE) or clock_s > MOST_CLOCK_S:
         raise Wrong(f"it took {mib:.0f} MiB, {work_s:.1f} s of the processor, {clock_s:.1f} s")
-    if arguments_verbose:
-        print(said)
     if any(letter < " " and letter != "\n" or letter == "\u202e" for letter in said):
         raise Wrong(f"what it says cannot be printed: {said}")
     if not report["stage"] in ("done", "failed"):
         raise Wrong(f"the report stays at {report['stage']}")
-    if case in MAY_BE_TAKEN:
-        return row
     taken = [told for told in report["packs"] if told["outcome"] not in ("refused", "already_there")]
     if report["stage"] == "done" and taken:
         raise Wrong(f"it was not refused: {taken[:2]}")
@@ -394,7 +385,6 @@ def main():
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--table", type=pathlib.Path)
     parser.add_argument("--only", default="", help="those whose name contains this")
-    parser.add_argument("-v", action="store_true", help="all that is said")
     parser.add_argument("--measure", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.measure:

@@ -32,6 +32,7 @@ class Entry:
     flags: int = 0
     attributes: int = 0
     local_name: bytes = None  # what the entry itself says of its name
+    check: int = None  # CRC-32
 
 
 def deflated(data):
@@ -47,7 +48,7 @@ def zip_file(entries, count=None, before=b"", after=b""):
             entry.packed = deflated(entry.data) if entry.method == DEFLATED else entry.data
         size = len(entry.data) if entry.size is None else entry.size
         packed_size = len(entry.packed) if entry.packed_size is None else entry.packed_size
-        check = zlib.crc32(entry.data)
+        check = zlib.crc32(entry.data) if entry.check is None else entry.check
         offset = len(body) if entry.offset is None else entry.offset
         name = entry.name if entry.local_name is None else entry.local_name
         body += struct.pack("<IHHHHHIIIHH", 0x04034B50, 20, entry.flags, entry.method, 0, DATE, check, packed_size, size,
