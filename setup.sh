@@ -37,12 +37,18 @@ for part; do
                 libgtest-dev umockdev libumockdev-dev python3
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
+                minisign                          # signatures
                 python3-matplotlib                # the bench's plots
                 shellcheck clang-format pyflakes3 # how it is written
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
-        hil) packages+=(python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static) ;;
+        hil)
+            packages+=(
+                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
+            )
+            ;;
         *)
             echo "usage: ./setup.sh [window|tests|fuzz|hil]..." >&2
             exit 2

@@ -1,9 +1,14 @@
 # What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
-install(FILES systemd/frustumscreen.service
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
+    systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
     DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)
-install(FILES systemd/70-frustumscreen.rules
+foreach(unit frustumscreen-import@.service frustumscreen-import-refused@.service) # the same sandbox for both
+    install(FILES systemd/frustumscreen-import.sandbox.conf
+        DESTINATION /usr/lib/systemd/system/${unit}.d RENAME sandbox.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
+endforeach()
+install(FILES systemd/70-frustumscreen.rules systemd/71-frustumscreen-stick.rules
     DESTINATION /usr/lib/udev/rules.d COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.sysusers
     DESTINATION /usr/lib/sysusers.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)

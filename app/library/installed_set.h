@@ -1,7 +1,7 @@
 /// The installed set of packs: which files the exhibit shows, in which order, and what is known of them.
 ///
 /// Files    all below one folder:
-///          set.txt            first line `frustumscreen-set 1 SHA256`, the hash of all that follows: JSON (write_set_file).
+///          set.txt            first line `frustumscreen-set 1 SHA256`, the hash of all that follows: JSON (set_file.h).
 ///                             It is switched by rename. Only the importer writes it.
 ///          packs/SHA256.fspack  named by their bytes, so that a file is never changed, only added or removed. Only the importer.
 ///          shown/verdict.json what the exhibit has seen of a set. Only the exhibit writes it.
@@ -28,6 +28,7 @@ struct InstalledPack {
     std::uint64_t serial = 0; ///< of its signature; 0: it is unsigned
     std::string sha256;       ///< of the file
     std::uint64_t bytes = 0;
+    std::string manifest_sha256{}; ///< of the manifest's bytes, which stand for all that the pack holds
     [[nodiscard]] bool operator==(const InstalledPack&) const = default;
 };
 /// A text of the attract mode.

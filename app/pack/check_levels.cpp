@@ -98,7 +98,7 @@ Result<void> check_mesh(const PackLevel& level) {
     return check_clusters(level);
 }
 
-Result<void> check_level_count(const Pack& pack, std::size_t levels) {
+Result<void> check_level_count(const PackDescription& pack, std::size_t levels) {
     if (levels == 0 || levels > most_levels) {
         return bad_input(fmt::format("the pack has {} levels, allowed are 1 to {}", levels, most_levels));
     }

@@ -26,7 +26,7 @@ namespace frustumscreen::pack_format {
 /// One line for each language; `place` names what they label.
 [[nodiscard]] Result<void> check_labels(const std::string& place, const std::vector<PackLabel>& labels);
 /// The number of levels, and that the default is one of them; the levels themselves are not needed.
-[[nodiscard]] Result<void> check_level_count(const Pack& pack, std::size_t levels);
+[[nodiscard]] Result<void> check_level_count(const PackDescription& pack, std::size_t levels);
 /// Textures, relief and its charts, the table's picture; the levels are not needed. `Chosen`: an empty texture was not read.
 enum class Read { All, Chosen };
 [[nodiscard]] Result<void> check_pictures(const Pack& pack, Read read = Read::All);

@@ -33,7 +33,7 @@ JsonReader::JsonReader(Refusal& refusal, const Json* object, std::string place)
     : refusal_(&refusal), object_(object), place_(std::move(place)) {
     if (object_ == nullptr || !object_->is_object()) {
         object_ = nullptr;
-        refusal_->refuse(place_.empty() ? "the manifest" : place_, "must be an object { ... }");
+        refusal_->refuse(place_.empty() ? refusal_->document : place_, "must be an object { ... }");
     }
 }
 
@@ -228,7 +228,7 @@ void JsonReader::finish() {
     }
     for (const auto& [key, value] : object_->items()) {
         if (!known_.contains(key)) {
-            refusal_->refuse(place_of(printable(key, 40).c_str()), "is not a field of a pack's manifest");
+            refusal_->refuse(place_of(printable(key, 40).c_str()), "is not a field of " + refusal_->document);
             return;
         }
     }
@@ -244,14 +244,14 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
         const bool ends = event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
         values += ends ? 0 : 1;
         if (values > most_manifest_values) {
-            refusal.refuse("the manifest",
+            refusal.refuse(refusal.document,
                            fmt::format("holds more than {} values; allowed are fewer", most_manifest_values));
             return false;
         }
         const bool begins =
             event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
         if (begins && depth >= static_cast<int>(most_depth)) {
-            refusal.refuse("the manifest",
+            refusal.refuse(refusal.document,
                            fmt::format("has more than {} objects and lists inside each other", most_depth));
             return false;
         }
@@ -259,18 +259,24 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
             open_objects.emplace_back();
         } else if (event == Json::parse_event_t::object_end) {
             open_objects.pop_back();
-        } else if (event == Json::parse_event_t::key &&
-                   !open_objects.back().insert(parsed.get<std::string>()).second) {
-            refusal.refuse(printable(parsed.get<std::string>(), 40), "occurs twice in one object");
+        } else if (event == Json::parse_event_t::key) {
+            std::set<std::string>& names = open_objects.back();
+            if (!names.insert(parsed.get<std::string>()).second) {
+                refusal.refuse(printable(parsed.get<std::string>(), 40), "occurs twice in one object");
+            } else if (names.size() > most_object_names) {
+                refusal.refuse(
+                    refusal.document,
+                    fmt::format("has an object of more than {} names; allowed are fewer", most_object_names));
+            }
         }
         return true;
     };
     try {
         return Json::parse(text, watch);
     } catch (const Json::parse_error& error) {
-        refusal.refuse("the manifest", fmt::format("is not JSON in UTF-8 (at byte {})", error.byte));
+        refusal.refuse(refusal.document, fmt::format("is not JSON in UTF-8 (at byte {})", error.byte));
     } catch (const Json::exception&) {
-        refusal.refuse("the manifest", "holds a number that is too large");
+        refusal.refuse(refusal.document, "holds a number that is too large");
     }
     return {};
 }

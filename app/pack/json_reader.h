@@ -22,6 +22,7 @@ namespace frustumscreen::pack_format {
 
 struct Refusal {
     std::optional<std::string> message;
+    std::string document = "the manifest"; ///< what is read, for messages
     void refuse(const std::string& place, std::string_view what);
 };
 

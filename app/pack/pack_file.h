@@ -45,6 +45,11 @@ private:
 [[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file,
                                              const ChooseLevels& choose = {});
 
+/// As load_pack, from a container that is open: what was read of it before, its signature for instance, is not read again. A
+/// reader serves once. Messages do not begin with the file's name.
+[[nodiscard]] Result<VerifiedPack> read_pack(pack_format::PackReader& reader,
+                                             const ChooseLevels& choose = {});
+
 /// `box_from_file` and the placement of the box in a prop as one matrix: file to prop coordinates.
 struct Placement {
     double metres_per_box = 0.0; ///< uniform scale from box units to metres in the prop's frame

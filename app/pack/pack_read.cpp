@@ -194,9 +194,6 @@ PackOutline outline_of(const Pack& pack) {
     return outline;
 }
 
-/// A friend of VerifiedPack, for the two functions below.
-Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose);
-
 Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose) {
     VerifiedPack read;
     read.pack_ = Pack{reader.manifest().description, {}, {}, {}, {}, {}};

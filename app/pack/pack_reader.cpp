@@ -13,24 +13,11 @@ namespace frustumscreen::pack_format {
 
 namespace {
 
-Result<Manifest> read_manifest(ZipReader& zip) {
-    if (zip.entries().empty() || zip.entries().front().name != manifest_name) {
-        return bad_input("its first entry is not manifest.json; this is not a pack");
-    }
-    const ZipEntry& entry = zip.entries().front();
-    if (entry.bytes > most_manifest_bytes) {
-        return bad_input(
-            fmt::format("manifest.json has {} bytes, allowed are {}", entry.bytes, most_manifest_bytes));
-    }
-    const Result<Bytes> text = zip.read(entry);
-    if (!text) {
-        return tl::unexpected(text.error());
-    }
-    Result<Manifest> manifest = parse_manifest(as_text(*text));
-    if (!manifest) {
-        return at("manifest.json", manifest.error());
-    }
-    return manifest;
+Result<void> check_signature_size(const ZipEntry& entry) {
+    return entry.bytes <= most_signature_bytes
+               ? Result<void>()
+               : bad_input(fmt::format("the signature has {} bytes, allowed are {}", entry.bytes,
+                                       most_signature_bytes));
 }
 
 const PartRecord* find_part(const Manifest& manifest, std::string_view name) {
@@ -55,11 +42,11 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
         listed.insert(part.name);
     }
     for (const ZipEntry& entry : zip.entries()) {
-        if (entry.name == signature_name && entry.bytes > most_signature_bytes) {
-            return bad_input(
-                fmt::format("the signature has {} bytes, allowed are {}", entry.bytes, most_signature_bytes));
-        }
-        if (entry.name != manifest_name && entry.name != signature_name && !listed.contains(entry.name)) {
+        if (entry.name == signature_name) {
+            if (Result<void> good = check_signature_size(entry); !good) {
+                return good;
+            }
+        } else if (entry.name != manifest_name && !listed.contains(entry.name)) {
             return bad_input(
                 fmt::format("{} is not listed in the manifest; the pack is altered", entry.name));
         }
@@ -69,11 +56,36 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
 
 } // namespace
 
-Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
-    if (bytes.size() > most_pack_bytes) {
-        return bad_input(fmt::format("the pack has {} bytes, allowed are {}", bytes.size(), most_pack_bytes));
+Result<Bytes> read_manifest_bytes(ZipReader& zip) {
+    if (zip.entries().empty() || zip.entries().front().name != manifest_name) {
+        return bad_input("its first entry is not manifest.json; this is not a pack");
     }
-    return open(ZipReader::open(bytes));
+    const ZipEntry& entry = zip.entries().front();
+    if (entry.bytes > most_manifest_bytes) {
+        return bad_input(
+            fmt::format("manifest.json has {} bytes, allowed are {}", entry.bytes, most_manifest_bytes));
+    }
+    return zip.read(entry);
+}
+
+Result<std::optional<std::string>> read_signature_entry(ZipReader& zip) {
+    const ZipEntry* entry = zip.find(signature_name);
+    if (entry == nullptr) {
+        return std::optional<std::string>();
+    }
+    return check_signature_size(*entry)
+        .and_then([&] { return zip.read(*entry); })
+        .map([](const Bytes& bytes) { return std::optional<std::string>(as_text(bytes)); });
+}
+
+Result<void> check_pack_size(std::uint64_t bytes) {
+    return bytes <= most_pack_bytes
+               ? Result<void>()
+               : bad_input(fmt::format("the pack has {} bytes, allowed are {}", bytes, most_pack_bytes));
+}
+
+Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
+    return check_pack_size(bytes.size()).and_then([&] { return open(ZipReader::open(bytes)); });
 }
 
 Result<PackReader> PackReader::open(OpenFile file) {
@@ -84,14 +96,22 @@ Result<PackReader> PackReader::open(Result<ZipReader> zip) {
     if (!zip) {
         return tl::unexpected(zip.error());
     }
-    Result<Manifest> manifest = read_manifest(*zip);
+    const Result<Bytes> manifest = read_manifest_bytes(*zip);
     if (!manifest) {
         return tl::unexpected(manifest.error());
     }
-    if (auto good = check_entries(*zip, *manifest); !good) {
+    return open(*std::move(zip), *manifest);
+}
+
+Result<PackReader> PackReader::open(ZipReader zip, std::span<const std::byte> manifest_bytes) {
+    Result<Manifest> manifest = parse_manifest(as_text(manifest_bytes));
+    if (!manifest) {
+        return at("manifest.json", manifest.error());
+    }
+    if (auto good = check_entries(zip, *manifest); !good) {
         return tl::unexpected(good.error());
     }
-    return PackReader(std::move(*zip), std::move(*manifest));
+    return PackReader(std::move(zip), std::move(*manifest));
 }
 
 Result<const PartRecord*> PackReader::use(const std::string& name) {
@@ -120,6 +140,23 @@ Result<Bytes> PackReader::take(const std::string& name) {
         return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
     }
     return bytes;
+}
+
+Result<void> PackReader::check(const std::string& name,
+                               const std::function<void(std::uint64_t bytes)>& progress) {
+    const Result<const PartRecord*> part = use(name);
+    if (!part) {
+        return tl::unexpected(part.error());
+    }
+    Sha256 hash;
+    Result<void> read = zip_.read_through(*zip_.find(name), [&](std::span<const std::byte> bytes) {
+        hash.add(bytes);
+        progress(bytes.size());
+    });
+    if (read && hash.hex() != (*part)->sha256) {
+        return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
+    }
+    return read;
 }
 
 Result<void> PackReader::finish() const {

@@ -4,7 +4,7 @@
 ///          themselves), key id (8) and Ed25519 signature (64), a trusted comment, base64 of a signature over signature and
 ///          trusted comment. Public key: an untrusted comment, base64 of "Ed", key id (8) and key (32); the second line alone will do.
 /// Serial   of what is signed, from the trusted comment: `serial:N`, else `timestamp:N` (as minisign writes it), fields apart by
-///          tabs or spaces. A higher one replaces a lower one.
+///          tabs, or by spaces where it has no tab. A higher one replaces a lower one.
 /// Threads  pure; any.
 /// Errors   one sentence for who holds the stick; what is refused says why as a value too.
 /// Source   https://jedisct1.github.io/minisign/
@@ -34,13 +34,23 @@ struct PublicKey {
 [[nodiscard]] Result<PublicKey> parse_public_key(std::string_view text);
 /// The second line, without a line break.
 [[nodiscard]] std::string public_key_line(const PublicKey& key);
+/// A file of minisign's.
+[[nodiscard]] std::string write_public_key(const PublicKey& key);
+/// A key's id as minisign writes it: 16 digits, upper case.
+[[nodiscard]] std::string text_of_key_id(std::span<const std::uint8_t, 8> id);
 
+/// As many as the settings or a folder may name.
+inline constexpr std::size_t most_trusted_keys = 32;
 /// One of the museum's keys.
 struct TrustedKey {
     std::string name;
     PublicKey key;
     std::optional<std::chrono::sys_days> until; ///< its last day; none: it does not end
+    [[nodiscard]] bool operator==(const TrustedKey&) const = default;
 };
+
+/// What becomes of packs that have no signature. A signature that is there must be right in any case.
+enum class UnsignedPacks : std::uint8_t { Refuse, Allow };
 
 enum class SignatureFault : std::uint8_t {
     Unsigned,   ///< there is none
@@ -53,6 +63,14 @@ struct SignatureRefusal {
     SignatureFault fault = SignatureFault::Unsigned;
     std::string message;
 };
+
+/// What a signature says. Anybody can have written it: for reports, and for who signs again.
+struct SignatureClaim {
+    std::string key_id;
+    std::uint64_t serial = 0;
+    std::string trusted_comment;
+};
+[[nodiscard]] Result<SignatureClaim> read_signature_claim(std::string_view signature);
 
 struct Signer {
     std::string key; ///< its name

@@ -28,6 +28,7 @@ struct ArchiveBytes {
     }
 
     std::uint64_t cursor = 0;
+    bool failed = false; ///< something could not be read that should be there
 };
 
 namespace {
@@ -39,6 +40,7 @@ constexpr uLong encrypted_flag = 1;
 /// wrong.
 constexpr std::uint64_t most_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
+constexpr std::size_t through_step_bytes = 64U << 10U;
 
 struct GrowingBytes final : ArchiveBytes {
     Bytes bytes;
@@ -75,13 +77,15 @@ public:
     [[nodiscard]] std::uint64_t size() const override { return file_.bytes(); }
     [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
         if (out.size() > step_bytes) {
-            return file_.read(offset, out);
+            failed = failed || !file_.read(offset, out);
+            return !failed;
         }
         if (offset < begin_ || offset + out.size() > begin_ + window_.size()) {
             begin_ = offset / step_bytes * step_bytes;
             window_.resize(std::min<std::uint64_t>(2 * step_bytes, file_.bytes() - begin_));
             if (!file_.read(begin_, window_)) {
                 window_.clear();
+                failed = true;
                 return false;
             }
         }
@@ -161,11 +165,13 @@ zlib_filefunc64_def functions_over(ArchiveBytes& bytes) {
     return functions;
 }
 
-/// The end record is the last thing in the file and its directory ends where it begins (APPNOTE.TXT 4.3.16):
+/// An entry is the first thing in the file, the end record the last, and its directory ends where it begins (APPNOTE.TXT 4.3.16):
 /// nothing was cut off, put in front or added behind.
 bool is_whole(ArchiveBytes& bytes) {
     std::array<std::byte, end_record_bytes> record{};
-    if (bytes.size() < end_record_bytes || !bytes.read(bytes.size() - end_record_bytes, record)) {
+    std::array<std::byte, 4> first{};
+    if (bytes.size() < end_record_bytes || !bytes.read(bytes.size() - end_record_bytes, record) ||
+        !bytes.read(0, first) || ByteReader(first).read<std::uint32_t>() != 0x04034b50) {
         return false;
     }
     const std::span<const std::byte> end(record);
@@ -223,6 +229,33 @@ void ZipWriter::add(const std::string& name, std::span<const std::byte> bytes, P
             zipCloseFileInZip(zip_) == ZIP_OK;
 }
 
+Result<void> ZipWriter::copy(ZipReader& from, const ZipEntry& entry) {
+    const unz64_file_pos position{entry.position, entry.number};
+    unz_file_info64 packed{};
+    int method = 0;
+    int level = 0;
+    bool good = unzGoToFilePos64(from.zip_, &position) == UNZ_OK &&
+                unzGetCurrentFileInfo64(from.zip_, &packed, nullptr, 0, nullptr, 0, nullptr, 0) == UNZ_OK &&
+                unzOpenCurrentFile2(from.zip_, &method, &level, 1) == UNZ_OK;
+    if (good) {
+        zip_fileinfo info{};
+        info.dosDate = first_of_1980;
+        good_ = good_ && zipOpenNewFileInZip2(zip_, entry.name.c_str(), &info, nullptr, 0, nullptr, 0,
+                                              nullptr, method, level, 1) == ZIP_OK;
+        Bytes piece(1U << 16U);
+        std::uint64_t left = packed.compressed_size;
+        while (left > 0 && good && good_) {
+            const auto step = static_cast<unsigned>(std::min<std::uint64_t>(left, piece.size()));
+            good = unzReadCurrentFile(from.zip_, piece.data(), step) == static_cast<int>(step);
+            good_ = zipWriteInFileInZip(zip_, piece.data(), step) == ZIP_OK;
+            left -= step;
+        }
+        unzCloseCurrentFile(from.zip_);
+        good_ = good_ && zipCloseFileInZipRaw64(zip_, packed.uncompressed_size, packed.crc) == ZIP_OK;
+    }
+    return good ? Result<void>() : from.damaged(entry);
+}
+
 Result<Bytes> ZipWriter::finish() {
     const bool closed = zip_ != nullptr && zipClose(zip_, nullptr) == ZIP_OK;
     zip_ = nullptr;
@@ -250,19 +283,25 @@ Result<ZipReader> ZipReader::open(OpenFile file) {
     return open(std::make_unique<FileBytes>(std::move(file)));
 }
 
+tl::unexpected<Error> ZipReader::refusal(std::string message) const {
+    return file_->failed
+               ? fail(ErrorKind::DeviceLost, "it cannot be read; its disk or stick fails, or was pulled out")
+               : bad_input(std::move(message));
+}
+
 Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
-    if (!is_whole(*bytes)) {
-        std::array<std::byte, 4> first{};
-        const bool begins_as_zip = bytes->size() >= first.size() && bytes->read(0, first) &&
-                                   ByteReader(first).read<std::uint32_t>() == 0x04034b50;
-        return bad_input(begins_as_zip ? "the pack is truncated or altered; copy it again"
-                                       : "this is not a pack (not a ZIP container)");
-    }
     ZipReader reader(std::move(bytes));
+    if (!is_whole(*reader.file_)) {
+        std::array<std::byte, 4> first{};
+        const bool begins_as_zip = reader.file_->size() >= first.size() && reader.file_->read(0, first) &&
+                                   ByteReader(first).read<std::uint32_t>() == 0x04034b50;
+        return reader.refusal(begins_as_zip ? "the pack is truncated or altered; copy it again"
+                                            : "this is not a pack (not a ZIP container)");
+    }
     zlib_filefunc64_def functions = functions_over(*reader.file_);
     reader.zip_ = unzOpen2_64("", &functions);
     if (reader.zip_ == nullptr) {
-        return bad_input("the pack's directory is damaged; copy it again");
+        return reader.refusal("the pack's directory is damaged; copy it again");
     }
     if (const Result<void> directory = reader.read_directory(); !directory) {
         return tl::unexpected(directory.error());
@@ -299,7 +338,7 @@ Result<void> ZipReader::read_directory() {
         entries_.push_back(std::move(entry));
     }
     if (found != UNZ_END_OF_LIST_OF_FILE || entries_.size() != global.number_entry) {
-        return bad_input("the pack's directory is damaged; copy it again");
+        return refusal("the pack's directory is damaged; copy it again");
     }
     return {};
 }
@@ -309,28 +348,52 @@ const ZipEntry* ZipReader::find(std::string_view name) const {
     return number != numbers_.end() ? &entries_[number->second] : nullptr;
 }
 
+tl::unexpected<Error> ZipReader::damaged(const ZipEntry& entry) const {
+    return refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+}
+
 Result<Bytes> ZipReader::read(const ZipEntry& entry) {
-    const unz64_file_pos position{entry.position, entry.number};
     Bytes bytes(entry.bytes);
-    bool good = unzGoToFilePos64(zip_, &position) == UNZ_OK && unzOpenCurrentFile(zip_) == UNZ_OK;
-    if (good) {
-        std::size_t filled = 0;
-        int count = 1;
-        while (filled < bytes.size() && count > 0) {
-            const std::size_t step = std::min<std::size_t>(bytes.size() - filled, 1U << 30);
-            count = unzReadCurrentFile(zip_, bytes.data() + filled, static_cast<unsigned>(step));
-            filled += count > 0 ? static_cast<std::size_t>(count) : 0;
+    std::size_t filled = 0;
+    const auto fill = [&] {
+        const std::size_t step = std::min<std::size_t>(bytes.size() - filled, 1U << 30);
+        const int count = unzReadCurrentFile(zip_, bytes.data() + filled, static_cast<unsigned>(step));
+        filled += count > 0 ? static_cast<std::size_t>(count) : 0;
+        return count > 0 && filled < bytes.size();
+    };
+    const Result<void> whole = read_whole(entry, fill);
+    return whole && filled == bytes.size() ? Result<Bytes>(std::move(bytes)) : damaged(entry);
+}
+
+Result<void> ZipReader::read_through(const ZipEntry& entry,
+                                     const std::function<void(std::span<const std::byte>)>& take) {
+    std::array<std::byte, through_step_bytes> step{};
+    std::uint64_t taken = 0;
+    const auto pass = [&] {
+        const std::uint64_t most = std::min<std::uint64_t>(entry.bytes - taken, step.size());
+        const int count = unzReadCurrentFile(zip_, step.data(), static_cast<unsigned>(most));
+        if (count > 0) {
+            take(std::span(step).first(static_cast<std::size_t>(count)));
+            taken += static_cast<std::uint64_t>(count);
         }
-        // There must not be one byte more. Closing compares the checksum, but only if the entry was read to
-        // its end.
-        std::byte beyond{};
-        good = filled == bytes.size() && unzReadCurrentFile(zip_, &beyond, 1) == 0;
-        good = unzCloseCurrentFile(zip_) == UNZ_OK && good;
+        return count > 0 && taken < entry.bytes;
+    };
+    const Result<void> whole = read_whole(entry, pass);
+    return whole && taken == entry.bytes ? Result<void>() : damaged(entry);
+}
+
+/// `step` reads on and says whether there is more.
+Result<void> ZipReader::read_whole(const ZipEntry& entry, const std::function<bool()>& step) {
+    const unz64_file_pos position{entry.position, entry.number};
+    if (unzGoToFilePos64(zip_, &position) != UNZ_OK || unzOpenCurrentFile(zip_) != UNZ_OK) {
+        return damaged(entry);
     }
-    if (!good) {
-        return bad_input(fmt::format("{} is damaged; copy the pack again", entry.name));
+    while (entry.bytes > 0 && step()) {
     }
-    return bytes;
+    // There must not be one byte more. Closing compares the checksum, but only if the entry was read to its end.
+    std::byte beyond{};
+    const bool ends = unzReadCurrentFile(zip_, &beyond, 1) == 0;
+    return unzCloseCurrentFile(zip_) == UNZ_OK && ends ? Result<void>() : damaged(entry);
 }
 
 } // namespace frustumscreen::pack_format

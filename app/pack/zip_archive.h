@@ -2,7 +2,8 @@
 /// piece from a file.
 ///
 /// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
-///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum.
+///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum;
+///          DeviceLost: a file that cannot be read to its end any more.
 /// Threads  one caller.
 /// Library  minizip (ioapi functions over bytes of our own).
 #pragma once
@@ -12,6 +13,7 @@
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -21,6 +23,8 @@
 namespace frustumscreen::pack_format {
 
 struct ArchiveBytes;
+class ZipReader;
+struct ZipEntry;
 
 enum class Packing { Stored, Deflated };
 
@@ -33,6 +37,8 @@ public:
     ZipWriter& operator=(const ZipWriter&) = delete;
 
     void add(const std::string& name, std::span<const std::byte> bytes, Packing packing);
+    /// An entry of another archive as it is packed there. Errors: as ZipReader::read, but its checksum is not looked at.
+    [[nodiscard]] Result<void> copy(ZipReader& from, const ZipEntry& entry);
     /// The archive; call once, last. Errors: Internal, when the library failed on the way.
     [[nodiscard]] Result<Bytes> finish();
 
@@ -64,11 +70,19 @@ public:
     [[nodiscard]] const ZipEntry* find(std::string_view name) const;
     /// Unpacks an entry; the caller must have checked entry.bytes against a limit.
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
+    /// The same bytes, some at a time; they count only if all is well in the end.
+    [[nodiscard]] Result<void> read_through(const ZipEntry& entry,
+                                            const std::function<void(std::span<const std::byte>)>& take);
 
 private:
+    friend class ZipWriter;
+    /// `message`, or that the file cannot be read any more.
+    [[nodiscard]] tl::unexpected<Error> refusal(std::string message) const;
+    [[nodiscard]] tl::unexpected<Error> damaged(const ZipEntry& entry) const;
     explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
     static Result<ZipReader> open(std::unique_ptr<ArchiveBytes> bytes);
     Result<void> read_directory();
+    Result<void> read_whole(const ZipEntry& entry, const std::function<bool()>& step);
     std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     std::vector<ZipEntry> entries_;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 
 namespace frustumscreen {
 
@@ -195,6 +196,16 @@ void check_devices(const Settings& settings, Fitness& fitness) {
                     settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
+/// A name for two keys would make messages say nothing.
+void check_keys(const Settings& settings, Fitness& fitness) {
+    std::set<std::string_view> names;
+    for (const TrustedKey& key : settings.exhibit.keys) {
+        fitness.require(
+            names.insert(key.name).second, "exhibit.keys",
+            fmt::format("has two keys called \"{}\"; give each a name of its own", printable(key.name, 40)));
+    }
+}
+
 void check_sound(const Settings& settings, Fitness& fitness) {
     const auto& hours = settings.sound.hours;
     fitness.require(std::adjacent_find(hours.begin(), hours.end(),
@@ -213,6 +224,7 @@ std::optional<std::string> unfit(const Settings& settings, const std::string& fi
     check_eye(settings, fitness);
     check_devices(settings, fitness);
     check_sound(settings, fitness);
+    check_keys(settings, fitness);
     return fitness.error();
 }
 

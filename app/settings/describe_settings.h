@@ -14,6 +14,7 @@
 #include "app/settings/looking_at.h"
 #include "app/settings/range.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/calendar_day.h"
 
 #include <array>
 #include <functional>
@@ -22,6 +23,9 @@
 namespace frustumscreen {
 
 inline constexpr std::size_t most_packs = 256;
+inline constexpr std::string_view allowed_public_keys =
+    "public keys of minisign: the line of 56 letters in NAME.pub, which begins with RW";
+inline constexpr std::string_view allowed_last_days = "days such as \"2030-12-31\"";
 inline constexpr std::size_t most_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
 inline constexpr std::size_t most_hours = 24;
@@ -36,6 +40,7 @@ inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "rep
                                                                "none"};
 inline constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
 inline constexpr std::array<std::string_view, 2> sound_names{"none", "alsa"};
+inline constexpr std::array<std::string_view, 2> unsigned_names{"refuse", "allow"};
 inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 
 template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
@@ -213,11 +218,34 @@ void panel_settings(auto& fields, auto& panel) {
                   "gpio, keys: a button that is down for longer is ignored until it comes up");
 }
 
+template <typename Fields> void key_settings(Fields& fields, auto& key) {
+    fields.text("name", key.name, "whose it is, for messages");
+    fields.parsed(
+        "public_key", key.key,
+        [](const PublicKey& value) { return value == PublicKey{} ? std::string() : public_key_line(value); },
+        parse_public_key, allowed_public_keys,
+        "the second line of NAME.pub, which frustumscreen-pack keygen writes");
+    fields.parsed(
+        "until", key.until,
+        [](const std::optional<std::chrono::sys_days>& day) {
+            return day ? text_of_day(*day) : std::string();
+        },
+        [](std::string_view text) {
+            const std::optional<std::chrono::sys_days> day = parse_day(text);
+            // Left out, it does not end. A text that is empty does not come here.
+            return day || text.empty() ? std::optional(day) : std::nullopt;
+        },
+        allowed_last_days, "its last day, by the kiosk's clock; left out: it does not end");
+    fields.require(!key.name.empty(), "name", "is left out; allowed is a text that names whose key it is");
+}
+
 template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) {
     fields.paths("packs", exhibit.packs, most_packs, "shown in this order");
     if constexpr (Fields::reads) {
         exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
     }
+    fields.path("library", exhibit.library,
+                "where packs from sticks are installed; a set there goes before `packs`");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
                   "of the captions, at first");
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");
@@ -238,6 +266,14 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                   "after so long without a visitor the artifacts come in turn, in the first language");
     fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
                    "10^6 bytes that loaded artifacts may take; what was shown least recently goes first");
+    fields.tables(
+        "keys", exhibit.keys, most_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
+        "the museum's public keys: what comes on a stick is signed with one of them");
+    fields.choice(
+        "unsigned", exhibit.unsigned_packs, unsigned_names,
+        "packs on a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
+    fields.path("import_report", exhibit.import_report,
+                "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
 }
 
 void hour_settings(auto& fields, auto& hour) {

@@ -9,29 +9,43 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <utility>
 
 namespace frustumscreen {
 
+/// What a file holds, wherever it lies.
+class FileContent {
+public:
+    FileContent() = default;
+    FileContent(const FileContent&) = delete;
+    FileContent& operator=(const FileContent&) = delete;
+    virtual ~FileContent() = default;
+    /// As it was opened.
+    [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+    /// 0, or why not all of `out` could be filled from `offset` on: an errno, ENODATA for a file that ends before.
+    [[nodiscard]] virtual int read(std::uint64_t offset, std::span<std::byte> out) const = 0;
+};
+
 class OpenFile {
 public:
     /// Errors: not there, not readable, not a regular file, larger than `limit_bytes`.
     [[nodiscard]] static Result<OpenFile> open(const std::filesystem::path& path, std::uint64_t limit_bytes);
-    ~OpenFile();
-    OpenFile(OpenFile&& other) noexcept
-        : descriptor_(std::exchange(other.descriptor_, -1)), bytes_(other.bytes_) {}
-    OpenFile& operator=(OpenFile&&) = delete;
+    explicit OpenFile(std::unique_ptr<const FileContent> content) : content_(std::move(content)) {}
 
     /// As it was opened.
-    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] std::uint64_t bytes() const { return content_->bytes(); }
     /// False unless all of `out` could be filled from `offset` on.
-    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) const;
+    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) const {
+        return content_->read(offset, out) == 0;
+    }
 
 private:
-    OpenFile(int descriptor, std::uint64_t bytes) : descriptor_(descriptor), bytes_(bytes) {}
-    int descriptor_ = -1;
-    std::uint64_t bytes_ = 0;
+    std::unique_ptr<const FileContent> content_; ///< never null, but in what was moved from
 };
+
+/// What an open descriptor of a regular file holds; it is closed at the end.
+[[nodiscard]] std::unique_ptr<const FileContent> content_of(int descriptor, std::uint64_t bytes);
 
 } // namespace frustumscreen

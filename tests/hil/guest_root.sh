@@ -19,6 +19,8 @@ packages=(
     systemd systemd-sysv udev dbus kmod util-linux procps qemu-guest-agent
     # libraries that our programs open by name at run time, which ldd does not see
     libegl-mesa0 libgl1-mesa-dri libgbm1
+    # sticks
+    ntfs-3g
     # for a person with a shell
     gpiod usbutils less
     "$@"
@@ -29,6 +31,7 @@ modules=(
     bochs virtio-gpu
     snd_hda_intel snd_hda_codec_generic
     xhci_pci usbhid hid_generic hid_cp2112 evdev i6300esb
+    usb_storage uas sd_mod vfat nls_cp437 nls_ascii nls_iso8859_1 nls_utf8 exfat ext4 crc32c_generic fuse
 )
 initrd_modules=(virtio_pci virtio_blk squashfs overlay)
 

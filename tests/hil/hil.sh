@@ -13,6 +13,7 @@ done
 if $build; then
     ./setup.sh hil
     printf '== building (release)\n'
-    cmake/build.sh release --without tests --without window frustumscreen frustumscreen-pack frustumscreen-bake frustumscreen-artifact
+    cmake/build.sh release --without tests --without window \
+        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-bake frustumscreen-artifact
 fi
 exec tests/hil/run_tests.py "$@"

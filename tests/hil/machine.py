@@ -100,6 +100,7 @@ class Machine:
     usb: dict = field(default_factory=dict)
     processors: int = 2
     memory_mib: int = 1536
+    _sticks: dict = field(default_factory=dict)
 
     def start(self):
         self.logs.mkdir(parents=True, exist_ok=True)
@@ -244,6 +245,41 @@ class Machine:
         """Writes a small file in the guest."""
         encoded = base64.b64encode(text.encode()).decode()
         self.check(f"echo {encoded} | base64 -d > {shlex.quote(path)}")
+
+    # Sticks at the USB ports.
+
+    def plug(self, name, source, bytes_per_s=None, serial=None):
+        """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD)."""
+        source = pathlib.Path(source)
+        if source.is_socket():
+            disk = {"driver": "nbd", "server": {"type": "unix", "path": os.fspath(source)}}
+        else:
+            disk = {"driver": "file", "filename": os.fspath(source)}
+        self.monitor("blockdev-add", **{"driver": "raw", "node-name": f"{name}-raw", "file": disk})
+        nodes = [f"{name}-raw"]
+        if bytes_per_s is not None:
+            self.monitor("object-add", **{"qom-type": "throttle-group", "id": f"{name}-pace", "limits": {"bps-read": bytes_per_s}})
+            self.monitor("blockdev-add", **{"driver": "throttle", "node-name": f"{name}-slow", "throttle-group": f"{name}-pace",
+                                            "file": nodes[0]})
+            nodes.insert(0, f"{name}-slow")
+        self.monitor("device_add", driver="usb-storage", id=name, bus="usb.0", drive=nodes[0], removable=True, serial=serial or name)
+        self._sticks[name] = nodes
+
+    def pull(self, name):
+        """Pulls a stick out, whatever the guest does with it."""
+        self.monitor("device_del", id=name)
+        for node in self._sticks.pop(name):
+            deadline = time.monotonic() + 30.0
+            while True:  # the device lets go of it a little later
+                try:
+                    self.monitor("blockdev-del", **{"node-name": node})
+                    break
+                except MachineError:
+                    if time.monotonic() > deadline:
+                        raise
+                    time.sleep(0.02)
+            if node.endswith("-slow"):
+                self.monitor("object-del", id=f"{name}-pace")
 
     def screendump(self, path, screen="screen"):
         """Writes what a screen shows now to a PPM file on the host."""

@@ -37,8 +37,24 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
     # For a key that it does not know the tool only prints a warning.
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
-    systemd-analyze security --offline=true --threshold=20 --root="$root" frustumscreen.service >/dev/null ||
-        die "the service is locked in less than it was; see systemd-analyze security"
+    locked_in() { # UNIT TENTHS: the exposure is no larger
+        systemd-analyze security --no-pager --offline=true --threshold="$2" --root="$root" "$1" >"$root/security" ||
+            die "$1 is locked in less than it was: $(grep '✗' "$root/security")"
+    }
+    locked_in frustumscreen.service 16
+    # The units of sticks, for a stick that is stick1p1; what they start is there, their sandbox too.
+    for name in stick ntfs import import-refused; do
+        instance=$units/frustumscreen-$name@stick1p1.service
+        cp "$units/frustumscreen-$name@.service" "$instance"
+        said=$(systemd-analyze verify --root="$root" "$instance" 2>&1) || true
+        said=$(grep "frustumscreen-$name@" <<<"$said" | grep -v 'is not executable: No such file' || true)
+        [[ -z $said ]] || die "systemd-analyze verify: $said"
+        rm "$instance"
+    done
+    locked_in frustumscreen-import@stick1p1.service 1
+    locked_in frustumscreen-import-refused@stick1p1.service 1
+    locked_in frustumscreen-stick@stick1p1.service 24
+    locked_in frustumscreen-ntfs@stick1p1.service 34
 else
     skip "systemd-analyze is not installed"
 fi
@@ -48,20 +64,34 @@ if command -v systemd-sysusers >/dev/null && command -v systemd-tmpfiles >/dev/n
     for group in video render input plugdev gpio; do
         grep -Eq "^$group:.*[:,]frustumscreen(,|$)" "$root/etc/group" || die "the user is not in the group $group"
     done
+    for user in frustumscreen-import frustumscreen-ntfs; do
+        grep -q "^$user:" "$root/etc/passwd" || die "there is no user $user"
+        grep -Eq "[:,]$user(,|$)" "$root/etc/group" && die "the user $user is in a group"
+    done
     if ((EUID == 0)); then
-        systemd-tmpfiles --root="$root" --create frustumscreen.conf || die "systemd-tmpfiles"
+        for _ in 1 2; do # again: it changes nothing
+            systemd-tmpfiles --root="$root" --create frustumscreen.conf || die "systemd-tmpfiles"
+        done
         [[ -d $root/var/lib/frustumscreen/packs ]] || die "there is no folder for packs"
+        owner() { # FOLDER USER: this user of the new root owns it
+            local number
+            number=$(sed -n "s/^$2:x:\([0-9]*\):.*/\1/p" "$root/etc/passwd")
+            [[ $(stat -c %u "$root$1") == "$number" ]] || die "$1 does not belong to $2"
+        }
+        owner /var/lib/frustumscreen/library frustumscreen-import
+        owner /var/lib/frustumscreen/library/shown frustumscreen
+        owner /run/frustumscreen-import frustumscreen-import
     fi
 else
     skip "systemd-sysusers or systemd-tmpfiles is not installed"
 fi
 
 # udev's grammar: KEY or KEY{attribute}, an operator, a text in quotes; commas between.
-rules=$root/usr/lib/udev/rules.d/70-frustumscreen.rules
-pair='[A-Z]+(\{[^}"]+\})?(==|!=|=|\+=|-=|:=)"[^"]*"'
-wrong=$(grep -Evn "^(#.*|)$|^$pair(, *$pair)*$" "$rules") && die "no udev rule: $wrong"
+rules=("$root"/usr/lib/udev/rules.d/*-frustumscreen*.rules)
+pair='[A-Z]+(\{[^}"]+\})?(==|!=|=|\+=|-=|:=)"(\\"|[^"])*"'
+wrong=$(grep -Evn "^(#.*|)$|^$pair(, *$pair)*$" "${rules[@]}") && die "no udev rule: $wrong"
 if command -v udevadm >/dev/null && udevadm verify --help >/dev/null 2>&1; then
-    udevadm verify "$rules" || die "udevadm verify"
+    udevadm verify "${rules[@]}" || die "udevadm verify"
 else
     echo "looked at the udev rules' grammar alone: udevadm cannot verify them before version 253"
 fi

@@ -1,26 +1,30 @@
-/// frustumscreen-pack: verifies, lists, explains and draws packs.
+/// frustumscreen-pack: verifies, lists, explains, draws and signs packs, and makes the keys for that.
 #include "app/pack/pack_sections.h"
-#include "app/pack/pack_texts.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/pack/keygen_command.h"
 #include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
+#include "app/programs/pack/sign_command.h"
+#include "app/programs/pack/verify_command.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/output_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace frustumscreen {
 namespace {
 
 struct Request {
-    std::vector<std::string> packs;
+    VerifyRequest verify;
+    SignRequest sign;
+    std::string key_name; ///< keygen
     std::filesystem::path pack;
     std::string config;
     std::filesystem::path output;
@@ -35,40 +39,6 @@ int complain(const Error& error) {
 
 void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(2));
-}
-
-/// And with it what the description only passes on.
-Result<VerifiedPack> load_whole(const std::string& file) {
-    Result<VerifiedPack> pack = load_pack(file);
-    if (pack) {
-        if (const Result<void> good = check_set_and_spoken(**pack); !good) {
-            return at(file, good.error());
-        }
-    }
-    return pack;
-}
-
-/// Checks every pack, also after one that is not sound.
-int verify(const Request& request) {
-    int status = 0;
-    auto report = nlohmann::ordered_json::array();
-    for (const std::string& file : request.packs) {
-        const Result<VerifiedPack> pack = load_whole(file);
-        if (!pack) {
-            status = complain(pack.error());
-            report.push_back({{"file", file}, {"sound", false}, {"reason", pack.error().message}});
-            continue;
-        }
-        report.push_back({{"file", file}, {"sound", true}, {"signed", false}});
-        if (!request.json) {
-            fmt::print("{}: sound, unsigned, {} levels, \"{}\"\n", file, (*pack)->levels.size(),
-                       (*pack)->title);
-        }
-    }
-    if (request.json) {
-        print_json(report);
-    }
-    return status;
 }
 
 /// The usual prop of the kind that the pack was baked for.
@@ -140,14 +110,23 @@ int preview(const Request& request) {
     return written ? 0 : complain(written.error());
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("Packs for FrustumScreen: are they sound, what do they hold, and how do they look?",
-                 "frustumscreen-pack");
-    app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
-    app.require_subcommand(1);
-    Request request;
+int sign(SignRequest request) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    request.now_s = static_cast<std::uint64_t>(
+        std::max<std::int64_t>(1, std::chrono::floor<std::chrono::seconds>(now).count()));
+    return sign_files(request);
+}
+
+/// Numbers that a reader of JSON keeps exactly.
+constexpr std::uint64_t most_serial = (std::uint64_t{1} << 53U) - 1;
+
+void add_looking_commands(CLI::App& app, Request& request) {
     CLI::App* to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
-    to_verify->add_option("PACK", request.packs, "packs (*.fspack)")->required();
+    to_verify->add_option("PACK", request.verify.packs, "packs (*.fspack)")->required();
+    to_verify
+        ->add_option("--key", request.verify.keys, "a public key (NAME.pub); others than these are refused")
+        ->allow_extra_args(false);
+    to_verify->add_flag("--json", request.verify.json, "for programs");
     CLI::App* to_list = app.add_subcommand("list", "title, levels with their errors, parts with their sizes");
     to_list->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
     CLI::App* to_explain =
@@ -161,18 +140,45 @@ int run(int argc, char** argv) {
     to_preview->add_option("-o,--output", request.output, "picture to write (*.png)")->required();
     to_preview->add_flag("--table", request.table,
                          "the small picture that lies on the table instead, cut out");
-    for (CLI::App* command : {to_verify, to_list, to_explain}) {
+    for (CLI::App* command : {to_list, to_explain}) {
         command->add_flag("--json", request.json, "for programs");
     }
+}
+
+void add_signing_commands(CLI::App& app, Request& request) {
+    CLI::App* to_keygen = app.add_subcommand(
+        "keygen", "makes a pair of keys in minisign's format; on a terminal it asks for a password");
+    to_keygen->add_option("-o,--output", request.key_name, "NAME: writes NAME.key and NAME.pub")->required();
+    CLI::App* to_sign = app.add_subcommand("sign", "signs packs, and set files (*.toml -> *.toml.minisig)");
+    to_sign->add_option("FILE", request.sign.files, "packs (*.fspack), set files (*.toml)")->required();
+    to_sign->add_option("--key", request.sign.key, "the secret key (NAME.key)")->required();
+    to_sign
+        ->add_option("--serial", request.sign.serial,
+                     "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
+        ->check(CLI::Range(std::uint64_t{1}, most_serial));
+    to_sign->add_flag("--json", request.sign.json, "for programs");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(
+        "Packs for FrustumScreen: are they sound, what do they hold, how do they look, who signed them?",
+        "frustumscreen-pack");
+    app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
+    app.require_subcommand(1);
+    Request request;
+    add_looking_commands(app, request);
+    add_signing_commands(app, request);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    return app.got_subcommand(to_verify)    ? verify(request)
-           : app.got_subcommand(to_list)    ? list(request)
-           : app.got_subcommand(to_explain) ? explain(request)
-                                            : preview(request);
+    return app.got_subcommand("verify")    ? verify_packs(request.verify)
+           : app.got_subcommand("list")    ? list(request)
+           : app.got_subcommand("explain") ? explain(request)
+           : app.got_subcommand("preview") ? preview(request)
+           : app.got_subcommand("sign")    ? sign(request.sign)
+                                           : exit_status("frustumscreen-pack", make_keys(request.key_name));
 }
 
 } // namespace

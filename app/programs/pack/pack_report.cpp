@@ -1,6 +1,7 @@
 #include "app/programs/pack/pack_report.h"
 
 #include "app/pack/pack_texts.h"
+#include "app/pack/signed_pack.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -188,9 +189,12 @@ std::string matrix_text(const glm::dmat4& matrix) {
 
 std::string title_line(const OpenedPack& opened) {
     const Pack& pack = *opened.pack;
-    return fmt::format("{}: \"{}\" ({}), {}, {}, unsigned\n", opened.file.string(), pack.title,
+    const std::string signature = opened.claim ? fmt::format("signed with the key {}, serial {}, not checked",
+                                                             opened.claim->key_id, opened.claim->serial)
+                                               : "unsigned";
+    return fmt::format("{}: \"{}\" ({}), {}, {}, {}\n", opened.file.string(), pack.title,
                        fmt::join(pack.languages, ", "), pack.id.empty() ? "no id" : "id " + pack.id,
-                       in_units(opened.file_bytes));
+                       in_units(opened.file_bytes), signature);
 }
 
 bool is_passed_over(const PackSection& section) {
@@ -276,14 +280,20 @@ Result<OpenedPack> open_pack(const std::filesystem::path& file) {
     if (!parts) {
         return at(file.string(), parts.error());
     }
-    return OpenedPack{file, bytes->size(), std::move(*pack), std::move(*parts)};
+    Result<std::optional<SignatureClaim>> claim = pack_format::PackReader::open(*bytes).and_then(
+        [](pack_format::PackReader&& reader) { return claim_of(reader); });
+    if (!claim) {
+        return at(file.string(), claim.error());
+    }
+    return OpenedPack{file, bytes->size(), std::move(*pack), std::move(*parts), std::move(*claim)};
 }
 
 Json list_json(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
     return {{"file", opened.file.string()},
             {"bytes", opened.file_bytes},
-            {"signed", false},
+            {"signed", opened.claim.has_value()},
+            {"serial", opened.claim ? Json(opened.claim->serial) : Json(nullptr)},
             {"id", pack.id.empty() ? Json(nullptr) : Json(pack.id)},
             {"title", pack.title},
             {"languages", pack.languages},

@@ -6,11 +6,13 @@
 
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/signature.h"
 #include "app/settings/settings.h"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +24,11 @@ struct OpenedPack {
     std::uint64_t file_bytes = 0;
     VerifiedPack pack;
     std::vector<PackPart> parts;
+    std::optional<SignatureClaim> claim; ///< of its signature, which nobody checked; none: it is unsigned
 };
 [[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
 
-/// {file, bytes, signed, id, title, languages, levels with errors in mm on this prop, default_level, parts}
+/// {file, bytes, signed, serial (of a signed one; not checked), id, title, languages, levels with errors in mm on this prop, default_level, parts}
 [[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
 /// list_json and {format_version, captions with their details and the keys of what is spoken, hotspots, table_picture, sections, provenance, prop_kind,
 /// unlit, relief_size, box_size, textures, relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16

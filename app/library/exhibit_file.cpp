@@ -1,0 +1,133 @@
+#include "app/library/exhibit_file.h"
+
+#include "app/pack/pack_text.h"
+#include "app/pack/signature.h"
+#include "app/settings/language_tag.h"
+#include "app/settings/table_reader.h"
+#include "firmware_host/base/calendar_day.h"
+#include "firmware_host/base/printable.h"
+#include "firmware_host/base/trimmed.h"
+#include "firmware_host/base/utf8_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
+constexpr std::ptrdiff_t most_dots = 5000;
+constexpr std::size_t most_keys = 16; ///< in one file
+constexpr std::size_t most_attract_texts = 64;
+constexpr std::size_t most_key_name_bytes = 100;
+
+void read_ids(TableReader& table, std::string_view key, std::vector<std::string>& ids) {
+    table.texts(key, ids, most_installed_packs);
+    std::set<std::string_view> seen;
+    for (const std::string& id : ids) {
+        table.require(is_artifact_id(id), key,
+                      fmt::format("names \"{}\"; allowed are ids as in artifact.toml: 1 to 64 of a-z 0-9 . _ "
+                                  "-, a letter or a digit first",
+                                  printable(id, 40)));
+        table.require(seen.insert(id).second, key,
+                      fmt::format("names \"{}\" twice; allowed is each id once", printable(id, 64)));
+    }
+}
+
+void read_attract(TableReader& table, ExhibitFile& file) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    table.named_texts("attract", texts, most_attract_texts);
+    if (!table.has("attract")) {
+        return;
+    }
+    file.attract.emplace();
+    for (const auto& [language, text] : texts) {
+        const std::optional<std::string> usual =
+            has_language_form(language) ? parse_language_tag(language) : std::nullopt;
+        table.require(
+            usual.has_value(), "attract",
+            fmt::format("has \"{}\"; allowed are {}", printable(language, 40), allowed_language_tags));
+        const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
+        table.require(!fault, "attract",
+                      fmt::format("in {} {}", printable(language, 40), fault.value_or("")));
+        table.require(!trimmed(text).empty(), "attract",
+                      fmt::format("in {} is empty; write a text or leave the line out", usual.value_or("")));
+        const bool again =
+            std::any_of(file.attract->begin(), file.attract->end(),
+                        [&](const AttractText& other) { return other.language == usual.value_or(""); });
+        table.require(!again, "attract",
+                      fmt::format("has {} twice; allowed is each language once", usual.value_or("")));
+        file.attract->push_back({usual.value_or(""), std::string(trimmed(text))});
+    }
+}
+
+void read_key(TableReader& table, CarriedKey& key) {
+    table.any_text("name", key.name);
+    table.require(!key.name.empty() && key.name == printable(key.name, most_key_name_bytes), "name",
+                  fmt::format("is missing or no name; allowed is one line of 1 to {} bytes, such as \"2031\"",
+                              most_key_name_bytes));
+    table.any_text("public_key", key.public_key);
+    const Result<PublicKey> parsed = parse_public_key(key.public_key);
+    table.require(parsed.has_value(), "public_key",
+                  "is missing or no public key; allowed is the second line of a file that "
+                  "frustumscreen-pack keygen or minisign made, RW...");
+    key.public_key = parsed ? public_key_line(*parsed) : std::string();
+    table.any_text("until", key.until);
+    table.require(key.until.empty() || parse_day(key.until), "until",
+                  "is no day; allowed is the key's last day as a text, \"2031-12-31\"");
+}
+
+void read_all(TableReader& table, ExhibitFile& file) {
+    read_ids(table, "order", file.order);
+    table.flag("only", file.only, {});
+    table.require(!file.only || !file.order.empty(), "only",
+                  "would remove every pack, since no order names any; write order = [\"id\", ...]");
+    read_ids(table, "remove", file.remove);
+    for (const std::string& id : file.remove) {
+        const bool ordered = std::find(file.order.begin(), file.order.end(), id) != file.order.end();
+        table.require(!ordered, "remove",
+                      fmt::format("names \"{}\", which order names too; name it in one of them", id));
+    }
+    read_attract(table, file);
+    table.tables("key", file.keys, most_keys, read_key, {});
+}
+
+} // namespace
+
+Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
+    ReadState state{std::string(exhibit_file_name), {}, {}, std::nullopt};
+    if (text.size() > most_exhibit_file_bytes) {
+        return bad_input(fmt::format("{}: is {} bytes; allowed are at most {}", exhibit_file_name,
+                                     text.size(), most_exhibit_file_bytes));
+    }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
+        return bad_input(
+            located(state.file, static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8"));
+    }
+    if (std::count(text.begin(), text.end(), '.') > most_dots) {
+        return bad_input(fmt::format("{}: holds more than {} dots", exhibit_file_name, most_dots));
+    }
+    try {
+        const toml::table root = toml::parse(text);
+        ExhibitFile file;
+        TableReader keys(state, &root, "");
+        read_all(keys, file);
+        keys.finish();
+        if (state.error) {
+            return bad_input(*state.error);
+        }
+        return file;
+    } catch (const toml::parse_error& error) {
+        return bad_input(located(state.file, static_cast<std::uint32_t>(error.source().begin.line),
+                                 fmt::format("is not TOML: {}", printable(error.description(), 200))));
+    } catch (const std::exception& error) {
+        return bad_input(
+            located(state.file, 0, fmt::format("cannot be read: {}", printable(error.what(), 200))));
+    }
+}
+
+} // namespace frustumscreen

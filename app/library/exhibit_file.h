@@ -1,0 +1,33 @@
+/// exhibit.toml on a stick: which packs belong together, and in which order. It counts only with its signature, a file of
+/// minisign's beside it.
+///
+/// Keys     order = ["id", ...], only = true, remove = ["id", ...], [attract] LANGUAGE = "text", [[key]] name, public_key, until.
+/// Errors   the first one, as one line: file, line, key, what was found, what is allowed; the nearest right key for one that is
+///          not known.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/library/set_file.h"
+#include "firmware_host/base/result.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr std::string_view exhibit_file_name = "exhibit.toml";
+inline constexpr std::string_view exhibit_signature_name = "exhibit.toml.minisig";
+inline constexpr std::size_t most_exhibit_file_bytes = 64U << 10U;
+
+struct ExhibitFile {
+    std::vector<std::string> order;  ///< ids; these packs come first, and all of them must be there
+    bool only = false;               ///< packs that `order` does not name are removed
+    std::vector<std::string> remove; ///< ids
+    std::optional<std::vector<AttractText>> attract; ///< none: they stay as they are
+    std::vector<CarriedKey> keys;
+};
+[[nodiscard]] Result<ExhibitFile> parse_exhibit_file(std::string_view text);
+
+} // namespace frustumscreen

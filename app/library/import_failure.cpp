@@ -1,0 +1,80 @@
+#include "app/library/import_failure.h"
+
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace frustumscreen {
+
+namespace {
+
+ImportRefusal refusal_of(SignatureFault fault) {
+    switch (fault) {
+    case SignatureFault::Unsigned:
+        return ImportRefusal::Unsigned;
+    case SignatureFault::UnknownKey:
+    case SignatureFault::KeyEnded:
+        return ImportRefusal::WrongKey;
+    case SignatureFault::Malformed:
+    case SignatureFault::Altered:
+        break;
+    }
+    return ImportRefusal::Altered;
+}
+
+} // namespace
+
+ImportFailure stick_failure(std::string_view path, FileFault fault) {
+    const std::string name = path.empty() ? "the stick" : printable(path);
+    if (fault.number == EACCES || fault.number == EPERM) {
+        return {ImportRefusal::Unreadable, name + ": it may not be read; give everybody the right to read it",
+                path.empty()};
+    }
+    if (fault.number == EINVAL || fault.number == ELOOP) {
+        return {ImportRefusal::NotAPack, name + ": it is no ordinary file", false};
+    }
+    return {ImportRefusal::Unreadable,
+            fmt::format("{}: it cannot be read ({}); the stick was pulled out or is damaged: put it in again",
+                        name, fault.number == ENODATA ? "it ended too soon" : std::strerror(fault.number)),
+            true};
+}
+
+ImportFailure disk_failure(std::string_view path, FileFault fault) {
+    if (fault.number == ENOSPC || fault.number == EDQUOT) {
+        return {ImportRefusal::NoRoom,
+                "the kiosk's disk became full; make room on it, or put fewer packs on the stick", true};
+    }
+    return {ImportRefusal::Unwritable,
+            fmt::format("{} on the kiosk's disk: {}; nothing was taken, call a technician", printable(path),
+                        fault.number == ENODATA ? "it ended too soon" : std::strerror(fault.number)),
+            true};
+}
+
+ImportFailure failure_of(const SignatureRefusal& refusal) {
+    return {refusal_of(refusal.fault), refusal.message, false};
+}
+
+ImportFailure failure_of(const PackRefusal& refusal) {
+    switch (refusal.why) {
+    case PackRefusal::Why::Unreadable:
+        return {ImportRefusal::Unreadable, refusal.message, true};
+    case PackRefusal::Why::Signature:
+        return {refusal_of(refusal.fault), refusal.message, false};
+    case PackRefusal::Why::NotAPack:
+        break;
+    }
+    return {ImportRefusal::NotAPack, refusal.message, false};
+}
+
+ImportFailure too_slow() {
+    return too_much("the stick answers too slowly; try another one, or put fewer files on it");
+}
+
+ImportFailure too_much(std::string reason) {
+    return {ImportRefusal::TooMuch, std::move(reason), true};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,50 @@
+#include "app/library/installed_set.h"
+
+#include "app/library/json_document.h"
+#include "firmware_host/base/printable.h"
+
+#include <array>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t most_verdict_bytes = 64U << 10U;
+constexpr std::size_t most_reason_bytes = 1000;
+constexpr int most_counted_starts = 1000000;
+/// In the order of Verdict.
+constexpr std::array<std::string_view, 3> verdict_names{"trying", "good", "bad"};
+
+void verdict_fields(auto& fields, auto& verdict) {
+    fields.whole("number", verdict.number, std::numeric_limits<std::uint64_t>::max());
+    fields.choice("verdict", verdict.verdict, verdict_names);
+    fields.whole("starts", verdict.starts, most_counted_starts);
+    fields.text("reason", verdict.reason);
+}
+
+} // namespace
+
+const InstalledSet& set_to_show(const SetChoice& choice, const std::optional<SetVerdict>& verdict) {
+    if (!choice.last_good || !verdict || verdict->number != choice.set.number) {
+        return choice.set;
+    }
+    const bool gave_up = verdict->verdict == Verdict::Trying && verdict->starts >= most_starts;
+    return verdict->verdict == Verdict::Bad || gave_up ? *choice.last_good : choice.set;
+}
+
+Result<SetVerdict> parse_verdict(std::string_view json) {
+    Result<SetVerdict> verdict =
+        parse_document<SetVerdict>(json, "the verdict", most_verdict_bytes,
+                                   [](auto& fields, auto& value) { verdict_fields(fields, value); });
+    if (verdict) {
+        verdict->reason = printable(verdict->reason, most_reason_bytes);
+    }
+    return verdict;
+}
+
+std::string write_verdict(const SetVerdict& verdict) {
+    return write_document(verdict, [](auto& fields, auto& value) { verdict_fields(fields, value); });
+}
+
+} // namespace frustumscreen

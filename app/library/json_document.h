@@ -1,0 +1,46 @@
+/// A small JSON document of our own, read and written by one description (JsonReader, JsonWriter).
+///
+/// Errors   the first one, as one line.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/pack/json_reader.h"
+#include "app/pack/json_writer.h"
+#include "firmware_host/base/result.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// `name` is what messages call it, such as "the verdict". `describe(fields, value)` names the fields.
+template <typename Value>
+[[nodiscard]] Result<Value> parse_document(std::string_view json, const std::string& name,
+                                           std::size_t most_bytes, const auto& describe) {
+    if (json.size() > most_bytes) {
+        return bad_input(fmt::format("{} has {} bytes; allowed are {}", name, json.size(), most_bytes));
+    }
+    pack_format::Refusal refusal{{}, name};
+    const nlohmann::json document = pack_format::parse_json(refusal, json);
+    Value value;
+    if (!refusal.message) {
+        pack_format::JsonReader fields(refusal, &document, "");
+        describe(fields, value);
+        fields.finish();
+    }
+    if (refusal.message) {
+        return bad_input(*refusal.message);
+    }
+    return value;
+}
+
+template <typename Value> [[nodiscard]] std::string write_document(const Value& value, const auto& describe) {
+    pack_format::JsonWriter fields;
+    describe(fields, value);
+    // What is no UTF-8 is replaced: a report must not fail for a name on a stick.
+    return fields.document().dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+} // namespace frustumscreen

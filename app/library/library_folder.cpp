@@ -1,0 +1,117 @@
+#include "app/library/library_folder.h"
+
+#include "firmware_host/base/file.h"
+
+#include <cerrno>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t most_verdict_bytes = 64U << 10U;
+constexpr std::string_view pack_ending = ".fspack";
+
+FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t most_bytes) {
+    const FileResult<std::unique_ptr<const FileContent>> file = tree.open(std::string(path));
+    if (!file) {
+        return tl::unexpected<FileFault>(file.error());
+    }
+    if ((*file)->bytes() > most_bytes) {
+        return file_fault(EFBIG);
+    }
+    std::string text((*file)->bytes(), '\0');
+    if (const int fault = (*file)->read(0, std::as_writable_bytes(std::span(text))); fault != 0) {
+        return file_fault(fault);
+    }
+    return text;
+}
+
+void note_files(const InstalledSet& set, std::set<std::string>& named) {
+    for (const InstalledPack& pack : set.packs) {
+        named.insert(pack.file);
+    }
+}
+
+/// Of ours: what somebody else put there is left alone.
+bool is_pack_of_ours(std::string_view name) {
+    return name.ends_with(pack_ending) && is_sha256_text(name.substr(0, name.size() - pack_ending.size()));
+}
+
+} // namespace
+
+tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library) {
+    const FileResult<std::string> text = read_text(library, set_file_name, most_set_file_bytes);
+    if (!text) {
+        return text.error().number == ENOENT
+                   ? tl::expected<SetFile, ImportFailure>()
+                   : tl::unexpected<ImportFailure>(disk_failure(set_file_name, text.error()));
+    }
+    Result<SetFile> file = parse_set_file(*text);
+    if (!file) {
+        return tl::unexpected<ImportFailure>(
+            ImportFailure{ImportRefusal::Unwritable,
+                          std::string(set_file_name) + " on the kiosk's disk: " + file.error().message +
+                              "; call a technician, who removes it and puts all packs in again",
+                          true});
+    }
+    return *std::move(file);
+}
+
+tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& library) {
+    const FileResult<std::string> text = read_text(library, verdict_file_name, most_verdict_bytes);
+    if (!text && text.error().number != ENOENT) {
+        return tl::unexpected<ImportFailure>(disk_failure(verdict_file_name, text.error()));
+    }
+    const Result<SetVerdict> verdict = parse_verdict(text.value_or(""));
+    return verdict ? std::optional(*verdict) : std::nullopt;
+}
+
+FileResult<void> settle(WritableTree& library) {
+    // Whoever wrote set.txt may have been stopped before its name was on the disk; only then may anything be cleared away.
+    return library.make_folder(std::string(packs_folder_name)).and_then([&] {
+        return library.sync_folder("");
+    });
+}
+
+FileResult<void> switch_to(WritableTree& library, const SetFile& file) {
+    const std::string text = write_set_file(file);
+    const std::string next(next_set_file_name);
+    {
+        const FileResult<std::unique_ptr<NewFile>> created = library.create(next);
+        if (!created) {
+            return tl::unexpected<FileFault>(created.error());
+        }
+        const FileResult<void> written =
+            (*created)->append(as_bytes(text)).and_then([&] { return (*created)->sync(); });
+        if (!written) {
+            return written;
+        }
+    }
+    return library.rename(next, std::string(set_file_name)).and_then([&] { return library.sync_folder(""); });
+}
+
+void clear_away(WritableTree& library, const SetFile& file) {
+    std::set<std::string> named;
+    note_files(file.choice.set, named);
+    note_files(file.choice.last_good.value_or(InstalledSet()), named);
+    note_files(file.before.value_or(InstalledSet()), named);
+    const std::string folder(packs_folder_name);
+    std::vector<std::string> unnamed;
+    const FileResult<void> listed = library.list(folder, [&](const FolderEntry& entry) {
+        const std::string path = folder + "/" + entry.name;
+        if (path == incoming_file_name || (is_pack_of_ours(entry.name) && !named.contains(path))) {
+            unnamed.push_back(path);
+        }
+        return true;
+    });
+    if (listed) {
+        for (const std::string& path : unnamed) {
+            static_cast<void>(library.remove(path));
+        }
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,109 @@
+#include "app/library/set_plan.h"
+
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+tl::unexpected<ImportFailure> no_set(ImportRefusal refusal, std::string reason) {
+    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), true});
+}
+
+bool names(const std::vector<std::string>& ids, const std::string& id) {
+    return !id.empty() && std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+void put_in(std::vector<InstalledPack>& set, const InstalledPack& pack) {
+    const auto same = std::find_if(set.begin(), set.end(),
+                                   [&](const InstalledPack& each) { return is_same_artifact(each, pack); });
+    if (same != set.end()) {
+        *same = pack;
+    } else {
+        set.push_back(pack);
+    }
+}
+
+/// A pack that is refused for another reason than that a newer one is there leaves a hole in the set.
+tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs, const ExhibitFile& file) {
+    for (const StickPack& each : packs) {
+        const std::string name = printable(each.path);
+        if (each.told.outcome == ImportOutcome::Refused && each.told.refusal != ImportRefusal::Older) {
+            return no_set(each.told.refusal,
+                          fmt::format("{} is refused, and {} says that the packs of this stick belong "
+                                      "together; nothing of it was taken",
+                                      name, exhibit_file_name));
+        }
+        if (names(file.remove, each.pack.id)) {
+            return no_set(ImportRefusal::NotAPack,
+                          fmt::format("{} removes \"{}\", and {} on the same stick brings it; take one of "
+                                      "the two away",
+                                      exhibit_file_name, each.pack.id, name));
+        }
+        if (file.only && !names(file.order, each.pack.id)) {
+            return no_set(ImportRefusal::NotAPack,
+                          fmt::format("{} says only = true, and its order does not name {} (id \"{}\"); name "
+                                      "it, or take it off the stick",
+                                      exhibit_file_name, name, each.pack.id));
+        }
+    }
+    return {};
+}
+
+tl::expected<void, ImportFailure> apply(const ExhibitFile& file, PlannedSet& planned) {
+    std::vector<InstalledPack>& packs = planned.set.packs;
+    std::vector<InstalledPack> ordered;
+    for (const std::string& id : file.order) {
+        const auto found = std::find_if(packs.begin(), packs.end(),
+                                        [&](const InstalledPack& each) { return each.id == id; });
+        if (found == packs.end()) {
+            return no_set(ImportRefusal::NotAPack,
+                          fmt::format("{} names \"{}\", which is neither on the stick nor installed; put its "
+                                      "pack on the stick",
+                                      exhibit_file_name, id));
+        }
+        ordered.push_back(*found);
+    }
+    for (const InstalledPack& pack : packs) {
+        if (names(file.order, pack.id)) {
+            continue;
+        }
+        const bool goes = file.only || names(file.remove, pack.id);
+        (goes ? planned.removed : ordered).push_back(pack);
+    }
+    packs = std::move(ordered);
+    planned.set.attract = file.attract.value_or(planned.set.attract);
+    return {};
+}
+
+} // namespace
+
+tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std::span<const StickPack> packs,
+                                                 const std::optional<ExhibitFile>& file) {
+    PlannedSet planned{shown, {}};
+    for (const StickPack& each : packs) {
+        if (each.is_wanted()) {
+            put_in(planned.set.packs, each.pack);
+        }
+    }
+    if (file) {
+        if (const auto good = check_packs(packs, *file); !good) {
+            return tl::unexpected<ImportFailure>(good.error());
+        }
+        if (const auto good = apply(*file, planned); !good) {
+            return tl::unexpected<ImportFailure>(good.error());
+        }
+    }
+    if (planned.set.packs.size() > most_installed_packs) {
+        return no_set(ImportRefusal::TooMuch,
+                      fmt::format("with this stick the exhibit would have {} packs; allowed are {}",
+                                  planned.set.packs.size(), most_installed_packs));
+    }
+    return planned;
+}
+
+} // namespace frustumscreen

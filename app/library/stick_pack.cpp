@@ -1,0 +1,104 @@
+#include "app/library/stick_pack.h"
+
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace frustumscreen {
+
+namespace {
+
+void be_there_already(StickPack& pack, std::string reason) {
+    pack.told.outcome = ImportOutcome::AlreadyThere;
+    pack.told.reason = std::move(reason);
+}
+
+const InstalledPack* find_same(const InstalledSet& set, const InstalledPack& pack) {
+    const auto same = std::find_if(set.packs.begin(), set.packs.end(),
+                                   [&](const InstalledPack& each) { return is_same_artifact(each, pack); });
+    return same != set.packs.end() ? &*same : nullptr;
+}
+
+std::uint64_t highest_serial(const SetFile& known, const std::string& id) {
+    const auto accepted = std::find_if(known.serials.begin(), known.serials.end(),
+                                       [&](const AcceptedSerial& each) { return each.id == id; });
+    return accepted != known.serials.end() && !id.empty() ? accepted->serial : 0;
+}
+
+void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known) {
+    const InstalledPack& pack = candidate.pack;
+    const InstalledPack* installed = find_same(shown, pack);
+    if (installed != nullptr && installed->serial == pack.serial &&
+        installed->manifest_sha256 == pack.manifest_sha256) {
+        be_there_already(candidate, "it is installed already");
+        return;
+    }
+    const std::uint64_t highest = highest_serial(known, pack.id);
+    if (pack.serial < highest) {
+        refuse(candidate, {ImportRefusal::Older,
+                           candidate.is_signed
+                               ? fmt::format("it is older (serial {}) than one that was taken before (serial "
+                                             "{}); sign it anew to go back to it",
+                                             pack.serial, highest)
+                               : "it is unsigned, and a signed one of the same id was taken before; sign it",
+                           false});
+    } else if (installed != nullptr && pack.serial > 0 && installed->serial == pack.serial) {
+        refuse(candidate, {ImportRefusal::Older,
+                           fmt::format("it is another pack with the same id and the same serial {} as the "
+                                       "one that is installed; sign it with a higher serial",
+                                       pack.serial),
+                           false});
+    }
+}
+
+} // namespace
+
+void refuse(StickPack& pack, const ImportFailure& failure) {
+    pack.told.outcome = ImportOutcome::Refused;
+    pack.told.refusal = failure.refusal;
+    pack.told.reason = failure.reason;
+}
+
+bool is_same_artifact(const InstalledPack& a, const InstalledPack& b) {
+    return a.id == b.id && (!a.id.empty() || a.manifest_sha256 == b.manifest_sha256);
+}
+
+void weigh_packs(std::vector<StickPack>& packs, const InstalledSet& shown, const SetFile& known) {
+    for (StickPack& pack : packs) {
+        if (pack.told.outcome == ImportOutcome::Pending) {
+            weigh(pack, shown, known);
+        }
+    }
+}
+
+std::vector<std::size_t> copy_order(const std::vector<StickPack>& packs) {
+    std::vector<std::size_t> order(packs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return packs[a].pack.serial > packs[b].pack.serial;
+    });
+    return order;
+}
+
+void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
+    const auto taken = std::find_if(packs.begin(), packs.end(), [&](const StickPack& other) {
+        return other.told.outcome == ImportOutcome::Taken && is_same_artifact(other.pack, pack.pack);
+    });
+    if (taken == packs.end()) {
+        return;
+    }
+    const std::string name = printable(taken->path);
+    if (taken->pack.serial == pack.pack.serial && taken->pack.manifest_sha256 == pack.pack.manifest_sha256) {
+        be_there_already(pack, fmt::format("it is the same as {} on this stick", name));
+        return;
+    }
+    refuse(pack, {ImportRefusal::Older,
+                  fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
+                              taken->pack.serial, pack.pack.serial),
+                  false});
+}
+
+} // namespace frustumscreen

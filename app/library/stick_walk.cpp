@@ -1,0 +1,136 @@
+#include "app/library/stick_walk.h"
+
+#include "app/library/exhibit_file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view pack_ending = ".fspack";
+/// Without regard to capital letters.
+constexpr auto system_names =
+    std::to_array<std::string_view>({"$recycle.bin", "recycler", "recycled", "system volume information",
+                                     "lost+found", "found.000", "__macosx"});
+
+std::string in_small_letters(std::string_view name) {
+    std::string small(name);
+    for (char& letter : small) {
+        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    return small;
+}
+
+class Walk {
+public:
+    Walk(FileTree& stick, const ImportLimits& limits, const std::function<bool()>& too_late)
+        : stick_(stick), limits_(limits), too_late_(too_late) {}
+
+    tl::expected<StickFiles, ImportFailure> all();
+
+private:
+    void look_at(const std::string& folder, const FolderEntry& entry);
+    bool visit(const std::string& folder, const FolderEntry& entry);
+    void look_into(const std::string& folder);
+    void refuse(const std::string& path, ImportFailure failure);
+
+    FileTree& stick_;
+    const ImportLimits& limits_;
+    const std::function<bool()>& too_late_;
+    StickFiles found_;
+    std::vector<std::string> folders_;
+    std::size_t entries_ = 0;
+    std::optional<ImportFailure> failure_;
+};
+
+void Walk::refuse(const std::string& path, ImportFailure failure) {
+    found_.refused.push_back({printable(path), "", ImportOutcome::Refused, failure.refusal, failure.reason});
+}
+
+void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
+    const std::string path = folder.empty() ? entry.name : folder + "/" + entry.name;
+    if (entry.kind == EntryKind::Folder) {
+        if (folder.empty()) {
+            folders_.push_back(entry.name);
+        }
+    } else if (in_small_letters(entry.name).ends_with(pack_ending)) {
+        if (entry.kind == EntryKind::File) {
+            found_.packs.push_back(path);
+        } else {
+            refuse(path, {ImportRefusal::NotAPack,
+                          "it is a link or a device, no file; put the pack itself on the stick", false});
+        }
+    } else if (folder.empty() && entry.name == exhibit_file_name) {
+        found_.has_exhibit_file = true;
+    }
+}
+
+/// False ends the list.
+bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
+    ++entries_;
+    if (too_late_()) {
+        failure_ = too_slow();
+    } else if (!is_passed_over(entry.name)) {
+        look_at(folder, entry);
+    }
+    if (entries_ > limits_.most_entries) {
+        failure_ = too_much(fmt::format("the stick holds more than {} files; put the packs on a stick of "
+                                        "their own",
+                                        limits_.most_entries));
+    } else if (folders_.size() > limits_.most_folders) {
+        failure_ = too_much(
+            fmt::format("the stick holds more than {} folders; put the packs on a stick of their own",
+                        limits_.most_folders));
+    } else if (found_.packs.size() + found_.refused.size() > limits_.most_packs) {
+        failure_ = too_much(
+            fmt::format("the stick holds more than {} packs; allowed are fewer", limits_.most_packs));
+    }
+    return !failure_;
+}
+
+void Walk::look_into(const std::string& folder) {
+    const FileResult<void> listed =
+        stick_.list(folder, [&](const FolderEntry& entry) { return visit(folder, entry); });
+    if (listed || failure_) {
+        return;
+    }
+    ImportFailure failure = stick_failure(folder, listed.error());
+    if (failure.whole) {
+        failure_ = std::move(failure);
+    } else {
+        refuse(folder, std::move(failure));
+    }
+}
+
+tl::expected<StickFiles, ImportFailure> Walk::all() {
+    look_into("");
+    std::sort(folders_.begin(), folders_.end());
+    for (std::size_t k = 0; k < folders_.size() && !failure_; ++k) {
+        look_into(folders_[k]);
+    }
+    if (failure_) {
+        return tl::unexpected<ImportFailure>(*failure_);
+    }
+    std::sort(found_.packs.begin(), found_.packs.end());
+    return std::move(found_);
+}
+
+} // namespace
+
+bool is_passed_over(std::string_view name) {
+    return name.starts_with('.') ||
+           std::find(system_names.begin(), system_names.end(), in_small_letters(name)) != system_names.end();
+}
+
+tl::expected<StickFiles, ImportFailure> walk_stick(FileTree& stick, const ImportLimits& limits,
+                                                   const std::function<bool()>& too_late) {
+    return Walk(stick, limits, too_late).all();
+}
+
+} // namespace frustumscreen

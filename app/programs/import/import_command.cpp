@@ -1,0 +1,198 @@
+#include "app/programs/import/import_command.h"
+
+#include "app/library/import_end.h"
+#include "app/library/import_stick.h"
+#include "app/library/library_folder.h"
+#include "app/pack/key_folder.h"
+#include "app/programs/import/import_watcher.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/disk_tree.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Two sticks at once: the second waits.
+class FolderLock {
+public:
+    [[nodiscard]] static Result<FolderLock> wait_for(const std::filesystem::path& folder) {
+        FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        if (lock.folder_ < 0) {
+            return bad_input(folder.string() + ": cannot be opened as a folder: " + std::strerror(errno));
+        }
+        while (::flock(lock.folder_, LOCK_EX) != 0) {
+            if (errno != EINTR) {
+                return bad_input(folder.string() + ": cannot be locked: " + std::strerror(errno));
+            }
+        }
+        return lock;
+    }
+    FolderLock(FolderLock&& other) noexcept : folder_(std::exchange(other.folder_, -1)) {}
+    FolderLock& operator=(FolderLock&&) = delete;
+    ~FolderLock() {
+        if (folder_ >= 0) {
+            ::close(folder_);
+        }
+    }
+
+private:
+    explicit FolderLock(int folder) : folder_(folder) {}
+    int folder_;
+};
+
+Nanoseconds processor_time() {
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// Another one for each stick, also after a start with the clock set back.
+std::string import_id(const ImportArguments& arguments) {
+    if (!arguments.id.empty()) {
+        return printable(arguments.id);
+    }
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return fmt::format("{}-{}", std::chrono::duration_cast<std::chrono::milliseconds>(now).count(),
+                       ::getpid());
+}
+
+Result<void> read_trust(const ImportArguments& arguments, ImportRequest& request) {
+    if (!arguments.config.empty()) {
+        const Result<CheckedSettings> settings = load_settings(arguments.config);
+        if (!settings) {
+            return tl::unexpected<Error>(settings.error());
+        }
+        request.keys = (*settings)->exhibit.keys;
+        request.unsigned_packs = (*settings)->exhibit.unsigned_packs;
+    }
+    if (!arguments.keys.empty()) {
+        Result<std::vector<TrustedKey>> keys = read_key_folder(arguments.keys);
+        if (!keys) {
+            return tl::unexpected<Error>(keys.error());
+        }
+        request.keys = *std::move(keys);
+    }
+    if (arguments.allow_unsigned) {
+        request.unsigned_packs = UnsignedPacks::Allow;
+    }
+    return {};
+}
+
+Result<void> make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return error ? bad_input(folder.string() + ": cannot be made: " + error.message()) : Result<void>();
+}
+
+Result<InstalledSet> installed_set(const std::filesystem::path& folder) {
+    const Result<std::unique_ptr<WritableTree>> library = open_tree(folder);
+    if (!library) {
+        return tl::unexpected<Error>(library.error());
+    }
+    const tl::expected<SetFile, ImportFailure> file = read_set_file(**library);
+    if (!file) {
+        return bad_input(folder.string() + ": " + file.error().reason);
+    }
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(**library);
+    if (!verdict) {
+        return bad_input(folder.string() + ": " + verdict.error().reason);
+    }
+    return set_to_show(file->choice, *verdict);
+}
+
+/// Of what is installed; 0 where that is not known.
+std::uint64_t set_number(const ImportArguments& arguments) {
+    return installed_set(arguments.into).map([](const InstalledSet& set) { return set.number; }).value_or(0);
+}
+
+} // namespace
+
+Result<ImportReport> import_from(const ImportArguments& arguments) {
+    ImportRequest request;
+    request.import_id = import_id(arguments);
+    request.stick = arguments.label;
+    request.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    if (const Result<void> trusted = read_trust(arguments, request); !trusted) {
+        return tl::unexpected<Error>(trusted.error());
+    }
+    const Result<std::unique_ptr<WritableTree>> stick = open_tree(arguments.from);
+    if (!stick) {
+        return tl::unexpected<Error>(stick.error());
+    }
+    if (const Result<void> made = make_folder(arguments.into); !made) {
+        return tl::unexpected<Error>(made.error());
+    }
+    const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
+    const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
+    if (!lock || !library) {
+        return tl::unexpected<Error>(lock ? library.error() : lock.error());
+    }
+    ImportWatcher watcher(arguments.report, !arguments.json);
+    const ImportSurroundings outside{monotonic_now, processor_time, [&](const ImportReport& report) {
+                                         watcher.tell(report, monotonic_now());
+                                     }};
+    return import_stick(**stick, **library, request, outside);
+}
+
+Result<ImportReport> tell_unmounted(const ImportArguments& arguments) {
+    ImportReport report;
+    report.import_id = import_id(arguments);
+    report.stick = printable(arguments.label);
+    report.stage = ImportStage::Failed;
+    report.refusal = ImportRefusal::Unreadable;
+    report.reason = "the stick's file system cannot be read; format it as FAT32 or exFAT, and copy the packs "
+                    "onto it again";
+    report.set_number = set_number(arguments);
+    ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
+    return report;
+}
+
+Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
+    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
+    std::optional<ImportReport> last;
+    if (const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes)) {
+        if (Result<ImportReport> report = parse_import_report(as_text(*bytes))) {
+            last = *std::move(report);
+        }
+    }
+    const std::optional<ImportReport> word =
+        last_word(last, import_id(arguments), service_result, set_number(arguments));
+    return word ? write_file(arguments.report, as_bytes(write_import_report(*word))) : Result<void>();
+}
+
+Result<std::string> list_installed(const ImportArguments& arguments) {
+    const Result<InstalledSet> set = installed_set(arguments.into);
+    if (!set) {
+        return tl::unexpected<Error>(set.error());
+    }
+    auto packs = nlohmann::ordered_json::array();
+    std::string text;
+    for (const InstalledPack& pack : set->packs) {
+        packs.push_back({{"file", pack.file},
+                         {"title", pack.title},
+                         {"serial", pack.serial},
+                         {"sha256", pack.sha256},
+                         {"id", pack.id},
+                         {"bytes", pack.bytes}});
+        text += fmt::format("{}  {}  serial {}  {}\n", pack.sha256.substr(0, 12),
+                            pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title));
+    }
+    nlohmann::ordered_json json{{"number", set->number}, {"packs", std::move(packs)}};
+    return arguments.json ? json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : text;
+}
+
+} // namespace frustumscreen

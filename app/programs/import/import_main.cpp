@@ -1,0 +1,115 @@
+/// frustumscreen-import: takes a stick's packs into the installed set.
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/import/import_command.h"
+#include "app/programs/import/import_watcher.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+int complain(const std::string& message) {
+    fmt::print(stderr, "frustumscreen-import: {}\n", message);
+    return 1;
+}
+
+std::string line_of(const ImportedPack& pack) {
+    const std::string name =
+        pack.title.empty() ? pack.file : fmt::format("{} (\"{}\")", pack.file, pack.title);
+    return fmt::format("{}: {}{}{}", name, words_of(pack.outcome), pack.reason.empty() ? "" : ": ",
+                       pack.reason);
+}
+
+/// Every pack has a line, refused ones on standard error. The status is about the stick, not about each pack.
+int say(const Result<ImportReport>& report, const ImportArguments& arguments) {
+    if (!report) {
+        return complain(report.error().message);
+    }
+    for (const ImportedPack& pack : report->packs) {
+        if (pack.outcome == ImportOutcome::Refused) {
+            fmt::print(stderr, "frustumscreen-import: {}\n", line_of(pack));
+        } else if (!arguments.json) {
+            fmt::print("{}\n", line_of(pack));
+        }
+    }
+    if (arguments.json) {
+        fmt::print("{}", write_import_report(*report));
+    }
+    return report->stage == ImportStage::Failed ? complain(report->reason) : 0;
+}
+
+int list(const ImportArguments& arguments) {
+    const Result<std::string> text = list_installed(arguments);
+    if (!text) {
+        return complain(text.error().message);
+    }
+    fmt::print("{}", *text);
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(
+        "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
+        "frustumscreen-import");
+    app.set_version_flag("--version", "frustumscreen-import " FRUSTUMSCREEN_VERSION);
+    ImportArguments arguments;
+    std::string unsigned_packs = "refuse";
+    bool to_list = false;
+    bool is_unmounted = false;
+    bool has_ended = false;
+    auto* from = app.add_option("--from", arguments.from, "the stick's folder; nothing is written to it");
+    auto* into =
+        app.add_option("--into", arguments.into, "folder of the installed set; made where it is missing");
+    auto* keys = app.add_option("--keys", arguments.keys, "folder of the museum's public keys (*.pub)");
+    auto* config =
+        app.add_option("--config", arguments.config, "settings (TOML): exhibit.keys, exhibit.unsigned");
+    app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
+        ->check(CLI::IsMember({"refuse", "allow"}));
+    auto* report = app.add_option("--report", arguments.report,
+                                  "file that says what happens, renewed while it does (JSON)");
+    app.add_option("--label", arguments.label, "the stick's name, for the report");
+    app.add_flag("--json", arguments.json, "for programs");
+    auto* list_flag =
+        app.add_flag("--list", to_list, "the set that an exhibit started now would show; takes nothing");
+    app.add_flag("--unmounted", is_unmounted,
+                 "only leaves the report of a stick whose file system cannot be mounted");
+    auto* ended = app.add_flag("--ended", has_ended,
+                               "only leaves the last word on an import that was stopped (ExecStopPost=)");
+    auto* id = app.add_option("--id", arguments.id, "name of this import; another one for each stick");
+    ended->needs(id)->needs(report);
+    list_flag->needs(into)->excludes(from);
+    try {
+        app.parse(argc, argv);
+        if (!to_list && !is_unmounted && !has_ended) {
+            for (const CLI::Option* wanted : {from, into}) {
+                if (wanted->count() == 0) {
+                    throw CLI::RequiredError(wanted->get_name());
+                }
+            }
+            if (keys->count() + config->count() == 0 && unsigned_packs == "refuse") {
+                throw CLI::RequiredError("--keys or --config");
+            }
+        }
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (has_ended) {
+        const char* result = std::getenv("SERVICE_RESULT");
+        return exit_status("frustumscreen-import", tell_ended(arguments, result != nullptr ? result : ""));
+    }
+    arguments.allow_unsigned = unsigned_packs == "allow";
+    return to_list ? list(arguments)
+                   : say(is_unmounted ? tell_unmounted(arguments) : import_from(arguments), arguments);
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-import", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,78 @@
+#include "app/programs/import/import_watcher.h"
+
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_reports = std::chrono::milliseconds(300);
+constexpr double bytes_per_mb = 1e6;
+
+double share_of(const ImportReport& report) {
+    return static_cast<double>(report.done_bytes) /
+           static_cast<double>(std::max<std::uint64_t>(report.total_bytes, 1));
+}
+
+std::string line_of(const ImportReport& report) {
+    switch (report.stage) {
+    case ImportStage::Found:
+        return "a stick is looked through";
+    case ImportStage::Copying: // each byte is copied, and checked
+        return fmt::format("{:.1f} MB are copied and checked",
+                           static_cast<double>(report.total_bytes) / 2.0 / bytes_per_mb);
+    case ImportStage::MayTakeOut:
+        return fmt::format("the stick may be taken out; set {} is installed", report.set_number);
+    case ImportStage::Done:
+        return "done";
+    case ImportStage::Failed:
+        break;
+    }
+    return "nothing was taken";
+}
+
+} // namespace
+
+std::string_view words_of(ImportOutcome outcome) {
+    constexpr std::array<std::string_view, 5> words{"pending", "taken", "already there", "refused",
+                                                    "removed"};
+    return words[static_cast<std::size_t>(outcome)];
+}
+
+void ImportWatcher::tell(const ImportReport& report, MonotonicTime now) {
+    const bool is_new_stage = stage_ != report.stage;
+    if (report.stage == ImportStage::Copying) {
+        progress_.show_share("copying and checking", share_of(report));
+    }
+    if (!is_new_stage && now - written_ < between_reports) {
+        return;
+    }
+    written_ = now;
+    stage_ = report.stage;
+    write(report);
+    if (is_new_stage && lines_) {
+        progress_.clear();
+        fmt::print("{}\n", line_of(report));
+        std::fflush(stdout); // the journal is to hear it now
+    }
+}
+
+/// The import goes on without it: what is installed matters more than what is told.
+void ImportWatcher::write(const ImportReport& report) {
+    if (file_.empty()) {
+        return;
+    }
+    const Result<void> written = write_file(file_, as_bytes(write_import_report(report)));
+    if (!written && !complained_) {
+        complained_ = true;
+        fmt::print(stderr, "frustumscreen-import: {}\n", written.error().message);
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,35 @@
+/// Where an import is told: its report as a file, lines for the journal, a line of progress on a terminal.
+///
+/// Threads  one caller.
+#pragma once
+
+#include "app/library/import_report.h"
+#include "app/programs/common/progress_line.h"
+#include "firmware_host/base/time.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace frustumscreen {
+
+class ImportWatcher {
+public:
+    /// `file`: empty: none is written. `lines`: a line for each stage on standard output.
+    ImportWatcher(std::filesystem::path file, bool lines) : file_(std::move(file)), lines_(lines) {}
+    /// Every stage at once; copying a few times a second.
+    void tell(const ImportReport& report, MonotonicTime now);
+
+private:
+    void write(const ImportReport& report);
+    std::filesystem::path file_;
+    bool lines_;
+    bool complained_ = false;
+    ProgressLine progress_;
+    std::optional<ImportStage> stage_;
+    MonotonicTime written_{};
+};
+
+/// What became of a pack, in a word or two.
+[[nodiscard]] std::string_view words_of(ImportOutcome outcome);
+
+} // namespace frustumscreen

@@ -1,0 +1,99 @@
+#include "app/programs/pack/keygen_command.h"
+
+#include "app/pack/secret_key.h"
+#include "app/programs/pack/password_prompt.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+tl::unexpected<Error> not_written(const std::string& file) {
+    return bad_input(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+}
+
+Result<void> check_free(const std::string& file) {
+    struct stat status {};
+    if (::lstat(file.c_str(), &status) == 0) {
+        return bad_input(
+            fmt::format("{}: it is there already, and keys are never replaced; take another name", file));
+    }
+    return {};
+}
+
+/// A file that was not there before, in no other's reach from its first byte on.
+Result<void> write_new_file(const std::string& file, mode_t mode, std::string_view text) {
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (descriptor < 0) {
+        return errno == EEXIST ? check_free(file) : not_written(file);
+    }
+    const bool written = ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                         ::fsync(descriptor) == 0;
+    const Result<void> result = written ? Result<void>() : not_written(file);
+    ::close(descriptor);
+    if (!written) {
+        ::unlink(file.c_str());
+    }
+    return result;
+}
+
+Result<std::optional<Password>> password_for_new_key() {
+    if (!is_at_terminal()) {
+        return std::optional<Password>();
+    }
+    Result<Password> password = ask_new_password();
+    if (!password) {
+        return tl::unexpected<Error>(password.error());
+    }
+    return password->view().empty() ? std::optional<Password>()
+                                    : std::optional<Password>(*std::move(password));
+}
+
+Result<void> write_keys(const std::string& name, std::optional<std::string_view> password) {
+    const SecretKey key = SecretKey::make();
+    const Result<std::string> secret = write_secret_key(key, password);
+    if (!secret) {
+        return tl::unexpected<Error>(secret.error());
+    }
+    if (Result<void> written = write_new_file(name + ".key", 0600, *secret); !written) {
+        return written;
+    }
+    if (Result<void> written = write_new_file(name + ".pub", 0644, write_public_key(key.public_key()));
+        !written) {
+        ::unlink((name + ".key").c_str()); // half a pair is of no use
+        return written;
+    }
+    fmt::print("{0}.key: the secret key{1}; keep it and a copy where nobody else comes\n"
+               "{0}.pub: the public key, for the kiosk's settings:\n"
+               "  [[exhibit.keys]]\n  name = \"{0}\"\n  public_key = \"{2}\"\n",
+               name,
+               password ? ", encrypted with your password"
+                        : " WITHOUT A PASSWORD: who has the file can sign (mode 0600)",
+               public_key_line(key.public_key()));
+    return {};
+}
+
+} // namespace
+
+Result<void> make_keys(const std::string& name) {
+    for (const char* ending : {".key", ".pub"}) { // before the person types
+        if (Result<void> free = check_free(name + ending); !free) {
+            return free;
+        }
+    }
+    const Result<std::optional<Password>> password = password_for_new_key();
+    if (!password) {
+        return tl::unexpected<Error>(password.error());
+    }
+    return write_keys(name, *password ? std::optional((*password)->view()) : std::nullopt);
+}
+
+} // namespace frustumscreen

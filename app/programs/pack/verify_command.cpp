@@ -1,0 +1,134 @@
+#include "app/programs/pack/verify_command.h"
+
+#include "app/pack/key_folder.h"
+#include "app/pack/limits.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_texts.h"
+#include "app/pack/signed_pack.h"
+#include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A pack of which all is right that was asked for.
+struct SoundPack {
+    VerifiedPack pack;
+    std::optional<SignatureClaim> claim; ///< none: unsigned
+    std::string signer;                  ///< empty: the signature was not checked
+};
+
+Result<std::vector<TrustedKey>> read_keys(const std::vector<std::filesystem::path>& files) {
+    std::vector<TrustedKey> keys;
+    for (const std::filesystem::path& file : files) {
+        const Result<PublicKey> key = read_public_key(file);
+        if (!key) {
+            return tl::unexpected<Error>(key.error());
+        }
+        keys.push_back({file.stem().string(), *key, std::nullopt});
+    }
+    return keys;
+}
+
+/// Nothing of a pack is parsed before its signature was right, where there are keys.
+Result<std::pair<pack_format::PackReader, std::string>> open_checked(OpenFile file,
+                                                                     std::span<const TrustedKey> keys) {
+    if (keys.empty()) {
+        return pack_format::PackReader::open(std::move(file)).map([](pack_format::PackReader&& reader) {
+            return std::pair(std::move(reader), std::string());
+        });
+    }
+    tl::expected<SignedPack, PackRefusal> opened =
+        open_signed_pack(std::move(file), {keys, std::nullopt, UnsignedPacks::Refuse});
+    if (!opened) {
+        return bad_input(opened.error().message);
+    }
+    return std::pair(std::move(opened->reader), std::move(opened->signer->key));
+}
+
+Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> keys) {
+    if (std::error_code none; std::filesystem::is_directory(file, none)) {
+        return bad_input(file + ": this is a folder; name the *.fspack files in it");
+    }
+    Result<OpenFile> opened = OpenFile::open(file, pack_format::most_pack_bytes);
+    if (!opened) {
+        return tl::unexpected<Error>(opened.error());
+    }
+    auto reader = open_checked(*std::move(opened), keys);
+    if (!reader) {
+        return at(file, reader.error());
+    }
+    Result<std::optional<SignatureClaim>> claim = claim_of(reader->first);
+    if (!claim) {
+        return at(file, claim.error());
+    }
+    Result<VerifiedPack> pack = read_pack(reader->first);
+    const Result<void> good =
+        pack.and_then([](const VerifiedPack& read) { return check_set_and_spoken(*read); });
+    if (!good) {
+        return at(file, good.error());
+    }
+    return SoundPack{*std::move(pack), *std::move(claim), std::move(reader->second)};
+}
+
+std::string signature_words(const SoundPack& sound) {
+    if (!sound.claim) {
+        return "unsigned";
+    }
+    return sound.signer.empty()
+               ? fmt::format("signed with the key {}, serial {}, which nobody checked (name its --key)",
+                             sound.claim->key_id, sound.claim->serial)
+               : fmt::format("signed by {}, serial {}", printable(sound.signer), sound.claim->serial);
+}
+
+Json report_of(const std::string& file, const SoundPack& sound) {
+    Json json{{"file", file}, {"sound", true}, {"signed", sound.claim.has_value()}};
+    if (sound.claim) {
+        json["checked"] = !sound.signer.empty();
+        json["key"] = sound.signer.empty() ? Json(nullptr) : Json(sound.signer);
+        json["key_id"] = sound.claim->key_id;
+        json["serial"] = sound.claim->serial;
+        json["trusted_comment"] = sound.claim->trusted_comment;
+    }
+    return json;
+}
+
+} // namespace
+
+int verify_packs(const VerifyRequest& request) {
+    const Result<std::vector<TrustedKey>> keys = read_keys(request.keys);
+    if (!keys) {
+        return exit_status("frustumscreen-pack", tl::unexpected<Error>(keys.error()));
+    }
+    int status = 0;
+    Json report = Json::array();
+    for (const std::string& file : request.packs) {
+        const Result<SoundPack> sound = check(file, *keys);
+        if (!sound) {
+            status = exit_status("frustumscreen-pack", tl::unexpected<Error>(sound.error()));
+            report.push_back(
+                {{"file", file}, {"sound", false}, {"signed", false}, {"reason", sound.error().message}});
+            continue;
+        }
+        report.push_back(report_of(file, *sound));
+        if (!request.json) {
+            fmt::print("{}: sound, {}, {} levels, \"{}\"\n", file, signature_words(*sound),
+                       sound->pack->levels.size(), sound->pack->title);
+        }
+    }
+    if (request.json) {
+        fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+    }
+    return status;
+}
+
+} // namespace frustumscreen

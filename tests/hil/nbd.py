@@ -1,0 +1,169 @@
+"""Disks that QEMU reads over a socket, so that they can misbehave: slow ones, and ones whose power is cut.
+
+Bytes    the NBD protocol, newstyle handshake, fixed; big-endian.
+Units    bytes; seconds where the name says so.
+Threads  one for each connection; `cut` may be called from any.
+Source   https://github.com/NetworkBlockDevice/nbd/blob/master/doc/proto.md
+"""
+
+import contextlib
+import os
+import pathlib
+import random
+import socket
+import struct
+import threading
+import time
+
+SECTOR = 512
+HAS_FLAGS, SEND_FLUSH, SEND_FUA, READ_ONLY = 1, 4, 8, 2
+OPTION_EXPORT_NAME, OPTION_ABORT, OPTION_INFO, OPTION_GO = 1, 2, 6, 7
+REPLY_ACK, REPLY_INFO, REPLY_UNSUPPORTED = 1, 3, 0x80000001
+REPLY_MAGIC = 0x3E889045565A9
+COMMAND_READ, COMMAND_WRITE, COMMAND_DISCONNECT, COMMAND_FLUSH = range(4)
+COMMAND_FLAG_FUA = 1
+EIO = 5
+
+
+class Disk:
+    """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
+    it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
+    is cut by itself after so many writes; `change`: called before each read with the disk's bytes and the place."""
+
+    def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, change=None, size=None):
+        self.path = pathlib.Path(path)
+        self.delay_s, self.cut_after, self.change = delay_s, cut_after, change
+        self.writes = self.flushes = self.reads = 0
+        self._now = bytearray(pathlib.Path(image).read_bytes()) if size is None else None
+        self._durable = bytearray(self._now) if cut_after is not None else None
+        self._size = len(self._now) if size is None else size
+        self._head = pathlib.Path(image).read_bytes() if size is not None else b""
+        self._unflushed = []
+        self._random = random.Random(seed)
+        self._lock = threading.Lock()
+        self.is_cut = threading.Event()
+        self._listens = socket.socket(socket.AF_UNIX)
+        self.path.unlink(missing_ok=True)
+        self._listens.bind(os.fspath(self.path))
+        self._listens.listen(4)
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def stop(self):
+        self.is_cut.set()
+        self._listens.close()
+        self.path.unlink(missing_ok=True)
+
+    def cut(self):
+        """The power fails: of what was not flushed, a share of the sectors that chance says has arrived."""
+        with self._lock:
+            self._cut()
+
+    def _cut(self):
+        if self.is_cut.is_set():
+            return
+        self.is_cut.set()
+        share = self._random.choice((0.0, 0.5, 0.9, 1.0))
+        for place, data in self._unflushed:
+            for at in range(0, len(data), SECTOR):
+                if self._random.random() < share:
+                    self._durable[place + at:place + at + SECTOR] = data[at:at + SECTOR]
+
+    def survived(self, image):
+        """Writes what the cut disk holds."""
+        assert self.is_cut.is_set()
+        pathlib.Path(image).write_bytes(self._durable)
+
+    def _accept(self):
+        while True:
+            try:
+                connection, _ = self._listens.accept()
+            except OSError:
+                return
+            threading.Thread(target=self._serve, args=(connection,), daemon=True).start()
+
+    def _serve(self, connection):
+        with contextlib.suppress(EOFError, OSError), connection:
+            if self._handshake(connection):
+                while self._command(connection):
+                    pass
+
+    @staticmethod
+    def _receive(connection, length):
+        found = bytearray()
+        while len(found) < length:
+            more = connection.recv(min(1 << 20, length - len(found)))
+            if not more:
+                raise EOFError
+            found += more
+        return bytes(found)
+
+    def _handshake(self, connection):
+        flags = HAS_FLAGS | (SEND_FLUSH | SEND_FUA if self.cut_after is not None else READ_ONLY)
+        connection.sendall(b"NBDMAGIC" + b"IHAVEOPT" + struct.pack(">H", 3))
+        self._receive(connection, 4)
+        while True:
+            _, option, length = struct.unpack(">8sII", self._receive(connection, 16))
+            self._receive(connection, length)
+
+            def reply(kind, data=b"", option=option):
+                connection.sendall(struct.pack(">QIII", REPLY_MAGIC, option, kind, len(data)) + data)
+
+            if option in (OPTION_INFO, OPTION_GO):
+                reply(REPLY_INFO, struct.pack(">HQH", 0, self._size, flags))
+                reply(REPLY_ACK)
+                if option == OPTION_GO:
+                    return True
+            elif option == OPTION_EXPORT_NAME:
+                connection.sendall(struct.pack(">QH", self._size, flags) + bytes(124))
+                return True
+            elif option == OPTION_ABORT:
+                reply(REPLY_ACK)
+                return False
+            else:
+                reply(REPLY_UNSUPPORTED)
+
+    def _command(self, connection):
+        _, flags, kind, handle, place, length = struct.unpack(">IHH8sQI", self._receive(connection, 28))
+        data = self._receive(connection, length) if kind == COMMAND_WRITE else b""
+        if kind == COMMAND_DISCONNECT:
+            return False
+        if kind == COMMAND_READ and self.delay_s:
+            time.sleep(self.delay_s)
+        answer, error = b"", 0
+        with self._lock:
+            if self.is_cut.is_set():
+                error = EIO
+            elif kind == COMMAND_READ:
+                self.reads += 1
+                answer = self._read(place, length)
+            elif kind == COMMAND_WRITE:
+                self._write(place, data, bool(flags & COMMAND_FLAG_FUA))
+            elif kind == COMMAND_FLUSH:
+                self.flushes += 1
+                self._flush()
+        if error:
+            answer = b""
+        connection.sendall(struct.pack(">II8s", 0x67446698, error, handle) + answer)
+        return True
+
+    def _read(self, place, length):
+        if self._now is None:  # larger than memory: what the image does not have is zero
+            return self._head[place:place + length].ljust(length, b"\0")
+        if self.change:
+            self.change(self._now, place)
+        return bytes(self._now[place:place + length])
+
+    def _write(self, place, data, through):
+        self.writes += 1
+        self._now[place:place + len(data)] = data
+        if through:
+            self._durable[place:place + len(data)] = data
+        else:
+            self._unflushed.append((place, data))
+        if self.writes == self.cut_after:
+            self._cut()
+
+    def _flush(self):
+        for place, data in self._unflushed:
+            self._durable[place:place + len(data)] = data
+        self._unflushed.clear()

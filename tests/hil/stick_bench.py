@@ -1,0 +1,120 @@
+"""What tests of sticks share: a key of the museum's, signed packs, sticks that are put in and pulled out, and what is told of them.
+
+Threads  one caller.
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+
+import sticks
+from bench import SETTINGS, USUAL, eventually
+from hil_test import HilTest
+
+LIBRARY = "/var/lib/frustumscreen/library"
+REPORT_FILE = "/run/frustumscreen-import/report.json"
+IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
+UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*'"
+
+
+class StickTest(HilTest):
+    """The kiosk knows a key; what is installed at the end of a class is cleared away."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.folder = cls.bench.out / "sticks"
+        cls.folder.mkdir(exist_ok=True)
+        cls.pack_program = cls.bench.program.with_name("frustumscreen-pack")
+        cls.key = cls.folder / "museum"
+        if not cls.key.with_suffix(".key").exists():
+            subprocess.run([cls.pack_program, "keygen", "-o", cls.key], check=True, capture_output=True)
+        public = cls.key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
+        # The exhibit need not start again for it: it is the importer that asks for keys.
+        cls.bench.machine.write(SETTINGS, f'{USUAL}\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\n')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.bench.machine.check(f"rm -rf {LIBRARY}/set.txt {LIBRARY}/packs {LIBRARY}/shown/* {REPORT_FILE}")
+        cls.bench.machine.write(SETTINGS, USUAL)
+        shutil.rmtree(cls.folder)
+
+    def setUp(self):
+        super().setUp()
+        self.put_in = []
+        self.last = (self.report() or {}).get("import_id")
+
+    def tearDown(self):
+        for name in list(self.put_in):
+            self.pull(name)
+        eventually(lambda: not self.units(), 60.0, lambda: f"units of a stick stay: {self.units()}")
+
+    @classmethod
+    def signed(cls, artifact, serial):
+        """The path of a signed copy of one of the guest's packs."""
+        pack = cls.folder / f"{artifact}-{serial}.fspack"
+        shutil.copyfile(cls.bench.packs / f"{artifact}.fspack", pack)
+        subprocess.run([cls.pack_program, "sign", pack, "--key", cls.key.with_suffix(".key"), "--serial", str(serial)], check=True,
+                       capture_output=True)
+        return pack
+
+    def image(self, name):
+        return self.folder / f"{name}.img"
+
+    def plug(self, name, source, **options):
+        self.bench.machine.plug(name, source, **options)
+        self.put_in.append(name)
+
+    def pull(self, name):
+        self.put_in.remove(name)
+        self.bench.machine.pull(name)
+
+    def report(self):
+        """What the importer says now; None: nothing."""
+        text = self.bench.machine.read(REPORT_FILE)
+        try:
+            return json.loads(text) if text else None
+        except ValueError:
+            return None
+
+    def stage(self, *stages, timeout_s=IMPORT_S):
+        """Waits until an import that began since the last one was told of is at one of these stages."""
+        seen = [None]
+
+        def reached():
+            seen[0] = self.report()
+            return seen[0] and seen[0]["import_id"] != self.last and seen[0]["stage"] in stages
+
+        eventually(reached, timeout_s, lambda: f"no import comes to {stages}; told at last: {seen[0]}")
+        return seen[0]
+
+    def outcome(self, timeout_s=IMPORT_S):
+        """What became of the next stick."""
+        report = self.stage("done", "failed", timeout_s=timeout_s)
+        self.last = report["import_id"]
+        return report
+
+    def units(self):
+        return self.bench.machine.run(f"systemctl list-units --no-legend --plain {UNITS}").output.strip()
+
+    def installed(self):
+        """The packs of the set that is installed: (title, serial). Each is whole."""
+        listed = json.loads(self.bench.machine.check(f"frustumscreen-import --list --into {LIBRARY} --json"))["packs"]
+        if listed:
+            sums = "\n".join(f"{pack['sha256']}  {LIBRARY}/{pack['file']}" for pack in listed)
+            self.bench.machine.check(f"echo '{sums}' | sha256sum --check --quiet")
+        return [(pack["title"], pack["serial"]) for pack in listed]
+
+    def journal_of_imports(self):
+        return self.bench.machine.run("journalctl -b -o cat --no-pager -u 'frustumscreen-import*'").output
+
+    def make(self, name, kind, files, **options):
+        return sticks.file_system(self.image(name), kind, files, **options)
+
+    def mounts(self):
+        return self.bench.machine.run("grep frustumscreen-stick /proc/mounts").output
+
+
+def pulled_packs(report):
+    return {pathlib.PurePath(pack["file"]).name: (pack["outcome"], pack["refusal"]) for pack in report["packs"]}

@@ -1,0 +1,71 @@
+"""Sticks with packs: put in, the artifacts change on the screen and in the status; unsigned, pulled out half-way, two at once."""
+
+import sticks
+from bench import eventually
+from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
+
+SLOW_BYTES_PER_S = 300_000
+SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
+
+
+class Stick(StickTest):
+    def told_by_exhibit(self, import_id):
+        """What its status says of this import; None: nothing yet."""
+        told = (self.bench.status() or {}).get("import") or {}
+        return told if told.get("import_id") == import_id and told.get("stage") in ("done", "failed") else None
+
+    def test_1_taken_and_shown(self):
+        before = self.bench.main_process()
+        pack = self.signed("nautilus-cup", 1)
+        part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
+                                          "System Volume Information/IndexerVolumeGuid": b"x"})
+        self.plug("one", sticks.partitioned(self.image("one"), [("vfat", part)]))
+        report = self.outcome()
+        self.assertEqual((report["stage"], pulled_packs(report)), ("done", {"nautilus-cup.fspack": ("taken", "none")}))
+        self.assertEqual(self.installed(), [("nautilus-cup", 1)])
+        eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
+        told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
+        self.assertEqual(told["stage"], "done")
+        self.bench.buttons.tell("press", 2, "300ms")  # what the table says of the stick ends, and nothing else happens
+        self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
+        self.assert_at((0.05, 0.0, 0.0), artifact="nautilus-cup")
+        self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
+
+    def test_2_unsigned(self):
+        self.plug("unsigned", self.make("unsigned", "ext4", {"packs/amphora.fspack": self.bench.packs / "amphora.fspack"}))
+        report = self.outcome()
+        self.assertEqual((report["stage"], pulled_packs(report)), ("done", {"amphora.fspack": ("refused", "unsigned")}))
+        self.assertEqual(self.installed(), [("nautilus-cup", 1)])
+        self.assertIn("amphora.fspack", self.journal_of_imports())
+
+    def test_3_pulled_out_half_way(self):
+        pack = self.signed("amphora", 2)
+        self.plug("slow", self.make("slow", "vfat", {"amphora.fspack": pack}), bytes_per_s=SLOW_BYTES_PER_S)
+        self.stage("copying")
+        self.pull("slow")
+        report = self.outcome()
+        self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
+        self.assertEqual(self.installed(), [("nautilus-cup", 1)])
+        # and once more, to its end
+        self.plug("again", self.image("slow"))
+        self.assertEqual(pulled_packs(self.outcome()), {"amphora.fspack": ("taken", "none")})
+        self.assertEqual(self.installed(), [("nautilus-cup", 1), ("amphora", 2)])
+
+    def test_4_two_at_once(self):
+        part = self.make("part", "exfat", {"amphora.fspack": self.signed("amphora", 3)})
+        first = sticks.partitioned(self.image("first"), [("exfat", part)], "gpt")
+        second = self.make("second", "ntfs", {"nautilus-cup.fspack": self.signed("nautilus-cup", 4)})
+        self.plug("first", first)
+        self.plug("second", second)
+        both = [("amphora", 3), ("nautilus-cup", 4)]
+        eventually(lambda: sorted(self.installed()) == both, 2 * IMPORT_S, lambda: f"installed: {self.installed()}")
+        self.outcome()
+
+    def test_5_no_file_system(self):
+        self.image("noise").write_bytes(b"no file system " * 100_000)
+        self.plug("noise", self.image("noise"))
+        report = self.outcome()
+        self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
+        self.assertEqual(len(self.installed()), 2)
+        self.assertEqual(self.bench.machine.run(f"ls {LIBRARY}/packs | wc -l").output.strip(), "2", "files were left behind")

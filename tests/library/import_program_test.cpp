@@ -1,0 +1,227 @@
+// frustumscreen-import on real folders: what it says, what it leaves, and that it may be killed.
+#include "app/pack/signature.h"
+#include "tests/library/museum.h"
+#include "tests/programs/program_folder.h"
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using nlohmann::json;
+using testing_disk::Museum;
+
+class ImportProgram : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        std::filesystem::create_directories(folder / "stick/more");
+        std::filesystem::create_directories(folder / "keys");
+        put("keys/museum.pub", as_bytes(write_public_key(museum.key.public_key())));
+    }
+    void put(const std::string& file, std::span<const std::byte> bytes) const {
+        ASSERT_TRUE(write_file(folder / file, bytes));
+    }
+    [[nodiscard]] int import(const std::string& more = "") const {
+        return run("frustumscreen-import --from stick --into library --keys keys " + more);
+    }
+    [[nodiscard]] json listed() const {
+        EXPECT_EQ(run("frustumscreen-import --list --into library --json"), 0) << text("err.txt");
+        return json::parse(text("out.txt"));
+    }
+    [[nodiscard]] std::vector<std::string> titles() const {
+        std::vector<std::string> titles;
+        const json set = listed();
+        for (const json& pack : set["packs"]) {
+            titles.push_back(pack["title"]);
+        }
+        return titles;
+    }
+    /// Every file that is listed is there with its hash.
+    void expect_whole() const {
+        const json set = listed();
+        for (const json& pack : set["packs"]) {
+            const Result<Bytes> bytes = read_file(folder / "library" / pack["file"].get<std::string>());
+            ASSERT_TRUE(bytes) << pack;
+            EXPECT_EQ(sha256_hex(*bytes), pack["sha256"].get<std::string>());
+        }
+    }
+    /// Names, sizes and times of all that lies on the stick.
+    [[nodiscard]] std::string stick_state() const {
+        std::string state;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "stick")) {
+            struct stat status {};
+            ::lstat(entry.path().c_str(), &status);
+            state += fmt::format("{} {} {}.{}\n", entry.path().string(), status.st_size,
+                                 status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+        }
+        return state;
+    }
+
+    Museum museum;
+};
+
+TEST_F(ImportProgram, TakesListsAndSaysWhatItDid) {
+    put("stick/vase.fspack", museum.pack("vase", 3));
+    put("stick/more/cup.fspack", museum.pack("cup", 1));
+    put("stick/plain.fspack", Museum::unsigned_pack("plain", "plain"));
+    const std::string before = stick_state();
+    EXPECT_EQ(import("--report report.json --label MUSEUM"), 0) << text("err.txt");
+    EXPECT_EQ(stick_state(), before);
+    EXPECT_NE(text("out.txt").find("vase.fspack (\"vase 3\"): taken"), std::string::npos) << text("out.txt");
+    EXPECT_EQ(text("err.txt").find("frustumscreen-import: plain.fspack: refused: it is not signed"), 0U)
+        << text("err.txt");
+    const Result<ImportReport> report = parse_import_report(text("report.json"));
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->stage, ImportStage::Done);
+    EXPECT_EQ(report->stick, "MUSEUM");
+    EXPECT_EQ(report->packs.size(), 3U);
+    const json set = listed();
+    ASSERT_EQ(set["packs"].size(), 2U);
+    EXPECT_EQ(set["packs"][0]["title"], "cup 1");
+    EXPECT_EQ(set["packs"][1]["serial"], 3);
+    expect_whole();
+    EXPECT_EQ(import(), 0);
+    EXPECT_NE(text("out.txt").find("already there"), std::string::npos);
+    EXPECT_EQ(import("--json"), 0);
+    EXPECT_EQ(parse_import_report(text("out.txt"))->packs.size(), 3U);
+}
+
+TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
+    EXPECT_EQ(run("frustumscreen-import --from stick"), 2);
+    EXPECT_EQ(run("frustumscreen-import --from stick --into library"), 2);
+    EXPECT_EQ(run("frustumscreen-import --list"), 2);
+    EXPECT_EQ(run("frustumscreen-import --help"), 0);
+    EXPECT_EQ(run("frustumscreen-import --version"), 0);
+    EXPECT_EQ(run("frustumscreen-import --from nowhere --into library --keys keys"), 1);
+    EXPECT_NE(text("err.txt").find("nowhere"), std::string::npos);
+    EXPECT_EQ(run("frustumscreen-import --list --into nowhere"), 1);
+    EXPECT_EQ(run("frustumscreen-import --unmounted --report report.json --label X"), 1);
+    EXPECT_EQ(parse_import_report(text("report.json"))->refusal, ImportRefusal::Unreadable);
+}
+
+TEST_F(ImportProgram, FollowsNoLinkAndWaitsForNoPipe) {
+    put("vase.fspack", museum.pack("vase", 3));
+    std::filesystem::create_symlink(folder / "vase.fspack", folder / "stick/link.fspack");
+    std::filesystem::create_directory_symlink(folder, folder / "stick/outside");
+    ASSERT_EQ(::mkfifo((folder / "stick/pipe.fspack").c_str(), 0600), 0);
+    std::filesystem::create_directories(folder / "stick/folder.fspack");
+    EXPECT_EQ(import("--json"), 0);
+    const Result<ImportReport> report = parse_import_report(text("out.txt"));
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->packs.size(), 2U);
+    for (const ImportedPack& pack : report->packs) {
+        EXPECT_EQ(pack.refusal, ImportRefusal::NotAPack) << pack.file;
+    }
+    std::filesystem::create_symlink(folder / "keys/museum.pub", folder / "stick/exhibit.toml");
+    EXPECT_EQ(import(), 1);
+}
+
+TEST_F(ImportProgram, WaitsForAnotherImportAndTwoSticksAreBothTaken) {
+    put("stick/vase.fspack", museum.pack("vase", 1));
+    std::filesystem::create_directories(folder / "second");
+    put("second/cup.fspack", museum.pack("cup", 1));
+    std::filesystem::create_directories(folder / "library");
+    const int lock = ::open((folder / "library").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+    // However long it waits, it does not begin.
+    EXPECT_EQ(std::system(
+                  fmt::format("cd '{}' && timeout 0.5 '{}'/frustumscreen-import --from stick --into library "
+                              "--keys keys >out.txt 2>err.txt",
+                              folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                      .c_str()) >>
+                  8,
+              124);
+    EXPECT_EQ(text("out.txt"), "");
+    ::close(lock);
+    const std::string program = FRUSTUMSCREEN_BIN_DIR "/frustumscreen-import";
+    EXPECT_EQ(
+        std::system(fmt::format("cd '{0}' && '{1}' --from stick --into library --keys keys >/dev/null & "
+                                "cd '{0}' && '{1}' --from second --into library --keys keys >/dev/null; "
+                                "other=$?; wait $! && exit $other",
+                                folder.string(), program)
+                        .c_str()),
+        0);
+    std::vector<std::string> both = titles();
+    std::sort(both.begin(), both.end());
+    EXPECT_EQ(both, (std::vector<std::string>{"cup 1", "vase 1"}));
+    expect_whole();
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(ImportProgram, NeedsLittleMemoryForALargePart) {
+    constexpr std::size_t mib = 1U << 20U;
+    {
+        const Bytes small = Museum::unsigned_pack("large", "large", 1000);
+        samples::Entries entries = samples::take_apart(small);
+        entries.part("padding.bin") = Bytes(100 * mib);
+        samples::right_hashes(entries);
+        pack_format::ZipWriter zip;
+        zip.add("manifest.json", as_bytes(entries.manifest.dump()), pack_format::Packing::Deflated);
+        for (const auto& [name, bytes] : entries.parts) {
+            zip.add(name, bytes, pack_format::Packing::Deflated);
+        }
+        put("stick/large.fspack", Museum::signed_by(museum.key, zip.finish().value(), 1));
+    }
+    // Of all that a process may write to, the libraries' own data among it.
+    EXPECT_EQ(
+        std::system(fmt::format("cd '{}' && ulimit -d 49152 && '{}'/frustumscreen-import --from stick --into "
+                                "library --keys keys >out.txt 2>err.txt",
+                                folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                        .c_str()),
+        0)
+        << text("err.txt");
+    EXPECT_EQ(titles(), std::vector<std::string>{"large"});
+}
+#endif
+
+TEST_F(ImportProgram, MayBeKilledAtAnyMoment) {
+    constexpr int kills = 24;
+    put("stick/a.fspack", museum.pack("a", 1));
+    ASSERT_EQ(import(), 0);
+    for (const std::string id : {"a", "b", "c"}) {
+        put("stick/" + id + ".fspack", museum.pack(id, 2, 300000));
+    }
+    std::filesystem::copy(folder / "library", folder / "old", std::filesystem::copy_options::recursive);
+    const auto began = std::chrono::steady_clock::now();
+    ASSERT_EQ(import(), 0);
+    const auto whole = std::chrono::steady_clock::now() - began;
+    const std::vector<std::string> old_titles{"a 1"};
+    const std::vector<std::string> new_titles{"a 2", "b 2", "c 2"};
+    ASSERT_EQ(titles(), new_titles);
+    std::mt19937 random(7);
+    for (int k = 0; k < kills; ++k) {
+        std::filesystem::remove_all(folder / "library");
+        std::filesystem::copy(folder / "old", folder / "library", std::filesystem::copy_options::recursive);
+        const pid_t process = ::fork();
+        if (process == 0) {
+            if (::chdir(folder.c_str()) == 0 && ::freopen("out.txt", "w", stdout) != nullptr) {
+                ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen-import", "frustumscreen-import", "--from",
+                        "stick", "--into", "library", "--keys", "keys", nullptr);
+            }
+            ::_exit(127);
+        }
+        ::usleep(static_cast<useconds_t>(
+            std::chrono::duration_cast<std::chrono::microseconds>(whole).count() * (random() % 1000) / 1000));
+        ::kill(process, SIGKILL);
+        ::waitpid(process, nullptr, 0);
+        const std::vector<std::string> now = titles();
+        EXPECT_TRUE(now == old_titles || now == new_titles) << now.size();
+        expect_whole();
+        ASSERT_EQ(import(), 0) << text("err.txt");
+        EXPECT_EQ(titles(), new_titles);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,150 @@
+/// A museum for tests: its key, signed packs, sticks, and an installed set on a disk in memory.
+#pragma once
+
+#include "app/library/import_stick.h"
+#include "app/library/library_folder.h"
+#include "app/pack/secret_key.h"
+#include "app/pack/sha256.h"
+#include "app/pack/sign_pack.h"
+#include "app/pack/zip_archive.h"
+#include "tests/library/volatile_disk.h"
+#include "tests/pack/samples.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::testing_disk {
+
+struct Museum {
+    SecretKey key = SecretKey::make();
+
+    [[nodiscard]] std::vector<TrustedKey> keys() const {
+        return {{"museum", key.public_key(), std::nullopt}};
+    }
+
+    /// A small pack; `padding` more bytes in a part of its own.
+    [[nodiscard]] static Bytes unsigned_pack(const std::string& id, const std::string& title,
+                                             std::size_t padding = 0) {
+        Pack pack = samples::pack();
+        pack.id = id;
+        pack.title = title;
+        pack.textures = {samples::texture(2, 2, 1, true)};
+        pack.relief = {};
+        pack.levels = {samples::mesh_level()};
+        pack.default_level = 0;
+        if (padding > 0) {
+            pack.sections = {{"padding", "{}", {"padding.bin"}}};
+            Bytes bytes(padding);
+            for (std::size_t k = 0; k < padding; ++k) {
+                bytes[k] = static_cast<std::byte>((k * k * 2654435761U) >> 13U);
+            }
+            pack.section_parts = {{"padding.bin", std::move(bytes)}};
+        }
+        return samples::bytes_of(pack);
+    }
+    [[nodiscard]] static Bytes signed_by(const SecretKey& key, const Bytes& pack, std::uint64_t serial) {
+        Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
+        const Bytes manifest = zip->read(zip->entries().front()).value();
+        return with_signature(pack, key.sign(manifest, fmt::format("serial:{}", serial))).value();
+    }
+    [[nodiscard]] Bytes pack(const std::string& id, std::uint64_t serial, std::size_t padding = 0) const {
+        return signed_by(key, unsigned_pack(id, fmt::format("{} {}", id, serial), padding), serial);
+    }
+    void put_exhibit(VolatileDisk& stick, std::string_view text, std::uint64_t serial) const {
+        stick.put("exhibit.toml", text);
+        stick.put("exhibit.toml.minisig", key.sign(as_bytes(text), fmt::format("serial:{}", serial)));
+    }
+};
+
+inline ImportRequest request_of(const Museum& museum) {
+    ImportRequest request;
+    request.import_id = "1";
+    request.keys = museum.keys();
+    request.limits.step_bytes = 2048;
+    return request;
+}
+
+/// Time goes on by itself, slowly.
+inline ImportSurroundings quiet_surroundings() {
+    return {[] { return MonotonicTime(); }, [] { return Nanoseconds(0); }, [](const ImportReport&) {}};
+}
+
+inline ImportReport import_quietly(FileTree& stick, WritableTree& library, const ImportRequest& request) {
+    return import_stick(stick, library, request, quiet_surroundings());
+}
+
+inline const ImportedPack& line_of(const ImportReport& report, const std::string& file) {
+    for (const ImportedPack& pack : report.packs) {
+        if (pack.file == file) {
+            return pack;
+        }
+    }
+    ADD_FAILURE() << file << " is not in the report";
+    static const ImportedPack none;
+    return none;
+}
+
+/// Ids in the order of the set, or files where there are none.
+inline std::vector<std::string> ids_of(const InstalledSet& set) {
+    std::vector<std::string> ids;
+    for (const InstalledPack& pack : set.packs) {
+        ids.push_back(fmt::format("{} {}", pack.id.empty() ? "-" : pack.id, pack.serial));
+    }
+    return ids;
+}
+
+/// Why what set.txt names is not all there, byte by byte; empty if it is. Hashes are found once for each content.
+class Inspector {
+public:
+    [[nodiscard]] std::string fault_of(VolatileDisk& disk) {
+        const tl::expected<SetFile, ImportFailure> file = read_set_file(disk);
+        if (!file) {
+            return file.error().reason;
+        }
+        std::string fault = fault_of(disk, file->choice.set);
+        for (const std::optional<InstalledSet>& set : {file->choice.last_good, file->before}) {
+            if (set && fault.empty()) {
+                fault = fault_of(disk, *set);
+            }
+        }
+        return fault;
+    }
+
+private:
+    std::string fault_of(const VolatileDisk& disk, const InstalledSet& set) {
+        for (const InstalledPack& pack : set.packs) {
+            const std::optional<Content> content = disk.content(pack.file);
+            if (!content) {
+                return pack.file + " is missing";
+            }
+            const auto [known, is_new] = hashes_.try_emplace(*content);
+            if (is_new) {
+                known->second = sha256_hex(**content);
+            }
+            if (known->second != pack.sha256 || (*content)->size() != pack.bytes) {
+                return pack.file + " has other bytes";
+            }
+        }
+        return "";
+    }
+    std::map<Content, std::string> hashes_;
+};
+
+inline InstalledSet installed(VolatileDisk& disk) {
+    const tl::expected<SetFile, ImportFailure> file = read_set_file(disk);
+    EXPECT_TRUE(file) << (file ? "" : file.error().reason);
+    return file ? set_to_show(file->choice, read_verdict(disk).value_or(std::nullopt)) : InstalledSet();
+}
+
+inline void judge(VolatileDisk& disk, Verdict verdict, int starts = 1) {
+    const SetFile file = read_set_file(disk).value_or(SetFile());
+    disk.put(std::string(verdict_file_name), write_verdict({file.choice.set.number, verdict, starts, ""}));
+}
+
+} // namespace frustumscreen::testing_disk

@@ -1,0 +1,237 @@
+// A power cut, a stop, a fault or a pulled stick at every single operation of an import: the old set or the new one, whole.
+#include "tests/library/museum.h"
+
+#include <cerrno>
+#include <cstdio>
+
+namespace frustumscreen {
+namespace {
+
+using namespace testing_disk;
+
+constexpr int most_cuts = 512; ///< at one operation
+
+/// An installed set of two packs that has been good, and a stick with a newer one, a new one and a set file.
+class PowerCut : public ::testing::Test {
+protected:
+    void SetUp() override {
+        VolatileDisk first;
+        first.put("a.fspack", museum.pack("a", 1));
+        first.put("b.fspack", museum.pack("b", 1));
+        ASSERT_TRUE(before.make_folder("shown"));
+        ASSERT_EQ(import_quietly(first, before, request).stage, ImportStage::Done);
+        judge(before, Verdict::Good);
+        before.sync_all();
+        old_text = text_of(before);
+
+        stick.put("a.fspack", museum.pack("a", 2, 5000));
+        stick.put("more/c.fspack", museum.pack("c", 1));
+        museum.put_exhibit(stick, "order = [\"c\", \"a\"]\nattract = { en = \"Come near\" }\n", 1);
+
+        const auto after = before.copy();
+        ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
+        new_text = text_of(*after);
+        ASSERT_EQ(ids_of(installed(*after)), (std::vector<std::string>{"c 1", "a 2", "b 1"}));
+        operations = after->operations;
+        ASSERT_GT(operations, 20);
+    }
+
+    static std::string text_of(VolatileDisk& disk) {
+        const std::optional<Content> content = disk.content("set.txt");
+        return content ? std::string(as_text(**content)) : std::string();
+    }
+    /// The old set or the new one is there, whole; then the same stick makes the new one of it.
+    void expect_old_or_new(VolatileDisk& disk, const std::string& where) {
+        const std::string text = text_of(disk);
+        EXPECT_TRUE(text == old_text || text == new_text) << where << ": " << text.substr(0, 200);
+        EXPECT_EQ(inspector.fault_of(disk), "") << where;
+        ++cuts;
+    }
+    void expect_new_after_import(VolatileDisk& disk, const std::string& where) {
+        const auto again = disk.copy();
+        const auto same_stick = stick.copy();
+        EXPECT_EQ(import_quietly(*same_stick, *again, request).stage, ImportStage::Done) << where;
+        EXPECT_EQ(text_of(*again), new_text) << where;
+        EXPECT_EQ(inspector.fault_of(*again), "") << where;
+        ++imports;
+    }
+    /// The import is stopped before the operation; what it throws away is what the process knew.
+    std::unique_ptr<VolatileDisk> stopped(const VolatileDisk& disk, int operation) {
+        auto stopped_disk = disk.copy();
+        stopped_disk->plan.stop_before = operation;
+        const auto same_stick = stick.copy();
+        try {
+            static_cast<void>(import_quietly(*same_stick, *stopped_disk, request));
+        } catch (const Stopped&) {
+        }
+        stopped_disk->plan = {};
+        return stopped_disk;
+    }
+
+    Museum museum;
+    ImportRequest request = request_of(museum);
+    VolatileDisk before, stick;
+    std::string old_text, new_text;
+    int operations = 0;
+    int cuts = 0;
+    int imports = 0;
+    Inspector inspector;
+};
+
+TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
+    for (int operation = 0; operation <= operations; ++operation) {
+        const auto disk = stopped(before, operation);
+        std::set<std::string> seen;
+        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+            const std::string where = fmt::format("cut before operation {}", operation);
+            expect_old_or_new(left, where);
+            // What an import makes of it depends on little more than the set.
+            if (seen.insert(text_of(left)).second) {
+                expect_new_after_import(left, where);
+            }
+        });
+    }
+    std::printf("%d operations, %d cuts, %d imports after them\n", operations, cuts, imports);
+}
+
+/// The names of all packs are synced at once: then the most may be there without the others.
+TEST_F(PowerCut, WithManyPacksOnTheStick) {
+    for (const std::string id : {"d", "e", "f", "g"}) {
+        stick.put("more/" + id + ".fspack", museum.pack(id, 1, 3000));
+    }
+    const auto after = before.copy();
+    ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
+    new_text = text_of(*after);
+    for (int operation = 0; operation <= after->operations; ++operation) {
+        const auto disk = stopped(before, operation);
+        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+            expect_old_or_new(left, fmt::format("cut before operation {}", operation));
+        });
+        expect_new_after_import(*disk, fmt::format("stopped before {}", operation));
+    }
+    std::printf("%d operations, %d cuts\n", after->operations, cuts);
+}
+
+TEST_F(PowerCut, AfterAStoppedImportAndInTheMiddleOfTheNextOne) {
+    for (int first = 0; first <= operations; ++first) {
+        const auto disk = stopped(before, first);
+        for (int second = 0; second <= operations; second += 1 + (first + second) % 3) {
+            const auto again = stopped(*disk, second);
+            again->cut_power(24, static_cast<unsigned>(100 * first + second), [&](VolatileDisk& left) {
+                expect_old_or_new(left, fmt::format("stopped before {}, cut before {}", first, second));
+            });
+        }
+        expect_new_after_import(*disk, fmt::format("stopped before {}", first));
+    }
+    std::printf("%d cuts\n", cuts);
+}
+
+TEST_F(PowerCut, IntoAnEmptyFolderLeavesNothingOrTheSet) {
+    const auto after = std::make_unique<VolatileDisk>();
+    ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
+    old_text.clear();
+    new_text = text_of(*after);
+    for (int operation = 0; operation <= after->operations; ++operation) {
+        const auto disk = stopped(VolatileDisk(), operation);
+        bool first = true;
+        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+            expect_old_or_new(left, fmt::format("cut before operation {}", operation));
+            if (std::exchange(first, false)) {
+                expect_new_after_import(left, fmt::format("cut before operation {}", operation));
+            }
+        });
+    }
+    std::printf("%d cuts\n", cuts);
+}
+
+TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {
+    for (const int error : {ENOSPC, EIO, EROFS}) {
+        for (const bool done : {false, true}) {
+            for (int operation = 0; operation <= operations; ++operation) {
+                const std::string where = fmt::format("error {} at operation {}", error, operation);
+                const auto disk = before.copy();
+                disk->plan = {FaultPlan::never, operation, operation + 1, error, done};
+                const auto same_stick = stick.copy();
+                const ImportReport report = import_quietly(*same_stick, *disk, request);
+                disk->plan = {};
+                if (report.stage == ImportStage::Failed) {
+                    EXPECT_EQ(report.refusal,
+                              error == ENOSPC ? ImportRefusal::NoRoom : ImportRefusal::Unwritable)
+                        << where << report.reason;
+                    EXPECT_TRUE(samples::is_one_line(report.reason)) << report.reason;
+                } else { // what could not be cleared away stays
+                    EXPECT_EQ(text_of(*disk), new_text) << where;
+                }
+                disk->cut_power(64, static_cast<unsigned>(operation),
+                                [&](VolatileDisk& left) { expect_old_or_new(left, where); });
+                if (error == EIO) {
+                    expect_new_after_import(*disk, where);
+                }
+            }
+        }
+    }
+}
+
+TEST_F(PowerCut, OrAStickThatIsPulledAtEveryOperation) {
+    const int all = stick.operations;
+    for (const int error : {EIO, ENODEV, ENXIO, ENODATA}) {
+        for (int operation = 0; operation < all; ++operation) {
+            const std::string where = fmt::format("error {} at operation {}", error, operation);
+            const auto disk = before.copy();
+            const auto pulled = stick.copy();
+            pulled->plan = {FaultPlan::never, operation, FaultPlan::never, error, false};
+            const ImportReport report = import_quietly(*pulled, *disk, request);
+            EXPECT_EQ(report.stage, ImportStage::Failed) << where;
+            EXPECT_EQ(report.refusal, ImportRefusal::Unreadable) << where;
+            EXPECT_TRUE(samples::is_one_line(report.reason)) << report.reason;
+            EXPECT_EQ(text_of(*disk), old_text) << where;
+            EXPECT_EQ(inspector.fault_of(*disk), "") << where;
+            for (const ImportedPack& pack : report.packs) {
+                EXPECT_NE(pack.outcome, ImportOutcome::Taken) << where;
+                EXPECT_NE(pack.outcome, ImportOutcome::Pending) << where;
+            }
+            if (error == EIO) {
+                expect_new_after_import(*disk, where);
+            }
+        }
+    }
+}
+
+/// Any of these may be there when it is read again, at any time.
+TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
+    const Bytes right = **stick.content("a.fspack");
+    Bytes altered = right;
+    altered[altered.size() / 2] ^= std::byte{1};
+    const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 3", 5000), 3);
+    const std::vector<Bytes> others{altered,
+                                    Museum::unsigned_pack("a", "a 2", 5000),
+                                    stranger,
+                                    museum.pack("a", 1),
+                                    museum.pack("z", 9, 5000),
+                                    Bytes(right.size()),
+                                    Bytes()};
+    for (const Bytes& other : others) {
+        for (int operation = 0; operation < stick.operations; ++operation) {
+            const auto disk = before.copy();
+            const auto changing = stick.copy();
+            changing->before_operation = [&](int number) {
+                if (number == operation) {
+                    changing->put("a.fspack", other);
+                }
+            };
+            static_cast<void>(import_quietly(*changing, *disk, request));
+            EXPECT_EQ(inspector.fault_of(*disk), "");
+            for (const InstalledPack& pack : installed(*disk).packs) {
+                const Content content = *disk->content(pack.file);
+                const auto opened = open_signed_pack(std::span(*content),
+                                                     {request.keys, std::nullopt, UnsignedPacks::Refuse});
+                ASSERT_TRUE(opened) << opened.error().message;
+                EXPECT_EQ(opened->serial(), pack.serial);
+                EXPECT_TRUE(verify_pack(*content));
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
