@@ -37,6 +37,7 @@ for part; do
                 libgtest-dev umockdev libumockdev-dev python3
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
+                minisign                          # signatures
                 python3-matplotlib                # the bench's plots
                 shellcheck clang-format pyflakes3 # how it is written
             )

@@ -1,6 +1,7 @@
 #include "app/exhibit/caption_image.h"
 
 #include "app/exhibit/captions.h"
+#include "app/exhibit/coverage.h"
 #include "app/exhibit/glyph_image.h"
 
 #include <algorithm>
@@ -28,24 +29,6 @@ struct SetParts {
     int width_px = 1, height_px = 0;
 };
 
-/// The widest setting that fits, else the narrowest; null without any.
-const GlyphSetting* fitting(const GlyphText* text, double width_em) {
-    const GlyphSetting* widest = nullptr;
-    const GlyphSetting* narrowest = nullptr;
-    if (text != nullptr) {
-        for (const GlyphSetting& setting : text->settings) {
-            if (setting.width <= width_em * em_units &&
-                (widest == nullptr || setting.width > widest->width)) {
-                widest = &setting;
-            }
-            if (narrowest == nullptr || setting.width < narrowest->width) {
-                narrowest = &setting;
-            }
-        }
-    }
-    return widest != nullptr ? widest : narrowest;
-}
-
 SetParts lay_out(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text, double em_m,
                  double width_m, double texels_per_m) {
     const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
@@ -53,7 +36,7 @@ SetParts lay_out(const GlyphRuns& runs, const GlyphText* title, const GlyphText*
     SetParts all;
     all.gap_px = static_cast<int>(std::lround(text_gap_em * em_px));
     const auto add = [&](const GlyphText* part, double em, double brightness) {
-        if (const GlyphSetting* setting = fitting(part, width_em / em)) {
+        if (const GlyphSetting* setting = fitting_setting(part, width_em / em)) {
             const GlyphExtent extent = glyph_extent(runs, *setting, em * em_px);
             all.width_px = std::max(all.width_px, extent.width_px);
             all.height_px += (all.height_px > 0 ? all.gap_px : 0) + extent.height_px;
@@ -77,17 +60,6 @@ std::vector<Paragraph> paragraphs_of(const std::string& title, const std::string
     return paragraphs;
 }
 
-/// Draws over what is there, lighter over darker.
-void draw(const Image<std::uint8_t>& from, double brightness, int left, int top,
-          Image<std::uint8_t>& caption) {
-    for (int y = 0; y < from.height; ++y) {
-        for (int x = 0; x < from.width; ++x) {
-            std::uint8_t& texel = caption.at(left + x, top + y);
-            texel = std::max(texel, static_cast<std::uint8_t>(std::lround(brightness * from.at(x, y))));
-        }
-    }
-}
-
 } // namespace
 
 CaptionImage make_caption(const Typesetter& typesetter, const std::string& title, const std::string& text,
@@ -107,7 +79,7 @@ CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, con
     int top = 0;
     for (const SetPart& part : set.parts) {
         const bool flush_right = part.direction == TextDirection::RightToLeft;
-        draw(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
+        draw_lighter(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
              flush_right ? set.width_px - part.extent.width_px : 0, top, caption.coverage);
         top += part.extent.height_px + set.gap_px;
     }

@@ -1,60 +1,19 @@
 #include "app/exhibit/exhibit.h"
 
-#include "app/exhibit/languages.h"
-
 #include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
 
-namespace {
-
-/// The languages in the order of their first appearance; the button goes through them in this order.
-std::vector<std::string> languages_of(const Catalogue& catalogue) {
-    std::vector<std::string> languages;
-    for (const CatalogueEntry& entry : catalogue) {
-        for (const std::string& language : entry.languages) {
-            add_language(languages, language);
-        }
-    }
-    return languages;
-}
-
-Selection make_selection(const Catalogue& catalogue, const std::string& language, MonotonicTime now) {
-    std::vector<std::string> languages = languages_of(catalogue);
-    const std::string first = languages.empty() ? language : languages[caption_for(language, languages)];
-    return {catalogue.size(), std::move(languages), first, now};
-}
-
-/// For each of the widths that captions are wrapped to, the size that holds them all.
-std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
-    std::vector<std::vector<glm::dvec2>> all;
-    for (const CatalogueEntry& entry : catalogue) {
-        all.insert(all.end(), entry.caption_sizes_m.begin(), entry.caption_sizes_m.end());
-        for (const DescriptionShape& description : entry.descriptions) {
-            all.push_back(description.largest_m);
-        }
-    }
-    return largest_sizes(all);
-}
-
-} // namespace
-
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
-    : catalogue_(std::move(catalogue)), place_(place), selection_(make_selection(catalogue_, language, now)),
+    : catalogue_(std::move(catalogue)), place_(place), house_language_(language),
+      selection_(make_selection(catalogue_, language, now)),
       ready_(catalogue_.size(), ArtifactState::Ready), offered_(catalogue_.size(), true), state_since_(now),
       next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       sentences_(place.words, place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
-    if (place.table_pictures) {
-        table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
-                                  .picture_m = place.picture_m,
-                                  .prop = place.prop,
-                                  .lens_m = place.lens_m,
-                                  .home_m = place.attract_place_m,
-                                  .captions_m = sizes_of_all_captions(catalogue_)});
-    }
+    make_table();
 }
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
@@ -78,7 +37,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
     side_.update(situation.eye_m);
     go_to(state_after(state_, observe(now, situation, stand)), now);
-    if (state_ == State::Attract && now >= next_turn_) {
+    follow_set(now);
+    if (state_ == State::Attract && now >= next_turn_ && !leaves_set()) {
         selection_.choose(selection_.next(), now);
         next_turn_ = now + turn_time;
     }

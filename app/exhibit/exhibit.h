@@ -22,6 +22,7 @@
 #include "app/exhibit/captions.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/notice_place.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/sensed.h"
@@ -119,7 +120,9 @@ struct Presentation {
     std::optional<PresentedHotspot> hotspot;  ///< its label
     const PresentedTable* table = nullptr;    ///< what lies there to choose from; valid until the next step
     std::string_view table_language;          ///< of its titles; valid as long as the exhibit
+    double set_share = 1.0;                   ///< of the table's pictures: 0..1, the same
     double title_brightness = 1.0;            ///< of its titles: 0..1, a factor on linear light
+    std::optional<PresentedNotice> notice;    ///< what is told of a stick; the exhibit leaves it out
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -133,6 +136,8 @@ public:
     static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
     /// Of an artifact, while they come in turn.
     static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
+    /// Of another set, for somebody who is being told something.
+    static constexpr Nanoseconds longest_wait = std::chrono::seconds(20);
 
     /// Begins in State::Attract with the first artifact, and with the caption that `caption_for` chooses for `language`.
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
@@ -142,12 +147,29 @@ public:
                                     const Situation& situation);
     /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
     void note(std::span<const ArtifactState> states);
+    /// This press did something else, which the exhibit knows nothing of: no chord undoes it.
+    void forget_press(Command command) { selected_.at(static_cast<std::size_t>(button_of(command))) = false; }
     /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
     void hear(bool speaking, const Narration& narration = {});
     /// The label of this hotspot is shown while none is told of; nothing, and an index that there is not: no label.
     void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
+    /// Another set of artifacts can be shown, or none any more. When it suits who is there, all that belongs to this set fades out:
+    /// in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`.
+    void await_set(bool ready) { set_is_ready_ = ready; }
+    /// All of this set fades out, or is dark.
+    [[nodiscard]] bool leaves_set() const { return set_leaves_since_.has_value(); }
+    /// All of it is dark, and stays dark.
+    [[nodiscard]] bool set_has_left() const { return set_left_; }
+    /// The other set takes its place: `artifact` fades in, in the language that was chosen, if the set has it, and in the state in
+    /// which everything was. Returns what was shown before. Not for a frame that is being presented.
+    [[nodiscard]] Catalogue show_set(Catalogue catalogue, std::vector<AdviceLanguage> words,
+                                     std::size_t artifact, MonotonicTime now);
+    /// The chosen artifact; it may not be visible yet.
+    [[nodiscard]] std::size_t chosen() const { return selection_.artifact(); }
+    /// The chosen language.
+    [[nodiscard]] const std::string& language() const { return selection_.language(); }
     /// Ends the staff's mode early: there is no pattern to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 
@@ -167,6 +189,14 @@ private:
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
     /// Something of the artifact is being told.
     [[nodiscard]] bool tells() const;
+
+    // Of another set: exhibit_set.cpp.
+    [[nodiscard]] static Selection make_selection(const Catalogue& catalogue, const std::string& language,
+                                                  MonotonicTime now);
+    void make_table();
+    void follow_set(MonotonicTime now);
+    [[nodiscard]] bool may_leave_set(MonotonicTime now) const;
+    void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;
 
     // What is shown in the state that it is in: exhibit_shows.cpp.
     /// Behind the staff's pattern all goes on but what is told.
@@ -194,6 +224,7 @@ private:
 
     Catalogue catalogue_;
     ExhibitPlace place_;
+    std::string house_language_;
     Selection selection_;
     std::vector<ArtifactState> ready_;
     std::vector<bool> offered_;    ///< by artifact: selection and table offer it
@@ -224,6 +255,10 @@ private:
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     HotspotLabels labels_;
+    bool waits_ = false; ///< the artifact is still to come, as the latest step showed it
+    bool set_is_ready_ = false;
+    bool set_left_ = false;
+    std::optional<MonotonicTime> set_waits_since_, set_leaves_since_;
     std::optional<std::size_t> hotspot_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.

@@ -42,6 +42,8 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
                            !comes.waits && !teller_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
+    waits_ = comes.waits;
+    dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
     presentation.lamps = lamps();
     return presentation;
@@ -185,8 +187,8 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     TellerInput input;
     input.subject = description_of(selection_.artifact(), selection_.language());
     input.visible = description_of(shown.artifact, shown.language);
-    input.tellable = note_of(state_).artifact ? tellable(input.subject) : nullptr;
-    input.fades = shown.changing || stand.changing;
+    input.tellable = note_of(state_).artifact && !leaves_set() ? tellable(input.subject) : nullptr;
+    input.fades = shown.changing || stand.changing || leaves_set();
     input.attracts = stand.attracts;
     input.there = there_ && state_ != State::Attract;
     input.pressed = pressed;
@@ -209,6 +211,9 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
 
 /// The sentence that this state has on the table, in the visitor's language.
 std::optional<WordIndex> Exhibit::word() const {
+    if (leaves_set()) {
+        return std::nullopt; // another set has other words
+    }
     switch (note_of(state_).words) {
     case Words::Invitation:
         return sentences_.find("attract_line", selection_.language());

@@ -25,6 +25,16 @@ Selection::Selection(std::size_t artifact_count, std::vector<std::string> langua
     }
 }
 
+void Selection::begin_with(std::size_t artifact, std::string_view language, MonotonicTime now) {
+    if (artifact < count_) {
+        artifact_ = Fade(artifact, fade_time, now);
+    }
+    if (const std::size_t place = place_of(language, languages_); place < language_count_) {
+        language_ = Fade(place, fade_time, now);
+        language_before_ = place;
+    }
+}
+
 void Selection::take(Command command, MonotonicTime now) {
     if (!accepts(command)) {
         return;

@@ -42,6 +42,9 @@ public:
     Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
               MonotonicTime now);
 
+    /// Begins with these in place of the first artifact and the house's language, which rest comes back to; what there is not
+    /// changes nothing.
+    void begin_with(std::size_t artifact, std::string_view language, MonotonicTime now);
     /// A command that is not accepted changes nothing.
     void take(Command command, MonotonicTime now);
     /// Chooses one artifact; one that there is not changes nothing.
@@ -63,6 +66,7 @@ public:
     [[nodiscard]] std::size_t artifact() const { return artifact_.goal(); }
     /// The chosen language; its caption may not be visible yet.
     [[nodiscard]] const std::string& language() const { return languages_[language_.goal()]; }
+    [[nodiscard]] bool is_at_first_language() const { return language_.goal() == first_language_; }
 
 private:
     void change_language(std::size_t which, MonotonicTime now);

@@ -1,6 +1,7 @@
 #include "app/exhibit/table_title.h"
 
 #include "app/exhibit/captions.h"
+#include "app/exhibit/coverage.h"
 #include "app/exhibit/glyph_image.h"
 
 #include <glm/glm.hpp>
@@ -137,20 +138,6 @@ Coverage trimmed(const Coverage& image) {
     return ink;
 }
 
-/// What is to the right of `width_px`, or to the left where the text runs there, is cut off.
-Coverage cut(const Coverage& line, int width_px, int fade_px, bool to_the_left) {
-    Coverage rest(std::min(line.width, width_px), line.height);
-    const int skipped = to_the_left ? line.width - rest.width : 0;
-    for (int y = 0; y < rest.height; ++y) {
-        for (int x = 0; x < rest.width; ++x) {
-            const int from_end = to_the_left ? x : rest.width - 1 - x;
-            const double share = std::min(1.0, (from_end + 0.5) / std::max(fade_px, 1));
-            rest.at(x, y) = static_cast<std::uint8_t>(std::lround(share * line.at(skipped + x, y)));
-        }
-    }
-    return rest;
-}
-
 /// A line's letters, and the row of `image` that they stand on.
 struct SetLine {
     Coverage image;
@@ -221,7 +208,7 @@ CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas,
         SetLine line{trimmed(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
         if (line.image.width > width_px || (k + 1 == most_lines && lines.size() > most_lines)) {
             line.image =
-                cut(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)), to_the_left);
+                cut_off(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)), to_the_left);
         }
         set.push_back(std::move(line));
     }

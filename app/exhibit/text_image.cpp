@@ -16,7 +16,6 @@ namespace {
 constexpr std::array<const char*, 3> debian_folders{"/usr/share/fonts/truetype/dejavu",
                                                     "/usr/share/fonts/truetype/ttf-dejavu",
                                                     "/usr/local/share/fonts/dejavu"};
-constexpr double ascent_em = 0.95; ///< above the baseline, with room for accents on capitals
 constexpr double descent_em = 0.27;
 
 struct CloseFace {
@@ -57,6 +56,14 @@ std::u32string decode(std::string_view text) {
         codes.push_back(next_code_point(text));
     }
     return codes;
+}
+
+/// Letters of scripts that run from right to left, join or stack, and what turns the order of letters round.
+bool needs_shaping(char32_t code) {
+    return (code >= 0x0590 && code < 0x10A0) ||
+           (code >= 0x1100 && code < 0x1200) || (code >= 0x1700 && code < 0x1C80) ||
+           (code >= 0x200B && code < 0x2010) || (code >= 0x202A && code < 0x202F) ||
+           (code >= 0x2060 && code < 0x2070) || (code >= 0xFB1D && code < 0xFE10) || code >= 0xFE70;
 }
 
 void set_size(FT_Face face, double em_px) {
@@ -241,6 +248,14 @@ Typesetter::Layout Typesetter::lay_out(std::span<const Paragraph> paragraphs, do
     layout.size_px = {static_cast<int>(std::ceil(widest)) + 2 * layout.side_px,
                       static_cast<int>(std::ceil(y + descent_em * em))};
     return layout;
+}
+
+bool Typesetter::can_set(std::string_view text) const {
+    const std::u32string codes = decode(text);
+    return std::all_of(codes.begin(), codes.end(), [&](char32_t code) {
+        return !needs_shaping(code) && FT_Get_Char_Index(faces_->regular.get(), code) != 0 &&
+               FT_Get_Char_Index(faces_->bold.get(), code) != 0;
+    });
 }
 
 glm::ivec2 Typesetter::extent(std::span<const Paragraph> paragraphs, double width_px) const {

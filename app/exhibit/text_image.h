@@ -46,6 +46,10 @@ public:
     [[nodiscard]] glm::ivec2 extent(std::span<const Paragraph> paragraphs, double width_px) const;
     /// One line.
     [[nodiscard]] Image<std::uint8_t> line(std::string_view text, double em_px, bool bold = false) const;
+    /// Whether its letters are there, and are read as they are set: from left to right, one beside the other.
+    [[nodiscard]] bool can_set(std::string_view text) const;
+    /// From the top of a picture to the first line's baseline.
+    static constexpr double ascent_em = 0.95;
     /// Distance from one line's baseline to the next.
     static constexpr double line_pitch_em = 1.28;
 

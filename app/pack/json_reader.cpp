@@ -259,9 +259,15 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
             open_objects.emplace_back();
         } else if (event == Json::parse_event_t::object_end) {
             open_objects.pop_back();
-        } else if (event == Json::parse_event_t::key &&
-                   !open_objects.back().insert(parsed.get<std::string>()).second) {
-            refusal.refuse(printable(parsed.get<std::string>(), 40), "occurs twice in one object");
+        } else if (event == Json::parse_event_t::key) {
+            std::set<std::string>& names = open_objects.back();
+            if (!names.insert(parsed.get<std::string>()).second) {
+                refusal.refuse(printable(parsed.get<std::string>(), 40), "occurs twice in one object");
+            } else if (names.size() > most_object_names) {
+                refusal.refuse(
+                    refusal.document,
+                    fmt::format("has an object of more than {} names; allowed are fewer", most_object_names));
+            }
         }
         return true;
     };

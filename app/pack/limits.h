@@ -26,8 +26,10 @@ inline constexpr std::size_t most_section_name_bytes = 40;
 inline constexpr std::size_t most_section_parts = 4096; ///< of all sections together
 /// Of all sections together, written without white space.
 inline constexpr std::size_t most_section_data_bytes = 1U << 20;
-inline constexpr std::size_t most_manifest_depth = 32;        ///< objects and lists inside each other
-inline constexpr std::size_t most_manifest_values = 1U << 20; ///< names, numbers, texts, objects and lists
+inline constexpr std::size_t most_manifest_depth = 32; ///< objects and lists inside each other
+/// Names, numbers, texts, objects and lists. Together with the next one it keeps what a manifest takes in memory below 48 MiB.
+inline constexpr std::size_t most_manifest_values = 1U << 19;
+inline constexpr std::size_t most_object_names = 4096; ///< in one object
 inline constexpr std::size_t most_id_bytes = 64;
 inline constexpr std::size_t most_hotspots = 3;
 inline constexpr int most_table_picture_side = 1024; ///< texels

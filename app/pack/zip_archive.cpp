@@ -165,11 +165,13 @@ zlib_filefunc64_def functions_over(ArchiveBytes& bytes) {
     return functions;
 }
 
-/// The end record is the last thing in the file and its directory ends where it begins (APPNOTE.TXT 4.3.16):
+/// An entry is the first thing in the file, the end record the last, and its directory ends where it begins (APPNOTE.TXT 4.3.16):
 /// nothing was cut off, put in front or added behind.
 bool is_whole(ArchiveBytes& bytes) {
     std::array<std::byte, end_record_bytes> record{};
-    if (bytes.size() < end_record_bytes || !bytes.read(bytes.size() - end_record_bytes, record)) {
+    std::array<std::byte, 4> first{};
+    if (bytes.size() < end_record_bytes || !bytes.read(bytes.size() - end_record_bytes, record) ||
+        !bytes.read(0, first) || ByteReader(first).read<std::uint32_t>() != 0x04034b50) {
         return false;
     }
     const std::span<const std::byte> end(record);

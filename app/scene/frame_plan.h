@@ -84,8 +84,9 @@ struct PlanView {
     std::optional<TablePicture> caption = std::nullopt;
     std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most most_on_table
 };
-/// A page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame, signs and words.
-inline constexpr std::size_t most_on_table = 64;
+/// A page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame, signs and words; a notice and its
+/// ring.
+inline constexpr std::size_t most_on_table = 96;
 
 /// A run of FramePlan::indices.
 struct IndexRange {

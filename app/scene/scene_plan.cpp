@@ -225,7 +225,8 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
                    request.live &&
-                       (shows_zone_frame(settings) || guides_visitors(settings) || request.table_pictures),
+                       (shows_zone_frame(settings) || guides_visitors(settings) || request.table_pictures ||
+                        tells_of_sticks(settings)),
                    plan);
     choose_faces(plan);
     return plan;
@@ -249,7 +250,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
     plan.language = !pressed && asks(Command::NextLanguage);
-    plan.threads = {"the exhibit"};
+    plan.threads = {"the exhibit", "the reader of what the importer says"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
     }

@@ -244,6 +244,8 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     if constexpr (Fields::reads) {
         exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
     }
+    fields.path("library", exhibit.library,
+                "where packs from sticks are installed; a set there goes before `packs`");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
                   "of the captions, at first");
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");
@@ -270,6 +272,8 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
         "packs on a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
+    fields.path("import_report", exhibit.import_report,
+                "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
 }
 
 void hour_settings(auto& fields, auto& hour) {

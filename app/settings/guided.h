@@ -1,4 +1,5 @@
-/// What visitors can do with the prop in this set-up: whether they are told what to do, and whether they choose with it.
+/// What visitors can do with the prop in this set-up: whether they are told what to do, and whether they choose with it;
+/// what the staff are told.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -15,6 +16,11 @@ namespace frustumscreen {
 /// Nor can it be slid onto a picture.
 [[nodiscard]] inline bool chooses_on_table(const Settings& settings) {
     return settings.exhibit.table_pictures && settings.tracker.kind != TrackerKind::None;
+}
+
+/// The table tells the staff of a stick, in the exhibit's own words.
+[[nodiscard]] inline bool tells_of_sticks(const Settings& settings) {
+    return !settings.exhibit.words.empty();
 }
 
 } // namespace frustumscreen

@@ -120,6 +120,8 @@ struct PanelSettings {
 struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
     std::string packs_key;                    ///< where the settings name them, for messages
+    /// The installed set, which goes before `packs`; resolved as above. Empty: none is looked for.
+    std::filesystem::path library = "/var/lib/frustumscreen/library";
     std::string language = "en";
     bool captions = true;
     double caption_height_m = 0.010;
@@ -132,6 +134,8 @@ struct ExhibitSettings {
     int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
     std::vector<TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
+    /// What the importer says of a stick (library/import_report.h); not there: nothing. Resolved as above.
+    std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.

@@ -3,7 +3,6 @@
 #include "app/exhibit/caption_image.h"
 #include "app/exhibit/languages.h"
 #include "app/pack/words_file.h"
-#include "app/scene/scene_plan.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::string_view advice_prefix = "advice.";
 /// What else is shown of the exhibit's own words.
-constexpr std::array<std::string_view, 2> other_keys{"attract_line", "fault.no_artifact"};
+constexpr std::string_view attract_key = "attract_line";
+constexpr std::array<std::string_view, 2> other_keys{attract_key, "fault.no_artifact"};
 /// Widths that a sentence is wrapped to, in type sizes and in falling preference: all that words are set for.
 constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
 
@@ -57,8 +58,7 @@ std::optional<std::string> key_of(const PlainWord& word) {
                : std::nullopt;
 }
 
-Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& request, GpuStore& store,
-                          AdviceWords& all) {
+void add_language(const LanguageWords& words, const AdviceWordsRequest& request, AdviceWords& all) {
     AdviceLanguage language{words.language, {}};
     std::vector<AdviceWord> made;
     for (const PlainWord& word : words.words) {
@@ -68,17 +68,12 @@ Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& 
             continue;
         }
         AdviceText text{*key, {}};
-        AdviceWord one;
+        AdviceWord one{all.pictures.size(), nullptr};
         for (const double width_em : widths_em) {
-            const CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
+            CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
                                                     width_em * request.em_m, request.texels_per_m);
-            const Result<TextureId> texture = store.upload(image.coverage);
-            if (!texture) {
-                return tl::unexpected<Error>(texture.error());
-            }
-            all.planned_gpu_bytes += caption_gpu_bytes(image.coverage.width, image.coverage.height);
             text.sizes_m.push_back(image.size_m);
-            one.textures.push_back(*texture);
+            all.pictures.push_back(std::move(image.coverage));
         }
         if (request.spoken && word.key.starts_with(advice_prefix)) {
             one.recording = recording_of(words, word.key);
@@ -88,12 +83,11 @@ Result<void> add_language(const LanguageWords& words, const AdviceWordsRequest& 
     }
     all.languages.push_back(std::move(language));
     all.words.push_back(std::move(made));
-    return {};
 }
 
 } // namespace
 
-Result<AdviceWords> load_advice_words(const AdviceWordsRequest& request, GpuStore& store) {
+Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request) {
     const Result<Bytes> file = read_file(request.file);
     if (!file) {
         return tl::unexpected<Error>(file.error());
@@ -108,11 +102,54 @@ Result<AdviceWords> load_advice_words(const AdviceWordsRequest& request, GpuStor
         if (!words) {
             return at(request.file.string(), words.error());
         }
-        if (Result<void> added = add_language(*words, request, store, all); !added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        add_language(*words, request, all);
     }
     return all;
+}
+
+Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
+                              const TextStyle& style, AdviceWords& words) {
+    std::vector<std::string> there;
+    std::transform(lines.begin(), lines.end(), std::back_inserter(there),
+                   [](const AttractLine& line) { return line.language; });
+    if (there.empty()) {
+        return {};
+    }
+    CaptionSetter setter(style);
+    Result<std::vector<CaptionImage>> images =
+        setter.set({{}, {}, {}, {}, lines[caption_for(language, there)].text}, {});
+    if (!images) {
+        return tl::unexpected<Error>(images.error());
+    }
+    if (words.languages.empty()) {
+        words.languages.push_back({language, {}});
+        words.words.emplace_back();
+    }
+    std::vector<std::string> known;
+    std::transform(words.languages.begin(), words.languages.end(), std::back_inserter(known),
+                   [](const AdviceLanguage& each) { return each.language; });
+    const std::size_t house = caption_for(language, known);
+    AdviceText line{std::string(attract_key), {}};
+    const AdviceWord word{words.pictures.size(), nullptr};
+    for (CaptionImage& image : *images) {
+        line.sizes_m.push_back(image.size_m);
+        words.pictures.push_back(std::move(image.coverage));
+    }
+    std::vector<AdviceText>& texts = words.languages[house].texts;
+    const auto old = std::find_if(texts.begin(), texts.end(),
+                                  [](const AdviceText& text) { return text.key == attract_key; });
+    if (old != texts.end()) {
+        AdviceWord& replaced = words.words[house][static_cast<std::size_t>(old - texts.begin())];
+        for (std::size_t shape = 0; shape < old->sizes_m.size(); ++shape) {
+            words.pictures[replaced.first_picture + shape] = {}; // nobody sees it
+        }
+        replaced = word;
+        *old = std::move(line);
+    } else {
+        texts.push_back(std::move(line));
+        words.words[house].push_back(word);
+    }
+    return {};
 }
 
 } // namespace frustumscreen

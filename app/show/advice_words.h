@@ -1,17 +1,18 @@
 /// The exhibit's own words in the languages that it shows: pictures for the table, recordings for the loudspeaker.
 ///
 /// Units    metres on the table.
-/// Threads  made on the render thread before the first frame.
+/// Threads  prepared on any, without a context; its pictures are uploaded by the render thread (LoadedTexts).
 /// Memory   its recordings stay as they are in the file; prompt_reader.h decodes what is spoken.
 /// Errors   the file cannot be read or is none of words.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
-#include "app/render/gpu_store.h"
+#include "app/show/artifact_texts.h"
 #include "app/show/prompt_reader.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,14 @@ namespace frustumscreen {
 
 /// One sentence, wrapped to each of the captions' widths, and spoken.
 struct AdviceWord {
-    std::vector<TextureId> textures; ///< one for each of AdviceText::sizes_m
-    SharedRecording recording;       ///< none: it is silent
+    std::size_t first_picture = 0; ///< of AdviceWords::pictures: one for each of AdviceText::sizes_m
+    SharedRecording recording;     ///< none: it is silent
 };
 
 struct AdviceWords {
     std::vector<AdviceLanguage> languages;      ///< for the exhibit
     std::vector<std::vector<AdviceWord>> words; ///< [language][text], in the same order
-    std::uint64_t planned_gpu_bytes = 0;
+    TextPictures pictures;
 };
 
 struct AdviceWordsRequest {
@@ -37,6 +38,15 @@ struct AdviceWordsRequest {
     bool spoken = false;
 };
 
-[[nodiscard]] Result<AdviceWords> load_advice_words(const AdviceWordsRequest& request, GpuStore& store);
+[[nodiscard]] Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request);
+
+/// A set's own line in place of the exhibit's, while nobody is there. There need be no words of the exhibit's.
+struct AttractLine {
+    std::string language; ///< BCP 47
+    std::string text;
+};
+/// Sets the line that is nearest to the house's `language` in the kiosk's typeface, and leaves the others.
+[[nodiscard]] Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
+                                            const TextStyle& style, AdviceWords& words);
 
 } // namespace frustumscreen

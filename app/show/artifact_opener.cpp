@@ -123,6 +123,9 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
         if (!all.known.empty() && !options.other_packs) {
             break; // no button leads there
         }
+        if (!options.goes_on()) {
+            return bad_input("not wanted any more");
+        }
         Result<KnownArtifact> opened = open_pack(settings, options, file);
         if (!opened) {
             leave_out(file, opened.error());
@@ -152,6 +155,20 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
         return nothing_to_show(all.left_out, options.packs_key);
     }
     return all;
+}
+
+RenderNeeds needs_of_any_pack(int samples) {
+    RenderNeeds needs;
+    needs.samples = samples;
+    for (const bool dithered : {false, true}) {
+        ShaderKey key;
+        key.dithered = dithered;
+        key.even_light = true; // as in every live picture
+        needs.draws.insert(key);
+    }
+    needs.draws.insert({ShaderKey::Pass::EdgeFeather});
+    needs.draws.insert({ShaderKey::Pass::TablePicture});
+    return with_cut_outs(needs);
 }
 
 TextStyle text_style(const Settings& settings) {

@@ -1,7 +1,7 @@
 /// Opens packs for the show: of each its manifest is read, what is needed of it is planned, and its texts are laid out. Levels,
 /// textures and pictures of texts are left for later (residents.h), but for the levels of the first pack that is good.
 ///
-/// Threads  before the first frame; needs no context.
+/// Threads  any, never in a frame; needs no context.
 /// Errors   as load_pack, as far as manifest and texts go; a technique that the pack does not have; no typeface where one
 ///          is needed. Messages begin with the file's name. Such a pack is left out with a line on standard error; if none is
 ///          left, BadConfiguration.
@@ -13,6 +13,7 @@
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct OpenerOptions {
     double deadline_ms = 16.0;
     std::string_view program = "frustumscreen"; ///< this and `packs_key`: as ArtifactShowOptions
     std::string packs_key = {};
+    std::function<bool()> goes_on = [] { return true; }; ///< asked before each pack; no: all is given up
 };
 
 /// What there is of the packs that can be shown.
@@ -47,6 +49,8 @@ struct OpenedArtifacts {
 [[nodiscard]] Result<OpenedArtifacts> open_artifacts(const Settings& settings,
                                                      std::span<const std::filesystem::path> packs,
                                                      const OpenerOptions& options);
+/// What any pack that may come later needs of a renderer with room for so many samples a pixel.
+[[nodiscard]] RenderNeeds needs_of_any_pack(int samples);
 
 /// How texts are set on the settings' table.
 [[nodiscard]] TextStyle text_style(const Settings& settings);

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -17,8 +19,6 @@ namespace {
 
 constexpr double warm_up_step_m = 0.01;
 constexpr double sample_side_m = 0.05;
-/// Type size of what a visitor should do, in those of a caption.
-constexpr double advice_em = 1.5;
 
 } // namespace
 
@@ -31,47 +31,38 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    const double deadline_ms = 1e3 / settings.projector.refresh_hz;
-    Result<OpenedArtifacts> opened = open_artifacts(
-        settings, options.packs,
-        {options.technique, options.samples, options.economies, devices.language, devices.other_packs,
-         chooses_on_table(settings) && devices.other_packs && options.packs.size() > 1, deadline_ms,
-         options.program, options.packs_key});
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    if (Result<void> ready = renderer->prepare(opened->needs); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
-    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, *opened, std::move(*renderer)));
-    if (Result<void> stays = show->upload_what_stays(settings, devices, opened->known); !stays) {
+    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(*renderer)));
+    show->set_options_ = {options.technique, options.samples, options.economies,
+                          options.program,   options.waits,   devices};
+    if (Result<void> stays = show->upload_what_stays(settings); !stays) {
         return tl::unexpected<Error>(stays.error());
     }
-    const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
-    Result<std::unique_ptr<Residents>> residents = Residents::create(
-        {std::move(opened->known), options.technique, deadline_ms,
-         budget - std::min(budget, show->planned_bytes_that_stay()), text_style(settings),
-         settings.exhibit.language, options.waits, options.program, std::move(opened->left_out)},
-        std::move(*opened->first), show->renderer_.store());
-    if (!residents) {
-        return tl::unexpected<Error>(residents.error());
+    Result<std::unique_ptr<ShownSet>> set =
+        open_set(settings, show->set_options(),
+                 {options.set_number, options.packs, options.packs_key, options.attract}, std::nullopt);
+    if (!set) {
+        return tl::unexpected<Error>(set.error());
     }
-    show->residents_ = std::move(*residents);
-    show->note_language(settings, opened->languages);
-    show->measure(settings, target);
+    show->set_ = std::move(*set);
+    show->needs_ = show->set_->needs;
+    if (options.other_sets) {
+        show->needs_ = united(show->needs_, needs_of_any_pack(options.samples));
+        show->may_speak_ = settings.sound.kind != SoundKind::None;
+    }
+    if (Result<void> ready = show->renderer_.prepare(show->needs_); !ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
+    if (Result<void> uploaded = show->upload_set(options.other_sets); !uploaded) {
+        return tl::unexpected<Error>(uploaded.error());
+    }
+    show->notes_ = show->set_->notes;
+    show->note_language(settings);
+    show->measure(settings, target, options.other_sets);
+    show->keep_names();
     return show;
 }
 
-Result<void> ArtifactShow::upload_what_stays(const Settings& settings, const DevicePlan& devices,
-                                             std::span<const KnownArtifact> artifacts) {
-    if (std::any_of(catalogue_.begin(), catalogue_.end(),
-                    [](const CatalogueEntry& entry) { return !entry.hotspots.hotspots.empty(); })) {
-        Result<HotspotShow> hotspots = HotspotShow::create(renderer_.store());
-        if (!hotspots) {
-            return tl::unexpected<Error>(hotspots.error());
-        }
-        hotspots_ = std::move(*hotspots);
-    }
+Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
     if (shows_zone_frame(settings)) {
         const Result<TextureId> white = renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
         if (!white) {
@@ -79,42 +70,40 @@ Result<void> ArtifactShow::upload_what_stays(const Settings& settings, const Dev
         }
         white_ = *white;
     }
-    if (Result<void> signs = upload_signs(settings); !signs) {
-        return signs;
-    }
-    load_words(settings, devices);
-    return load_table(settings, devices, artifacts);
+    return upload_signs(settings);
 }
 
-Result<void> ArtifactShow::load_table(const Settings& settings, const DevicePlan& devices,
-                                      std::span<const KnownArtifact> artifacts) {
-    if (!chooses_on_table(settings) || artifacts.size() < 2) {
-        return {};
+Result<void> ArtifactShow::upload_set(bool hotspots) {
+    GpuStore& store = renderer_.store();
+    if (hotspots || std::any_of(catalogue().begin(), catalogue().end(), [](const CatalogueEntry& entry) {
+            return !entry.hotspots.hotspots.empty();
+        })) {
+        Result<HotspotShow> made = HotspotShow::create(store);
+        if (!made) {
+            return tl::unexpected<Error>(made.error());
+        }
+        hotspots_ = std::move(*made);
     }
-    TableShow::Request request{{}, devices.language};
-    for (const KnownArtifact& artifact : artifacts) {
-        request.packs.push_back(artifact.file);
+    constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
+    if (Result<void> words = set_->word_pictures.upload(store, all); !words) {
+        return words;
     }
-    Result<TableShow> table = TableShow::load(settings, request, renderer_.store());
-    if (!table) {
-        return tl::unexpected<Error>(table.error());
-    }
-    table_ = std::move(*table);
-    notes_.insert(notes_.end(), table_.notes().begin(), table_.notes().end());
-    return {};
+    set_->table.upload(store, all);
+    return set_->residents->upload_first(store);
 }
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
-           words_.planned_gpu_bytes + table_.planned_gpu_bytes() + hotspots_.planned_gpu_bytes();
+           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes();
 }
 
-void ArtifactShow::note_language(const Settings& settings, const std::vector<std::string>& languages) {
+void ArtifactShow::note_language(const Settings& settings) {
+    const std::vector<std::string>& languages = set_->languages;
     if (!settings.exhibit.captions || languages.empty() ||
         has_language(languages, settings.exhibit.language)) {
         return;
     }
-    const std::vector<std::string>& shown = catalogue_.front().languages;
+    const std::vector<std::string>& shown = catalogue().front().languages;
     notes_.push_back(fmt::format(
         "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
         shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
@@ -123,35 +112,39 @@ void ArtifactShow::note_language(const Settings& settings, const std::vector<std
 
 /// Measures at the middle of the table, seen by the default eye. What comes later is expected to cost what the first
 /// artifact does, triangle for triangle and sample for sample.
-void ArtifactShow::measure(const Settings& settings, const RenderTarget& target) {
+void ArtifactShow::measure(const Settings& settings, const RenderTarget& target, bool other_sets) {
     PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
-    RunLevels& first = *residents_->find(0);
-    const ScenePlan& plan = residents_->known(0).plan;
+    Residents& residents = *set_->residents;
+    RunLevels& first = *residents.find(0);
+    const ScenePlan& plan = residents.known(0).plan;
     view.light = plan.light;
-    view.brightness = residents_->exposure(0);
-    if (plan.rungs.size() > 1 || residents_->size() > 1) {
+    view.brightness = residents.exposure(0);
+    if (plan.rungs.size() > 1 || residents.size() > 1 || other_sets) {
         first.measure(prop_, view, renderer_, target);
     }
     warm_up(view, target);
-    residents_->start(cost_of(first.times()), prop_, view, settings.eye.default_m);
+    expected_ = {cost_of(first.times()), prop_, view, settings.eye.default_m};
+    expected_.view.eyes_m = {};
+    residents.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
 /// Draws a whole picture and one that redraws what moved, each with one of all that lies on the table: drivers compile for what
 /// a frame does, and this should be done before the first frame.
 void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
-    if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue_.front().caption_sizes_m;
+    if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue().front().caption_sizes_m;
         !sizes.empty()) {
         for (std::size_t language = 0; language < sizes.size() && !view.caption; ++language) {
-            if (const LoadedTexts* const caption = residents_->texts(0, TextPart::Caption, language)) {
+            if (const LoadedTexts* const caption = set_->residents->texts(0, TextPart::Caption, language)) {
                 view.caption = TablePicture{picture_corners({attract_place_m_, sizes[language].front()}), 1.0,
                                             caption->texture(0)};
             }
         }
     }
     on_table_.clear();
-    table_.place_samples(attract_place_m_, on_table_);
-    const bool has_words = !words_.words.empty() && !words_.words.front().empty();
-    const TextureId word = has_words ? words_.words.front().front().textures.front() : TextureId::None;
+    set_->table.place_samples(attract_place_m_, on_table_);
+    const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
+    const TextureId word =
+        !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
     for (const TextureId texture : {white_, signs_.front(), word}) {
         if (texture != TextureId::None) {
             on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
@@ -160,18 +153,18 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     view.on_table = on_table_.pictures();
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
-        static_cast<void>(residents_->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
+        static_cast<void>(set_->residents->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
     wait_until_drawn();
 }
 
-ArtifactShow::ArtifactShow(const Settings& settings, const OpenedArtifacts& opened, Renderer renderer)
+ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
       prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
-      needs_(opened.needs), renderer_(std::move(renderer)), notes_(opened.notes),
-      catalogue_(catalogue_of(opened.known)), attract_place_m_(0.0), dark_(make_plan(prop_, 0, 1)) {
+      renderer_(std::move(renderer)), names_{settings.exhibit.language}, attract_place_m_(0.0),
+      picture_m_(picture_on_table(settings, 0.0)), dark_(make_plan(prop_, 0, 1)) {
     const Rectangle zone = lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (shows_zone_frame(settings)) {
@@ -196,46 +189,35 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
     return {};
 }
 
-void ArtifactShow::load_words(const Settings& settings, const DevicePlan& devices) {
-    if (!guides_visitors(settings) || settings.exhibit.words.empty()) {
-        return;
+void ArtifactShow::keep_names() {
+    for (std::size_t artifact = 0; artifact < set_->residents->size(); ++artifact) {
+        names_.insert(set_->residents->known(artifact).outline.description.title);
     }
-    const TextStyle style = text_style(settings);
-    AdviceWordsRequest request{settings.exhibit.words,
-                               {settings.exhibit.language},
-                               advice_em * style.em_m,
-                               style.texels_per_m,
-                               settings.sound.kind != SoundKind::None};
-    for (const CatalogueEntry& artifact : catalogue_) {
-        if (devices.language) {
-            request.languages.insert(request.languages.end(), artifact.languages.begin(),
-                                     artifact.languages.end());
-        }
-    }
-    Result<AdviceWords> words = load_advice_words(request, renderer_.store());
-    if (!words) {
-        notes_.push_back("guidance shows signs without words: " + words.error().message);
-        return;
-    }
-    words_ = std::move(*words);
+    names_.insert(set_->languages.begin(), set_->languages.end());
+    names_.insert(set_options_.technique);
+}
+
+std::string_view ArtifactShow::kept(std::string_view name) const {
+    const auto found = names_.find(name);
+    return found != names_.end() ? std::string_view(*found) : std::string_view();
+}
+
+Result<void> ArtifactShow::prepare(const ShownSet& set) {
+    needs_ = united(needs_, set.needs);
+    return renderer_.prepare(needs_);
+}
+
+std::unique_ptr<ShownSet> ArtifactShow::exchange(std::unique_ptr<ShownSet> set) {
+    past_switches_ += set_->residents->switches();
+    past_ignored_times_ += set_->residents->ignored_times();
+    std::swap(set_, set);
+    on_.reset();
+    keep_names();
+    return set;
 }
 
 bool ArtifactShow::speaks() const {
-    for (const std::vector<AdviceWord>& language : words_.words) {
-        for (const AdviceWord& word : language) {
-            if (word.recording) {
-                return true;
-            }
-        }
-    }
-    for (std::size_t artifact = 0; artifact < residents_->size(); ++artifact) {
-        for (const SharedRecording& recording : residents_->known(artifact).texts.recordings) {
-            if (recording) {
-                return true;
-            }
-        }
-    }
-    return false;
+    return may_speak_ || set_->speaks();
 }
 
 std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
@@ -243,9 +225,9 @@ std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& prese
         return std::nullopt;
     }
     const PresentedAdvice& advice = *presentation.advice;
-    const AdviceWord& word = words_.words[advice.word.language][advice.word.text];
     return TablePicture{picture_corners(on_pixels(advice.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * advice.brightness, word.textures[advice.shape]};
+                        caption_brightness_ * advice.brightness,
+                        set_->word(advice.word, advice.shape)};
 }
 
 void ArtifactShow::place_zone_frame(const Presentation& presentation) {
@@ -263,8 +245,9 @@ void ArtifactShow::place_hotspot(const Presentation& presentation) {
         return;
     }
     const PresentedHotspot& hotspot = *presentation.hotspot;
-    const CatalogueEntry& entry = catalogue_[hotspot.artifact];
-    const LoadedTexts* const texts = residents_->texts(hotspot.artifact, TextPart::Telling, hotspot.language);
+    const CatalogueEntry& entry = catalogue()[hotspot.artifact];
+    const LoadedTexts* const texts =
+        set_->residents->texts(hotspot.artifact, TextPart::Telling, hotspot.language);
     if (texts != nullptr) {
         hotspots_.place(hotspot, texts->texture(label_picture(entry, hotspot.language, hotspot.hotspot)),
                         caption_brightness_, projector_, table_from_projector_, on_table_);
@@ -287,7 +270,7 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const LoadedTexts* const texts = residents_->texts(
+    const LoadedTexts* const texts = set_->residents->texts(
         presentation.artifact, caption.portion ? TextPart::Telling : TextPart::Caption, caption.language);
     const TextureId texture =
         texts != nullptr ? texts->texture(portion_picture(caption.portion.value_or(0), caption.shape))
@@ -301,24 +284,27 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
-    residents_->step(renderer_.store(), {presentation.artifact, presentation.table_language,
+    Residents& residents = *set_->residents;
+    residents.step(renderer_.store(), {presentation.artifact, presentation.table_language,
                                          presentation.wanted.artifacts(), presentation.wanted_language});
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
-    view.light = residents_->known(presentation.artifact).plan.light;
-    view.brightness = residents_->exposure(presentation.artifact) * presentation.brightness;
+    view.light = residents.known(presentation.artifact).plan.light;
+    view.brightness = residents.exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
     on_table_.clear();
     place_zone_frame(presentation);
-    table_.place(presentation,
+    set_->table.place(presentation,
                  hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
                  on_table_);
     if (presentation.stand_in) {
-        table_.place_stand_in(*presentation.stand_in, on_table_);
+        set_->table.place_stand_in(*presentation.stand_in, on_table_);
     }
     place_hotspot(presentation);
     place_signs(presentation);
+    notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
+                  renderer_.store(), on_table_);
     view.on_table = on_table_.pictures();
-    RunLevels* const levels = residents_->find(presentation.artifact);
+    RunLevels* const levels = residents.find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
         plan_frame(prop_, PlacedLevel{}, view, dark_);
@@ -337,12 +323,12 @@ ShowUse ArtifactShow::use() const {
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
-    use.text_gpu_bytes = residents_->uploaded_text_bytes();
-    use.planned_gpu_bytes += planned_bytes_that_stay() + use.text_gpu_bytes;
+    use.text_gpu_bytes = set_->residents->uploaded_text_bytes();
+    use.planned_gpu_bytes += planned_bytes_that_stay() + set_->planned_gpu_bytes() + use.text_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
-    for (std::size_t artifact = 0; artifact < catalogue_.size(); ++artifact) {
-        use.captions += catalogue_[artifact].languages.size();
-        if (const RunLevels* levels = residents_->find(artifact)) {
+    for (std::size_t artifact = 0; artifact < catalogue().size(); ++artifact) {
+        use.captions += catalogue()[artifact].languages.size();
+        if (const RunLevels* levels = set_->residents->find(artifact)) {
             for (const LevelUse& level : levels->uses()) {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
@@ -352,27 +338,28 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    if (RunLevels* const levels = on_ ? residents_->find(*on_) : nullptr) {
+    if (RunLevels* const levels = on_ ? set_->residents->find(*on_) : nullptr) {
         levels->record_time(now, ms);
         load_ = levels->load();
     }
 }
 
 ShowState ArtifactShow::state(const Presentation& presentation) const {
-    const RunLevels* const shown = residents_->find(presentation.artifact);
+    const Residents& residents = *set_->residents;
+    const RunLevels* const shown = residents.find(presentation.artifact);
     LevelState levels = shown != nullptr ? shown->state() : LevelState{};
-    levels.switches = residents_->switches();
-    levels.ignored_times = residents_->ignored_times();
-    return {residents_->known(presentation.artifact).outline.description.title,
-            presentation.language,
-            levels,
-            presentation.settled,
-            presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt,
-            residents_->left_out(),
-            presentation.lamps,
-            residents_->ready(),
-            residents_->bytes(),
-            presentation.state};
+    levels.technique = kept(levels.technique);
+    levels.switches = past_switches_ + residents.switches();
+    levels.ignored_times = past_ignored_times_ + residents.ignored_times();
+    ShowState state{kept(residents.known(presentation.artifact).outline.description.title),
+                    kept(presentation.language), levels, presentation.settled};
+    state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
+    state.left_out = residents.left_out();
+    state.lamps = presentation.lamps;
+    state.loaded = residents.ready();
+    state.loaded_bytes = residents.bytes();
+    state.state = presentation.state;
+    return state;
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace frustumscreen {
@@ -14,7 +16,7 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
     const auto state = [](std::string_view device, const Sentence& sentence) {
         return fmt::format("{}: {}", device, sentence.view().empty() ? "nothing to say" : sentence.view());
     };
-    return {
+    std::vector<std::string> lines{
         fmt::format("FrustumScreen {}", FRUSTUMSCREEN_VERSION),
         fmt::format("OpenGL: {}", driver),
         state("display", status.display),
@@ -29,6 +31,10 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
                     status.estimated_error_mm, status.p95_error_mm),
         fmt::format("frames {:.1f} ms, 95 of 100 within {:.1f} ms; {} display times missed in {:.0f} s",
                     status.median_ms, status.p95_ms, status.late, status.uptime_s)};
+    if (status.set) {
+        lines.push_back(sentence_of(*status.set));
+    }
+    return lines;
 }
 
 ToldText told_by(const Presentation& presentation) {
@@ -54,18 +60,52 @@ Volume volume_of(const SoundSettings& settings) {
 LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit,
                          std::string driver, PromptReader::Answer answer)
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
+      notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always
+                                                               : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)) {
-    if (stage_->speaks()) {
+    if (speaks()) {
         speaker_.begin(answer);
     }
 }
 
+void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library) {
+    set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
+}
+
+std::optional<MonotonicTime> LiveExhibit::alive_until() const {
+    return set_switch_ ? std::optional(set_switch_->alive_until()) : std::nullopt;
+}
+
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
+    if (set_switch_ && set_switch_->step(now, presentation_.state, exhibit_)) {
+        presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
+    }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
-    presentation_ = exhibit_.step(now, commands, on_table);
+    presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
+    if (set_switch_) {
+        set_switch_->report(now, presentation_.state);
+    }
+    notice_.step(now, on_table, presentation_);
     follow_staff_mode();
-    speaker_.step(presentation_, *stage_);
+    if (speaker_.step(presentation_, *stage_, notice_.announcement())) {
+        notice_.announced();
+    }
+}
+
+std::span<const Command> LiveExhibit::left_by_notice(MonotonicTime now, std::span<const Command> commands) {
+    static constexpr std::array chord{Command::StaffMode};
+    if (!notice_.take_press(now, commands)) {
+        return commands;
+    }
+    bool has_chord = false;
+    for (const Command command : commands) {
+        has_chord = has_chord || command == Command::StaffMode;
+        if (command != Command::StaffMode) {
+            exhibit_.forget_press(command);
+        }
+    }
+    return std::span(chord).first(has_chord ? 1 : 0);
 }
 
 void LiveExhibit::hear(const SoundReport& report) {
@@ -76,6 +116,8 @@ void LiveExhibit::hear(const SoundReport& report) {
 ShowState LiveExhibit::state() const {
     ShowState state = stage_->state(presentation_);
     state.told = told_by(presentation_);
+    state.set = set_switch_ ? set_switch_->status() : nullptr;
+    state.import = notice_.import();
     return state;
 }
 

@@ -9,7 +9,9 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/settings/settings.h"
+#include "app/show/notice_show.h"
 #include "app/show/pattern_show.h"
+#include "app/show/set_switch.h"
 #include "app/show/show.h"
 #include "app/show/speaker.h"
 #include "firmware_host/sound/volume.h"
@@ -30,6 +32,9 @@ public:
     LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver,
                 PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
+    /// Other sets may come from here on; `artifacts` is the stage.
+    void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
+
     void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
     void tell(const RunStatus& status) override;
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
@@ -37,18 +42,24 @@ public:
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
-    [[nodiscard]] bool speaks() const override { return stage_->speaks(); }
+    [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
 
 private:
+    /// Those that a notice leaves to the exhibit.
+    [[nodiscard]] std::span<const Command> left_by_notice(MonotonicTime now,
+                                                          std::span<const Command> commands);
     void follow_staff_mode();
 
     const Settings& settings_;
     std::unique_ptr<Stage> stage_;
     std::string driver_;
+    std::unique_ptr<SetSwitch> set_switch_; ///< none: this set is shown for good
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
+    NoticeShow notice_;
     Volume volume_;
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never

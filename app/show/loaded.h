@@ -36,6 +36,7 @@ private:
 
 class LoadedTexts {
 public:
+    LoadedTexts() = default; ///< none
     explicit LoadedTexts(TextPictures pictures);
 
     /// As above; a picture is never cut.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace frustumscreen {
@@ -29,6 +30,15 @@ Result<Prompt> decode(const Recording& recording) {
             fmt::format("{} has no sound of it any more; bake the pack again", recording.pack.string()));
     }
     return read_opus(*opus);
+}
+
+void soften(Prompt& prompt, double gain_db) {
+    if (gain_db < 0.0) {
+        const double gain = std::pow(10.0, gain_db / 20.0);
+        for (std::int16_t& sample : prompt.samples) {
+            sample = static_cast<std::int16_t>(std::lround(gain * sample));
+        }
+    }
 }
 
 } // namespace
@@ -102,6 +112,7 @@ SharedReading PromptReader::read(const Recording& recording) {
         }
         return reading;
     }
+    soften(*prompt, recording.gain_db);
     prompt->marks = find_pauses(prompt->samples);
     reading->portions = portion_times(recording.portions, *prompt);
     reading->prompt = std::make_shared<const Prompt>(*std::move(prompt));

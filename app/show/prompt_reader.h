@@ -34,6 +34,7 @@ struct Recording {
     std::string language;              ///< BCP 47
     std::string key;                   ///< as pack_texts.h has them
     std::vector<Nanoseconds> portions; ///< how long each of its text takes to read; none: it is one
+    double gain_db = 0.0;              ///< 0 or less: softer than it was recorded
 };
 using SharedRecording = std::shared_ptr<const Recording>;
 

@@ -28,10 +28,10 @@ std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
 
 } // namespace
 
-Residents::Residents(ResidentsSetUp set_up, std::uint64_t texture_bytes)
-    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), ArtifactState::Away) {
-    left_out_.reserve(set_up_.left_out.size() + size());
-    left_out_.insert(left_out_.end(), set_up_.left_out.begin(), set_up_.left_out.end());
+Residents::Residents(ResidentsSetUp set_up, PreparedArtifact first)
+    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), ArtifactState::Away),
+      left_out_(std::make_shared<const std::vector<PackLeftOut>>(set_up_.left_out)) {
+    const std::uint64_t texture_bytes = texture_bytes_of(first);
     for (std::size_t artifact = 0; artifact < size(); ++artifact) {
         const KnownArtifact& of = known(artifact);
         first_items_.push_back(items_.size());
@@ -45,32 +45,29 @@ Residents::Residents(ResidentsSetUp set_up, std::uint64_t texture_bytes)
         }
     }
     loaded_.resize(items_.size());
+    receive(0, std::move(first));
 }
 
-Result<std::unique_ptr<Residents>> Residents::create(ResidentsSetUp set_up, PreparedArtifact first,
-                                                     GpuStore& store) {
-    std::unique_ptr<Residents> made(new Residents(std::move(set_up), texture_bytes_of(first)));
-    made->receive(0, std::move(first));
+Result<void> Residents::upload_first(GpuStore& store) {
     Queue seen_first;
-    seen_first.add(made->levels_item(0));
-    made->add_text(seen_first, 0, TextPart::Caption, made->set_up_.language);
+    seen_first.add(levels_item(0));
+    add_text(seen_first, 0, TextPart::Caption, set_up_.language);
     for (const std::size_t item : seen_first.items()) {
         if (item != 0) {
-            Result<ArtifactReader::Prepared> texts = made->prepare(item, [] { return false; });
+            Result<ArtifactReader::Prepared> texts = prepare(item, [] { return false; });
             if (!texts) {
-                made->say_left_out(item, texts.error().message);
+                say_left_out(item, texts.error().message);
             }
-            made->receive(item, std::move(texts));
+            receive(item, std::move(texts));
         }
-        while (made->arrives(item)) {
-            if (Result<void> done = made->upload(store, item, std::numeric_limits<std::uint64_t>::max());
-                !done) {
-                made->release(store, 0);
-                return tl::unexpected<Error>(done.error());
+        while (arrives(item)) {
+            if (Result<void> done = upload(store, item, std::numeric_limits<std::uint64_t>::max()); !done) {
+                release(store, 0);
+                return done;
             }
         }
     }
-    return made;
+    return {};
 }
 
 Residents::~Residents() = default;
@@ -182,6 +179,30 @@ void Residents::step_once(GpuStore& store, const ResidentsWish& wish) {
     steady_ = !next.release && (!next.load || !reader_) && !arriving;
 }
 
+bool Residents::has(const ResidentsWish& wish) const {
+    const Queue needs = needed(wish);
+    return std::all_of(needs.items().begin(), needs.items().end(), [&](std::size_t item) {
+        return records_[item].left_out || (loaded_[item] && !arrives(item));
+    });
+}
+
+bool Residents::release_some(GpuStore& store) {
+    if (reader_) {
+        reader_->request(std::nullopt);
+    }
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const std::size_t begin = levels_item(artifact);
+        const std::size_t end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+        for (std::size_t item = begin; item < end; ++item) {
+            if (loaded_[item]) {
+                release(store, levels(artifact) != nullptr ? begin : item);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 void Residents::note_shown(const ResidentsWish& wish) {
     if (shown_ != wish.shown) {
         shown_ = wish.shown;
@@ -278,7 +299,9 @@ void Residents::leave_out(std::size_t item, const std::string& reason) {
     if (!items_[item].part) {
         const std::size_t artifact = items_[item].artifact;
         states_[artifact] = ArtifactState::LeftOut;
-        left_out_.push_back(pack_left_out(known(artifact).file.string(), reason));
+        auto more = std::make_shared<std::vector<PackLeftOut>>(*left_out_);
+        more->push_back(pack_left_out(known(artifact).file.string(), reason));
+        left_out_ = std::move(more);
     }
 }
 

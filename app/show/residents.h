@@ -7,7 +7,8 @@
 ///          languages. Texts stay while they are shown and while there is room, and no longer than their artifact.
 /// Budget   counts what an artifact takes of the GPU's memory and of main memory from the moment that it is prepared.
 ///          While one is read, its file's parts and one level of it come on top.
-/// Threads  the render thread, with the display's context current, also where it is destroyed; the reader is a thread of
+/// Threads  made on any; the render thread, with the display's context current, for all else, and to destroy what is not all
+///          released; the reader is a thread of
 ///          its own, there only where there is more to come. A step reads no file and waits for nothing.
 /// Errors   an artifact that turns out bad is left out, with a line on standard error; the others stay. Texts that turn out
 ///          bad are left out alone.
@@ -60,18 +61,24 @@ public:
     static constexpr std::uint64_t urgent_bytes = std::uint64_t{4} << 20U;
     static constexpr std::uint64_t early_bytes = std::uint64_t{1} << 20U;
 
-    /// `first`: of the first artifact, uploaded at once, and its caption with it.
-    [[nodiscard]] static Result<std::unique_ptr<Residents>> create(ResidentsSetUp set_up,
-                                                                   PreparedArtifact first, GpuStore& store);
+    /// `first`: of the first artifact; nothing is in the store yet. Needs no context.
+    Residents(ResidentsSetUp set_up, PreparedArtifact first);
+    /// Waits for the reader, if there is one. What is in the store stays there: release it first.
     ~Residents();
     Residents(const Residents&) = delete;
     Residents& operator=(const Residents&) = delete;
 
-    /// From now on the others may come. `cost`: of frames on this GPU; `prop`, `view`: what a rung's time is expected for,
+    /// Uploads the first artifact at once, and its caption with it. On failure nothing stays in the store.
+    [[nodiscard]] Result<void> upload_first(GpuStore& store);
+    /// From now on the others may come; needs no context. `cost`: of frames on this GPU; `prop`, `view`: what a rung's time is expected for,
     /// `eye_m` its eye.
     void start(const RungCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
     /// Once a frame.
     void step(GpuStore& store, const ResidentsWish& wish);
+    /// All that is shown, and what somebody waits for, is there as far as it can be.
+    [[nodiscard]] bool has(const ResidentsWish& wish) const;
+    /// Takes some more out of the store, and asks for nothing any more; false: nothing was left.
+    bool release_some(GpuStore& store);
 
     /// Null if it is not ready.
     [[nodiscard]] RunLevels* find(std::size_t artifact);
@@ -86,8 +93,8 @@ public:
     }
     [[nodiscard]] std::size_t size() const { return set_up_.artifacts.size(); }
     [[nodiscard]] std::span<const ArtifactState> states() const { return states_; }
-    /// With those of before; elements stay where they are, for who reports them on another thread.
-    [[nodiscard]] std::span<const PackLeftOut> left_out() const { return left_out_; }
+    /// With those of before. A list never changes, for who reports it on another thread; there is another one instead.
+    [[nodiscard]] const PacksLeftOut& left_out() const { return left_out_; }
 
     [[nodiscard]] std::size_t ready() const;                 ///< how many artifacts can be drawn at once
     [[nodiscard]] std::uint64_t bytes() const;               ///< of all that is loaded or being uploaded
@@ -114,7 +121,6 @@ private:
         std::size_t count_ = 0;
     };
 
-    Residents(ResidentsSetUp set_up, std::uint64_t texture_bytes);
     [[nodiscard]] std::size_t levels_item(std::size_t artifact) const { return first_items_[artifact]; }
     [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
     /// Nothing where the artifact has no such text.
@@ -142,7 +148,7 @@ private:
     std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; none: it is not there
     std::vector<ResidentItem> records_;           ///< by item
     std::vector<ArtifactState> states_;
-    std::vector<PackLeftOut> left_out_;
+    PacksLeftOut left_out_;
     std::optional<std::size_t> shown_;
     std::uint64_t shows_ = 0; ///< how often another one was shown
     bool steady_ = false;     ///< nothing was left to do at the latest step

@@ -129,7 +129,7 @@ private:
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }
-        watch_.look(now, display_, inputs_);
+        watch_.look(now, display_, inputs_, show_.alive_until());
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
         result_.status.prop_known = situation.prop_known;
@@ -225,10 +225,12 @@ private:
         RunStatus& status = result_.status;
         const ShowState state = show_.state();
         status.left_out = state.left_out;
+        status.set = state.set;
         status.state = name_of(state.state);
         status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
+        status.import = state.import;
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;

@@ -78,6 +78,36 @@ nlohmann::ordered_json json_of(const TrackerCounts& counts) {
             {"clock_drift_ppm", rounded(1e6 * counts.clock_drift)}};
 }
 
+/// In the order of Verdict.
+constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
+
+nlohmann::ordered_json json_of(const SharedSetStatus& status) {
+    if (!status) {
+        return nullptr;
+    }
+    nlohmann::ordered_json packs = nlohmann::ordered_json::array();
+    for (const InstalledPack& pack : status->packs) {
+        packs.push_back(
+            {{"file", pack.file}, {"id", pack.id}, {"title", pack.title}, {"serial", pack.serial}});
+    }
+    const SetVerdict& newest = status->newest;
+    return {{"number", status->shown},
+            {"packs", packs},
+            {"newest",
+             {{"number", newest.number},
+              {"verdict", verdict_words.at(static_cast<std::size_t>(newest.verdict))},
+              {"on_trial", status->on_trial},
+              {"starts", newest.starts},
+              {"reason", newest.reason}}},
+            {"trouble", status->trouble}};
+}
+
+/// The importer's own report, as its file has it.
+nlohmann::ordered_json json_of(const SharedImport& import) {
+    return import ? nlohmann::ordered_json::parse(write_import_report(import->report), nullptr, false)
+                  : nlohmann::ordered_json(nullptr);
+}
+
 /// The kernel's name for the time since it was started (random(4)); empty where it does not say.
 Sentence boot_id() {
     std::string id;
@@ -121,8 +151,10 @@ double FrameTimes::quantile(double share) {
 
 std::string status_json(const RunStatus& status) {
     nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
-    for (const PackLeftOut& each : status.left_out) {
-        left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
+    if (status.left_out) {
+        for (const PackLeftOut& each : *status.left_out) {
+            left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
+        }
     }
     const std::time_t written_at = std::chrono::system_clock::to_time_t(status.written_at);
     const nlohmann::ordered_json json = {
@@ -133,6 +165,7 @@ std::string status_json(const RunStatus& status) {
         {"presented", json_of(status.presented)},
         {"shown_code", json_of(status.shown_code)},
         {"left_out", left_out},
+        {"set", json_of(status.set)},
         {"state", status.state},
         {"artifact", status.artifact},
         {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},
@@ -162,6 +195,7 @@ std::string status_json(const RunStatus& status) {
         {"sound", status.sound.view()},
         {"sound_underruns", status.sound_underruns},
         {"recording", status.recording.view()},
+        {"import", json_of(status.import)},
         {"prop_known", status.prop_known},
         {"head_known", status.head_known},
         {"uptime_s", rounded(status.uptime_s)},

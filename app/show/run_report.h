@@ -7,6 +7,8 @@
 #pragma once
 
 #include "app/geometry/transform.h"
+#include "app/show/import_watch.h"
+#include "app/show/set_status.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
@@ -18,9 +20,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -71,6 +73,9 @@ struct PackLeftOut {
     std::string reason;
 };
 
+/// It never changes.
+using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
+
 /// Messages about a pack begin with its file.
 [[nodiscard]] PackLeftOut pack_left_out(const std::string& pack, std::string_view message);
 
@@ -91,8 +96,9 @@ struct RunStatus {
     PresentedPicture presented;
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     TrackerCounts tracker_counts;
-    std::span<const PackLeftOut> left_out; ///< lives as long as the show
-    std::string_view state;                ///< name_of(State)
+    PacksLeftOut left_out;          ///< none: there are none
+    SharedSetStatus set;            ///< none: no set is installed, and none is looked for
+    std::string_view state;         ///< name_of(State); this and the other texts live as long as the show
     std::string_view artifact;
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;
@@ -124,6 +130,7 @@ struct RunStatus {
     bool head_known = false;
     std::size_t loaded = 0; ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0;
+    SharedImport import; ///< what the importer says; none: nothing
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);

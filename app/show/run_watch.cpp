@@ -78,11 +78,12 @@ std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
     return read_probe(display.framebuffer());
 }
 
-void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs) {
+void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs,
+                    std::optional<MonotonicTime> show) {
     if (!watchdog_) {
         return;
     }
-    std::array<MonotonicTime, 4> promises{};
+    std::array<MonotonicTime, 5> promises{};
     std::size_t count = 0;
     const auto add = [&](const auto* device) {
         if (const std::optional<MonotonicTime> until =
@@ -95,6 +96,9 @@ void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inp
     add(inputs.tracker.get());
     add(inputs.panel.get());
     add(inputs.sound.get());
+    if (show) {
+        promises.at(count++) = *show;
+    }
     const Health health = watchdog_->health(now, std::span(promises).first(count));
     note_health(health);
     if (watchdog_->feed(now, health)) {
@@ -126,6 +130,13 @@ void RunWatch::note(const RunStatus& status) {
     note_device("panel", status.panel, panel_);
     note_device("sound", status.sound, sound_);
     note_device("recording", status.recording, recording_);
+    if (status.set && status.set != noted_set_) { // the sentence is made only where there is news
+        noted_set_ = status.set;
+        note_device("set", Sentence(sentence_of(*status.set)), set_);
+    }
+    imports_.note(status.import, [this](LogPriority priority, const Sentence& line) {
+        note_state(priority, "stick", line.view(), line);
+    });
     // What a technician looks for comes first: a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),

@@ -2,12 +2,14 @@
 ///
 /// Watched  what is presented, by a code in it (app/render/probe.h), if a service manager's watchdog or a
 ///          status file needs it; the loop itself, by a thread that reports when the loop is silent.
-/// Journal  one line for each change of a device's state, of what is shown, and of the watchdog's opinion;
+/// Journal  one line for each change of a device's state, of what is shown, of the installed set, and of the watchdog's opinion,
+///          and for what is done with a stick;
 ///          every line has what is shown in its fields ARTIFACT, LANGUAGE and LEVEL.
 /// Time     the loop's `now`. A run on a simulated clock is not watched.
 /// Threads  the render thread, with the display's context current; allocates nothing in a frame.
 #pragma once
 
+#include "app/show/import_journal.h"
 #include "app/show/inputs.h"
 #include "app/show/run_report.h"
 #include "firmware_host/display/display.h"
@@ -34,8 +36,9 @@ public:
     /// A picture was presented; `has_code`: a code was written into it. It looks at what the projector shows
     /// if that can be read, else at the display's framebuffer.
     void presented(MonotonicTime now, const Display& display, bool has_code);
-    /// Call in every frame.
-    void look(MonotonicTime now, const Display& display, const Inputs& inputs);
+    /// Call in every frame. `show`: Show::alive_until.
+    void look(MonotonicTime now, const Display& display, const Inputs& inputs,
+              std::optional<MonotonicTime> show = std::nullopt);
     /// The service manager was told that the run is ready; until then every frame is presented.
     [[nodiscard]] bool ready() const { return ready_; }
     [[nodiscard]] Health health() const { return health_; }
@@ -60,7 +63,9 @@ private:
     bool shown_is_readable_ = false; ///< a code was read from what the projector shows
     Health health_ = Health::Well;
     std::optional<std::uint8_t> shown_code_;
-    Sentence display_, tracker_, panel_, sound_, recording_, artifact_, language_, level_;
+    SharedSetStatus noted_set_;
+    Sentence display_, tracker_, panel_, sound_, recording_, set_, artifact_, language_, level_;
+    ImportJournal imports_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above
 };
 

@@ -27,12 +27,14 @@ struct ShowState {
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
     /// The prop's pose that was drawn for, if it is not the known one.
     std::optional<RigidTransform> stands = {};
-    std::span<const PackLeftOut> left_out = {};
+    PacksLeftOut left_out = {};
+    SharedSetStatus set = {};
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
     State state = State::Staff;
     ToldText told = {};
+    SharedImport import = {}; ///< what the importer says; none: nothing
 };
 
 class Show {
@@ -60,6 +62,8 @@ public:
     /// refresh.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state() const = 0;
+    /// As Heartbeat, of a thread of its own; nothing: it has none that promises.
+    [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return std::nullopt; }
 };
 
 /// Draws what a Presentation says.

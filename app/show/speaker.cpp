@@ -5,12 +5,13 @@
 
 namespace frustumscreen {
 
-void Speaker::step(const Presentation& presentation, const Stage& stage) {
+bool Speaker::step(const Presentation& presentation, const Stage& stage,
+                   const SharedRecording& announcement) {
     if (!reader_) {
-        return;
+        return false;
     }
     reader_->want(SpokenUse::Word,
-                  presentation.prepares_word ? stage.recording(*presentation.prepares_word) : nullptr);
+                  presentation.prepares_word ? stage.recording(*presentation.prepares_word) : announcement);
     reader_->want(SpokenUse::Description,
                   presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
     if (presentation.staff) {
@@ -19,10 +20,20 @@ void Speaker::step(const Presentation& presentation, const Stage& stage) {
         }
         told_.reset();
         word_.reset();
-        return;
+        return false;
     }
     tell(presentation, stage);
     advise(presentation, stage);
+    return announcement && !presentation.prepares_word && announce(announcement);
+}
+
+bool Speaker::announce(const SharedRecording& announcement) {
+    const bool another = speaks() || word_ || comes_ || is_alive(std::max(description_, advice_));
+    const SharedReading reading = another ? nullptr : reader_->find(announcement);
+    if (reading && reading->prompt) {
+        advice_ = wish_.say(reading->prompt);
+    }
+    return reading != nullptr;
 }
 
 void Speaker::end_description(bool at_pause) {

@@ -24,7 +24,9 @@ class Speaker {
 public:
     /// There is something to say: without it nothing is heard, and there is no thread that reads.
     void begin(PromptReader::Answer answer) { reader_.emplace(answer); }
-    void step(const Presentation& presentation, const Stage& stage);
+    /// `announcement`: what is to be said when nothing else is heard, or about to be; none: nothing. Returns whether it begins now.
+    bool step(const Presentation& presentation, const Stage& stage,
+              const SharedRecording& announcement = nullptr);
     void hear(const SoundReport& report);
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
@@ -38,6 +40,7 @@ private:
     void end_description(bool at_pause);
     void tell(const Presentation& presentation, const Stage& stage);
     void advise(const Presentation& presentation, const Stage& stage);
+    [[nodiscard]] bool announce(const SharedRecording& announcement);
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 
     std::optional<PromptReader> reader_;

@@ -44,27 +44,20 @@ TableRectangle fitted(const glm::dvec2& size, const TableRectangle& square) {
 struct TableShow::Loader {
     const Settings& settings;
     const Request& request;
-    GpuStore& store;
     TableShow& show;
     double texels_per_m;
     std::optional<Typesetter> typesetter = {};
 
-    [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage) {
+    [[nodiscard]] std::size_t add(Image<std::uint8_t> coverage) {
         show.planned_gpu_bytes_ += caption_gpu_bytes(coverage.width, coverage.height);
-        return store.upload(coverage);
+        show.textures_.push_back({std::move(coverage)});
+        return show.textures_.size() - 1;
     }
 
-    [[nodiscard]] Result<void> upload_marks() {
-        for (const auto& [texture, image] :
-             {std::pair(&show.square_, outlined_square(mark_px)), std::pair(&show.more_, more_mark(mark_px)),
-              std::pair(&show.band_, band_picture())}) {
-            const Result<TextureId> uploaded = upload(image);
-            if (!uploaded) {
-                return tl::unexpected<Error>(uploaded.error());
-            }
-            *texture = *uploaded;
-        }
-        return {};
+    void add_marks() {
+        show.square_ = add(outlined_square(mark_px));
+        show.more_ = add(more_mark(mark_px));
+        show.band_ = add(band_picture());
     }
 
     /// The titles that are shown; the pack's own where it has no captions.
@@ -100,20 +93,17 @@ struct TableShow::Loader {
         return make_table_title(*typesetter, title.text, texels_per_m);
     }
 
-    /// What was uploaded before a refusal stays with the card.
+    /// What was read before a refusal stays with the card.
     [[nodiscard]] Result<void> load(const std::filesystem::path& file, Card& card) {
-        const Result<PackCard> read = load_pack_card(file);
+        Result<PackCard> read = load_pack_card(file);
         if (!read) {
             return tl::unexpected<Error>(read.error());
         }
-        const Image8& picture = read->table_picture;
+        Image8& picture = read->table_picture;
         if (picture.width > 0 && picture.height > 0) {
-            const Result<TextureId> texture = store.upload_picture(picture);
-            if (!texture) {
-                return tl::unexpected<Error>(texture.error());
-            }
-            card.picture = {*texture, glm::dvec2(picture.width, picture.height)};
+            card.picture = {show.textures_.size(), glm::dvec2(picture.width, picture.height)};
             show.planned_gpu_bytes_ += picture_gpu_bytes(picture.width, picture.height);
+            show.textures_.push_back({std::move(picture)});
         }
         const std::vector<PackLabel> titles = titles_of(*read);
         std::vector<std::string> languages;
@@ -125,38 +115,56 @@ struct TableShow::Loader {
             return tl::unexpected<Error>(set.error());
         }
         for (const PackLabel& title : titles) {
-            const Result<CaptionImage> image = set_title(title, *set);
+            Result<CaptionImage> image = set_title(title, *set);
             if (!image) {
                 return tl::unexpected<Error>(image.error());
             }
-            const Result<TextureId> texture = upload(image->coverage);
-            if (!texture) {
-                return tl::unexpected<Error>(texture.error());
-            }
             card.languages.push_back(title.language);
-            card.titles.push_back({*texture, image->size_m});
+            card.titles.push_back({add(std::move(image->coverage)), image->size_m});
         }
         return {};
     }
 };
 
-Result<TableShow> TableShow::load(const Settings& settings, const Request& request, GpuStore& store) {
+TableShow TableShow::read(const Settings& settings, const Request& request) {
     TableShow show;
     show.room_ = picture_on_table(settings, 0.0);
     show.projector_ = settings.projector.pinhole;
     show.table_from_projector_ = settings.projector.table_from_projector;
     show.text_brightness_ = settings.exhibit.caption_brightness;
-    Loader loader{settings, request, store, show,
-                  show.projector_.fx / show.table_from_projector_.translation.z};
-    if (Result<void> marks = loader.upload_marks(); !marks) {
-        return tl::unexpected<Error>(marks.error());
-    }
+    Loader loader{settings, request, show, show.projector_.fx / show.table_from_projector_.translation.z};
+    loader.add_marks();
     for (const std::filesystem::path& file : request.packs) {
         if (Result<void> loaded = loader.load(file, show.cards_.emplace_back()); !loaded) {
             show.notes_.push_back("on the table a square lies for this artifact: " + loaded.error().message);
         }
     }
     return show;
+}
+
+void TableShow::upload(GpuStore& store, std::uint64_t most_bytes) {
+    std::uint64_t bytes = 0;
+    for (; !ready() && bytes < most_bytes; ++uploaded_) {
+        Texture& texture = textures_[uploaded_];
+        const auto* const coverage = std::get_if<Image<std::uint8_t>>(&texture.picture);
+        const auto* const picture = std::get_if<Image8>(&texture.picture);
+        bytes += coverage != nullptr ? caption_gpu_bytes(coverage->width, coverage->height)
+                                     : picture_gpu_bytes(picture->width, picture->height);
+        const Result<TextureId> uploaded =
+            coverage != nullptr ? store.upload(*coverage) : store.upload_picture(*picture);
+        texture.id = uploaded.value_or(TextureId::None);
+        texture.picture = Image8();
+    }
+}
+
+bool TableShow::release_some(GpuStore& store) {
+    constexpr std::size_t at_once = 16;
+    const std::size_t end = std::min(released_ + at_once, uploaded_);
+    const bool some = released_ < end;
+    for (; released_ < end; ++released_) {
+        store.release(std::exchange(textures_[released_].id, TextureId::None));
+    }
+    return some;
 }
 
 void TableShow::place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
@@ -170,8 +178,8 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
             place_card(placed, presentation, on_table);
         } else {
             on_table.add({picture_corners(placed.place.picture),
-                          mark_brightness * text_brightness_ * placed.brightness,
-                          placed.artifact ? square_ : more_});
+                          mark_brightness * text_brightness_ * presentation.set_share * placed.brightness,
+                          id(placed.artifact ? square_ : more_)});
         }
     }
     if (!table.ring || !shadow) {
@@ -181,8 +189,9 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
     const Ring ring = ring_around(*shadow, table.ring_full, reader, room_);
     for (const RingPiece& piece : ring.pieces()) {
         on_table.add({flat_corners(piece.corners_m),
-                      ring_brightness(table.ring_full) * (piece.filled ? 1.0 : empty_ring_brightness),
-                      band_});
+                      presentation.set_share * ring_brightness(table.ring_full) *
+                          (piece.filled ? 1.0 : empty_ring_brightness),
+                      id(band_)});
     }
 }
 
@@ -192,12 +201,12 @@ void TableShow::place_stand_in(const PresentedStandIn& stand_in, OnTable& on_tab
         return;
     }
     const Picture& picture = cards_[stand_in.artifact].picture;
-    if (picture.texture != TextureId::None) {
+    if (const TextureId texture = id(picture.texture); texture != TextureId::None) {
         on_table.add({picture_corners(fitted(picture.size, stand_in.rectangle)),
-                      picture_brightness * stand_in.brightness, picture.texture, true});
+                      picture_brightness * stand_in.brightness, texture, true});
     } else {
         on_table.add({picture_corners(stand_in.rectangle),
-                      mark_brightness * text_brightness_ * stand_in.brightness, square_, true});
+                      mark_brightness * text_brightness_ * stand_in.brightness, id(square_), true});
     }
 }
 
@@ -205,17 +214,18 @@ void TableShow::place_card(const PlacedPicture& placed, const Presentation& pres
                            OnTable& on_table) const {
     const Card& card = cards_[*placed.artifact];
     const TableRectangle& square = placed.place.picture;
-    const bool has_picture = card.picture.texture != TextureId::None;
+    const double brightness = presentation.set_share * placed.brightness;
+    const bool has_picture = id(card.picture.texture) != TextureId::None;
     if (has_picture) {
-        on_table.add({picture_corners(fitted(card.picture.size, square)),
-                      picture_brightness * placed.brightness, card.picture.texture});
+        on_table.add({picture_corners(fitted(card.picture.size, square)), picture_brightness * brightness,
+                      id(card.picture.texture)});
     } else {
         on_table.add(
-            {picture_corners(square), mark_brightness * text_brightness_ * placed.brightness, square_});
+            {picture_corners(square), mark_brightness * text_brightness_ * brightness, id(square_)});
     }
     if (!card.titles.empty()) {
         place_title(placed, card.titles[caption_for(presentation.table_language, card.languages)],
-                    !has_picture, text_brightness_ * presentation.title_brightness * placed.brightness,
+                    !has_picture, text_brightness_ * presentation.title_brightness * brightness,
                     on_table);
     }
 }
@@ -233,22 +243,23 @@ void TableShow::place_title(const PlacedPicture& placed, const Title& title, boo
         rectangle.centre_m += turned(up, below.quarter_turns);
     }
     on_table.add({picture_corners(on_pixels(rectangle, projector_, table_from_projector_)), brightness,
-                  title.texture});
+                  id(title.texture)});
 }
 
 void TableShow::place_samples(const glm::dvec2& at_m, OnTable& on_table) const {
     constexpr double side_m = 0.05;
     for (const Card& card : cards_) {
-        if (card.picture.texture != TextureId::None) {
-            on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, card.picture.texture});
-            if (!card.titles.empty() && card.titles.front().texture != TextureId::None) {
-                on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, card.titles.front().texture});
+        if (const TextureId picture = id(card.picture.texture); picture != TextureId::None) {
+            on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, picture});
+            if (!card.titles.empty() && id(card.titles.front().texture) != TextureId::None) {
+                on_table.add(
+                    {picture_corners({at_m, glm::dvec2(side_m)}), 1.0, id(card.titles.front().texture)});
             }
             break;
         }
     }
-    if (more_ != TextureId::None) {
-        on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, more_});
+    if (id(more_) != TextureId::None) {
+        on_table.add({picture_corners({at_m, glm::dvec2(side_m)}), 1.0, id(more_)});
     }
 }
 

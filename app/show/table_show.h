@@ -4,8 +4,9 @@
 /// A pack without a table picture shows an outlined square with its title in it.
 ///
 /// Frames   table T, metres.
-/// Threads  the render thread, with the display's context current. `place` allocates nothing.
-/// Errors   the driver has no memory. A pack whose picture or titles cannot be read lies there as a square, and a note says why.
+/// Threads  read on any, without a context; the render thread, with the display's context current, for all else. `place` allocates
+///          nothing.
+/// Errors   none. A pack whose picture or titles cannot be read lies there as a square, and a note says why.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -19,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace frustumscreen {
@@ -30,8 +32,13 @@ public:
         bool all_languages = false;               ///< a button changes the language
     };
     TableShow() = default; ///< shows nothing
-    [[nodiscard]] static Result<TableShow> load(const Settings& settings, const Request& request,
-                                                GpuStore& store);
+    /// Reads the packs; nothing of it is in the store yet.
+    [[nodiscard]] static TableShow read(const Settings& settings, const Request& request);
+    /// So many bytes more go into the store, or a little more than that. What the driver refuses is not shown.
+    void upload(GpuStore& store, std::uint64_t most_bytes);
+    [[nodiscard]] bool ready() const { return uploaded_ == textures_.size(); }
+    /// Takes some more of it out of the store; false: nothing was left. Nothing can be placed any more.
+    bool release_some(GpuStore& store);
 
     /// `shadow`: the prop's.
     void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
@@ -45,12 +52,18 @@ public:
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    /// In the store, or on the way into it: until then its picture is kept.
+    struct Texture {
+        std::variant<Image<std::uint8_t>, Image8> picture;
+        TextureId id = TextureId::None;
+    };
+    static constexpr std::size_t no_texture = ~std::size_t{0};
     struct Picture {
-        TextureId texture = TextureId::None;
-        glm::dvec2 size{1.0}; ///< of any unit
+        std::size_t texture = no_texture; ///< index into `textures_`
+        glm::dvec2 size{1.0};             ///< of any unit
     };
     struct Title {
-        TextureId texture = TextureId::None;
+        std::size_t texture = no_texture;
         glm::dvec2 size_m{0.0};
     };
     struct Card {
@@ -59,6 +72,9 @@ private:
         std::vector<Title> titles; ///< by language
     };
     struct Loader;
+    [[nodiscard]] TextureId id(std::size_t texture) const {
+        return texture < textures_.size() ? textures_[texture].id : TextureId::None;
+    }
 
     void place_card(const PlacedPicture& placed, const Presentation& presentation, OnTable& on_table) const;
     void place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
@@ -69,9 +85,12 @@ private:
     RigidTransform table_from_projector_;
     double text_brightness_ = 0.6; ///< share of the projector's light
     std::vector<Card> cards_;
-    TextureId square_ = TextureId::None;
-    TextureId more_ = TextureId::None;
-    TextureId band_ = TextureId::None; ///< bright along its middle, with soft sides
+    std::vector<Texture> textures_;
+    std::size_t uploaded_ = 0; ///< of those
+    std::size_t released_ = 0; ///< the same
+    std::size_t square_ = no_texture;
+    std::size_t more_ = no_texture;
+    std::size_t band_ = no_texture; ///< bright along its middle, with soft sides
     std::uint64_t planned_gpu_bytes_ = 0;
     std::vector<std::string> notes_;
 };

@@ -57,7 +57,23 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.away_from_metal",
     "advice.show_your_head",
     "advice.done_well",
-    "pack.imported_take_stick_out",
+    "stick.found",
+    "stick.copying",
+    "stick.take_out",
+    "stick.stopped",
+    "stick.nothing_on_it",
+    "stick.taken",
+    "stick.already_there",
+    "stick.removed",
+    "stick.refused.unsigned",
+    "stick.refused.wrong_key",
+    "stick.refused.altered",
+    "stick.refused.older",
+    "stick.refused.not_a_pack",
+    "stick.refused.no_room",
+    "stick.refused.unreadable",
+    "stick.refused.unwritable",
+    "stick.refused.too_much",
     "fault.no_projector",
     "fault.no_artifact",
     "fault.no_tracker",
@@ -80,7 +96,7 @@ public:
         for (const auto& [key, node] : table) {
             const std::string name = prefix + std::string(key.str());
             const bool is_group = std::any_of(keys.begin(), keys.end(), [&](std::string_view known) {
-                return prefix.empty() && known.starts_with(name + ".");
+                return known.starts_with(name + ".");
             });
             if (is_group && node.is_table()) {
                 read(*node.as_table(), name + ".");

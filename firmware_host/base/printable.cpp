@@ -34,12 +34,17 @@ bool is_control(std::string_view character) {
            (character.size() == 2 && lead == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
 }
 
+bool directs_lines(std::string_view character) {
+    return character == "\u2028" || character == "\u2029" || (character >= "\u202A" && character <= "\u202E");
+}
+
 std::string printable(std::string_view text, std::size_t longest) {
     std::string line;
     while (!text.empty()) {
         const std::size_t bytes = character_bytes(text);
         const std::string_view character = text.substr(0, bytes);
-        const std::string_view shown = bytes == 0 || is_control(character) ? "?" : character;
+        const std::string_view shown =
+            bytes == 0 || is_control(character) || directs_lines(character) ? "?" : character;
         if (line.size() + shown.size() > longest) {
             return line + "...";
         }

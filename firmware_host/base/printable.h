@@ -14,8 +14,12 @@ namespace frustumscreen {
 /// Whether the single character `character` is a control character: C0, DEL or C1.
 [[nodiscard]] bool is_control(std::string_view character);
 
-/// `text` as one line of at most `longest` bytes, cut between characters. Control characters and bytes that
-/// are no character become '?'; a text that was cut ends in "...".
+/// Whether the single character `character` ends a line, or embeds or overrides a direction, so that what follows is shown elsewhere
+/// or backwards: U+2028 to U+202E.
+[[nodiscard]] bool directs_lines(std::string_view character);
+
+/// `text` as one line of at most `longest` bytes, cut between characters. Control characters, those that direct lines, and bytes
+/// that are no character become '?'; a text that was cut ends in "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest = 100);
 
 } // namespace frustumscreen

@@ -5,9 +5,15 @@ from bench import eventually
 from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
 
 SLOW_BYTES_PER_S = 300_000
+SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
 
 
 class Stick(StickTest):
+    def told_by_exhibit(self, import_id):
+        """What its status says of this import; None: nothing yet."""
+        told = (self.bench.status() or {}).get("import") or {}
+        return told if told.get("import_id") == import_id and told.get("stage") in ("done", "failed") else None
+
     def test_1_taken_and_shown(self):
         before = self.bench.main_process()
         pack = self.signed("nautilus-cup", 1)
@@ -18,6 +24,12 @@ class Stick(StickTest):
         self.assertEqual((report["stage"], pulled_packs(report)), ("done", {"nautilus-cup.fspack": ("taken", "none")}))
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
+        told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
+        self.assertEqual(told["stage"], "done")
+        self.bench.buttons.tell("press", 2, "300ms")  # what the table says of the stick ends, and nothing else happens
+        self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
+        self.assert_at((0.05, 0.0, 0.0), artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
 
     def test_2_unsigned(self):

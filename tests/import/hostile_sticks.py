@@ -54,10 +54,11 @@ def unlike(signer, change):
     return pack(signer, description=description)
 
 
-def raw(entries_change=None, **options):
-    """An unsigned pack whose ZIP is wrong."""
+def raw(signer, entries_change=None, **options):
+    """A signed pack whose ZIP is wrong."""
     files = parts()
-    entries = pack_entries(described(manifest(), files), files)
+    text = described(manifest(), files)
+    entries = pack_entries(text, files, signer.sign(text))
     if entries_change:
         entries = entries_change(entries) or entries
     return zip_file(entries, **options)
@@ -65,7 +66,7 @@ def raw(entries_change=None, **options):
 
 # Each of these fills a folder.
 
-def zip_directories(folder, _):
+def zip_directories(folder, signer):
     def renamed(name):
         def change(entries):
             entries[1].name = name
@@ -87,17 +88,17 @@ def zip_directories(folder, _):
         return change
 
     wrong = {
-        "up": raw(renamed(b"../../../etc/cron.d/x")), "absolute": raw(renamed(b"/etc/passwd")), "back": raw(renamed(b"..\\..\\x")),
-        "dots": raw(renamed(b"textures/../../x")), "empty_name": raw(renamed(b"")), "zero": raw(renamed(b"a\0b")),
-        "broken_utf8": raw(renamed(b"\xff\xfe\xc0\xaf")), "long": raw(renamed(b"a" * 60000)),
-        "doubled": raw(doubled), "manifest_twice": raw(first_twice), "overlapping": raw(overlapping),
-        "symlink": raw(set_of(attributes=(stat.S_IFLNK | 0o777) << 16, data=b"/etc/shadow")),
-        "other_name": raw(set_of(local_name=b"manifest.json")), "encrypted": raw(set_of(flags=1)),
-        "method": raw(set_of(method=99, packed=b"x")), "size_small": raw(set_of(size=1)), "size_large": raw(set_of(size=0x7FFFFFFF)),
-        "packed_large": raw(set_of(packed_size=0x7FFFFFFF)), "outside": raw(set_of(offset=0xFFFFFF00)),
-        "zip64": raw(set_of(size=0xFFFFFFFF)), "count_small": raw(count=1), "count_large": raw(count=60000),
-        "before": raw(before=b"#!/bin/sh\n"), "after": raw(after=b"x" * 100), "no_entry": zip_file([]),
-        "half": raw()[:200], "end_alone": raw()[-22:], "no_zip": os.urandom(70000), "nothing": b"",
+        "up": raw(signer, renamed(b"../../../etc/cron.d/x")), "absolute": raw(signer, renamed(b"/etc/passwd")), "back": raw(signer, renamed(b"..\\..\\x")),
+        "dots": raw(signer, renamed(b"textures/../../x")), "empty_name": raw(signer, renamed(b"")), "zero": raw(signer, renamed(b"a\0b")),
+        "broken_utf8": raw(signer, renamed(b"\xff\xfe\xc0\xaf")), "long": raw(signer, renamed(b"a" * 60000)),
+        "doubled": raw(signer, doubled), "manifest_twice": raw(signer, first_twice), "overlapping": raw(signer, overlapping),
+        "symlink": raw(signer, set_of(attributes=(stat.S_IFLNK | 0o777) << 16, data=b"/etc/shadow")),
+        "other_name": raw(signer, set_of(local_name=b"manifest.json")), "encrypted": raw(signer, set_of(flags=1)),
+        "method": raw(signer, set_of(method=99, packed=b"x")), "size_small": raw(signer, set_of(size=1)), "size_large": raw(signer, set_of(size=0x7FFFFFFF)),
+        "packed_large": raw(signer, set_of(packed_size=0x7FFFFFFF)), "outside": raw(signer, set_of(offset=0xFFFFFF00)),
+        "zip64": raw(signer, set_of(size=0xFFFFFFFF)), "count_small": raw(signer, count=1), "count_large": raw(signer, count=60000),
+        "before": raw(signer, before=b"#!/bin/sh\n"), "after": raw(signer, after=b"x" * 100), "no_entry": zip_file([]),
+        "half": raw(signer)[:200], "end_alone": raw(signer)[-22:], "no_zip": os.urandom(70000), "nothing": b"",
     }
     for name, data in wrong.items():
         (folder / f"{name}.fspack").write_bytes(data)
@@ -131,17 +132,16 @@ def bombs(folder, signer):
 
 
 def large_part(folder, signer):
-    """512 MiB of zeros with the right hash, as large as a part may be."""
-    block, total = bytes(1 << 20), hashlib.sha256()
+    """512 MiB of zeros with the right hash, as large as a part may be. It is the museum's own, so it may take its time."""
+    block, total, check = bytes(1 << 20), hashlib.sha256(), 0
     for _ in range(512):
         total.update(block)
-    description = manifest()
-    files = {"levels/0.bin": triangle()}
-    text = json.loads(described(description, files))
+        check = zlib.crc32(block, check)
+    text = json.loads(described(manifest(), {"levels/0.bin": triangle()}))
     text["parts"].append({"name": "textures/0.png", "bytes": 512 << 20, "sha256": total.hexdigest()})
     text = json.dumps(text).encode()
-    entries = pack_entries(text, files, signer.sign(text))
-    entries.insert(1, Entry(b"textures/0.png", b"", DEFLATED, packed=zeros(512), size=512 << 20))
+    entries = pack_entries(text, {"levels/0.bin": triangle()}, signer.sign(text))
+    entries.insert(1, Entry(b"textures/0.png", b"", DEFLATED, packed=zeros(512), size=512 << 20, check=check))
     (folder / "large.fspack").write_bytes(zip_file(entries))
 
 
@@ -209,7 +209,7 @@ def broken_parts(folder, signer):
     for name, data in levels.items():
         (folder / f"level_{name}.fspack").write_bytes(with_part(signer, "levels/0.bin", data))
     pictures = {
-        "giant": png(0x7FFFFFFF, 0x7FFFFFFF), "wide": png(100000, 100000, zeros(4)), "zero": png(0, 0, b""), "noise": os.urandom(5000),
+        "giant": png(0x7FFFFFFF, 0x7FFFFFFF, zeros(1)), "wide": png(100000, 100000, zeros(4)), "zero": png(0, 0, b""), "noise": os.urandom(5000),
         "sixteen_thousand": png(16384, 16384, zlib.compress(bytes(1 << 20))),
         "bomb": png(8192, 8192, zlib.compress(bytes(3 * 8192 * 8192 + 8192))), "webp": b"RIFF\xff\xff\xff\xffWEBPVP8L" + bytes(64),
     }
@@ -224,10 +224,10 @@ def broken_parts(folder, signer):
 
 def signatures(folder, signer):
     text = described(manifest(), parts())
-    good = signer.sign(text, 9)
+    good = signer.sign(text, 99)
     lines = good.split(b"\n")
     wrong = {"half": good[:100], "noise": os.urandom(300), "zeros": bytes(60000), "nothing": b"", "no_comment": b"\n".join(lines[:2]),
-             "comment": good.replace(b"serial:9", b"serial:99999999"), "long": good + b"x" * 65000, "too_long": good + b"x" * 200000,
+             "comment": good.replace(b"serial:99", b"serial:99999999"), "long": good + b"x" * 65000, "too_long": good + b"x" * 200000,
              "key": lines[0] + b"\n" + b"RW" + b"A" * 98 + b"\n" + b"\n".join(lines[2:]), "lines": b"\n" * 60000}
     for name, signature in wrong.items():
         (folder / f"{name}.fspack").write_bytes(zip_file(pack_entries(text, parts(), signature)))
@@ -312,17 +312,35 @@ def deep_set_file(folder, signer):
 
 CASES = (zip_directories, many_parts, bombs, large_part, no_numbers, manifests, broken_parts, signatures, no_files, names, many_files,
          many_folders, deep_folders, two_terabytes, sparse_with_end, set_files, deep_set_file)
-# Whose packs are whole, and taken if there is time.
-MAY_BE_TAKEN = {large_part}
+WHOLE = (large_part,)  # signed, and as its manifest says: its time goes by its size
 
 
 class Wrong(Exception):
     pass
 
 
+def measure():
+    """Runs the commands that standard input names, a JSON list on each line, and says what each took. It is a process of its own
+    that stays small, because the memory of a program counts from that of the process that starts it."""
+    for line in sys.stdin:
+        with subprocess.Popen(json.loads(line), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            said = process.stderr.read()
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        print(json.dumps([process.returncode, said.decode(errors="replace"), used.ru_maxrss / 1024, used.ru_utime + used.ru_stime]),
+              flush=True)
+
+
 class Kiosk:
     def __init__(self, program, folder, keys):
         self.program, self.into, self.keys = program, folder / "library", keys
+        self._measure = subprocess.Popen([sys.executable, __file__, "--measure", "."], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                         text=True)
+
+    def stop(self):
+        self._measure.stdin.close()
+        self._measure.wait()
+        self._measure.stdout.close()
 
     def list(self):
         return json.loads(subprocess.run([self.program, "--list", "--into", self.into, "--json"], check=True,
@@ -332,30 +350,25 @@ class Kiosk:
         """Status, lines, report, MiB, seconds of the processor, seconds by the clock."""
         report = self.into.parent / "report.json"
         report.unlink(missing_ok=True)
+        command = [self.program, "--from", stick, "--into", self.into, "--keys", self.keys, "--report", report]
         begun = time.monotonic()
-        with subprocess.Popen([self.program, "--from", stick, "--into", self.into, "--keys", self.keys, "--report", report],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
-            said = process.stderr.read()
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-        return (process.returncode, said, json.loads(report.read_text(encoding="utf-8")), used.ru_maxrss / 1024,
-                used.ru_utime + used.ru_stime, time.monotonic() - begun)
+        print(json.dumps([str(word) for word in command]), file=self._measure.stdin, flush=True)
+        status, said, mib, work_s = json.loads(self._measure.stdout.readline())
+        return status, said, json.loads(report.read_text(encoding="utf-8")), mib, work_s, time.monotonic() - begun
 
 
 def check(kiosk, case, stick, before):
     """The row of the table; raises Wrong."""
     status, said, report, mib, work_s, clock_s = kiosk.take(stick)
-    row = (case.__name__, len(report["packs"]), mib, work_s, clock_s, said.decode(errors="replace").split("\n")[0])
+    row = (case.__name__, len(report["packs"]), mib, work_s, clock_s, said.split("\n")[0])
     if status not in (0, 1):
         raise Wrong(f"it ended with {status}: {said[-500:]}")
-    if mib > MOST_MIB or work_s > MOST_WORK_S or clock_s > MOST_CLOCK_S:
+    if mib > MOST_MIB or (work_s > MOST_WORK_S and case not in WHOLE) or clock_s > MOST_CLOCK_S:
         raise Wrong(f"it took {mib:.0f} MiB, {work_s:.1f} s of the processor, {clock_s:.1f} s")
-    if any(byte < 32 and byte != 10 for byte in said) or "\u202e" in said.decode():
+    if any(letter < " " and letter != "\n" or letter == "\u202e" for letter in said):
         raise Wrong(f"what it says cannot be printed: {said}")
     if not report["stage"] in ("done", "failed"):
         raise Wrong(f"the report stays at {report['stage']}")
-    if case in MAY_BE_TAKEN:
-        return row
     taken = [told for told in report["packs"] if told["outcome"] not in ("refused", "already_there")]
     if report["stage"] == "done" and taken:
         raise Wrong(f"it was not refused: {taken[:2]}")
@@ -371,8 +384,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--table", type=pathlib.Path)
-    parser.add_argument("--only", default="")
+    parser.add_argument("--only", default="", help="those whose name contains this")
+    parser.add_argument("--measure", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
+    if arguments.measure:
+        measure()
+        return 0
     program = arguments.bin / "frustumscreen-import"
     if not shutil.which("minisign"):
         print("left out: minisign is not installed")
@@ -389,7 +406,8 @@ def main():
         status, said, *_ = kiosk.take(good)
         before = kiosk.list()
         if status != 0 or len(before) != 1:
-            print(f"the good pack is not taken: {said.decode()}")
+            print(f"the good pack is not taken: {said}")
+            kiosk.stop()
             return 1
         for case in CASES:
             if arguments.only not in case.__name__:
@@ -404,12 +422,13 @@ def main():
             except Wrong as why:
                 wrong += 1
                 print(f"FAILED {case.__name__}: {why}", flush=True)
-            shutil.rmtree(stick)
-        (good / "vase.fspack").write_bytes(pack(signer, 11))
+            subprocess.run(["rm", "-rf", stick], check=True)  # deeper than Python goes
+        (good / "vase.fspack").write_bytes(pack(signer, 100))
         kiosk.take(good)
-        if kiosk.list()[0]["serial"] != 11:
+        if kiosk.list()[0]["serial"] != 100:
             print("FAILED: a good stick is not taken any more")
             wrong += 1
+        kiosk.stop()
     if arguments.table:
         arguments.table.write_text("".join(f"| {' | '.join(str(cell) for cell in row)} |\n" for row in rows), encoding="utf-8")
     return 1 if wrong else 0

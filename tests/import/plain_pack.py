@@ -32,6 +32,7 @@ class Entry:
     flags: int = 0
     attributes: int = 0
     local_name: bytes = None  # what the entry itself says of its name
+    check: int = None  # CRC-32
 
 
 def deflated(data):
@@ -47,7 +48,7 @@ def zip_file(entries, count=None, before=b"", after=b""):
             entry.packed = deflated(entry.data) if entry.method == DEFLATED else entry.data
         size = len(entry.data) if entry.size is None else entry.size
         packed_size = len(entry.packed) if entry.packed_size is None else entry.packed_size
-        check = zlib.crc32(entry.data)
+        check = zlib.crc32(entry.data) if entry.check is None else entry.check
         offset = len(body) if entry.offset is None else entry.offset
         name = entry.name if entry.local_name is None else entry.local_name
         body += struct.pack("<IHHHHHIIIHH", 0x04034B50, 20, entry.flags, entry.method, 0, DATE, check, packed_size, size,
@@ -116,7 +117,7 @@ class Signer:
         self._secret = self._folder / "museum.key"
         subprocess.run(["minisign", "-G", "-W", "-f", "-p", self.public, "-s", self._secret], check=True, capture_output=True)
 
-    def sign_all(self, texts, serial=1):
+    def sign_all(self, texts, serial=20):
         """The bytes of a .minisig file for each."""
         with tempfile.TemporaryDirectory(dir=self._folder) as folder:
             files = [pathlib.Path(folder) / str(number) for number in range(len(texts))]
@@ -126,7 +127,7 @@ class Signer:
                            capture_output=True)
             return [pathlib.Path(f"{file}.minisig").read_bytes() for file in files]
 
-    def sign(self, data, serial=1):
+    def sign(self, data, serial=20):
         return self.sign_all([data], serial)[0]
 
 
@@ -139,7 +140,7 @@ def pack_entries(text, files, signature=None):
     return entries
 
 
-def pack(signer=None, serial=1, description=None, files=None):
+def pack(signer=None, serial=20, description=None, files=None):
     """The bytes of a pack, signed where there is a signer."""
     files = parts() if files is None else files
     text = described(manifest() if description is None else description, files)

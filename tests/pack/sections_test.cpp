@@ -169,8 +169,13 @@ TEST(Sections, have_few_plain_names_and_bounded_depth) {
     expect_refused("bytes of data together", [](Json& m) {
         m["sections"]["sounds"]["data"] = {{"large", std::string(1 << 20, 'x')}};
     });
-    expect_refused("more than 1048576 values", [](Json& m) {
-        m["sections"]["sounds"]["data"] = {{"many", std::vector<int>(1 << 20)}};
+    expect_refused("more than 524288 values", [](Json& m) {
+        m["sections"]["sounds"]["data"] = {{"many", std::vector<int>(1 << 19)}};
+    });
+    expect_refused("an object of more than 4096 names", [](Json& m) {
+        for (int k = 0; k <= 4096; ++k) {
+            m["sections"]["sounds"]["data"]["x" + std::to_string(k)] = 0;
+        }
     });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("sounds/en/0.opus"); });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("levels/0.bin"); });

@@ -161,7 +161,7 @@ TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLat
     step(language);
     rest();
     EXPECT_EQ(show->artifacts()[0], ArtifactState::Ready);
-    EXPECT_TRUE(show->state(step()).left_out.empty());
+    EXPECT_TRUE(show->state(step()).left_out->empty());
     EXPECT_TRUE(shown_blue());
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + caption_bytes(0, 1));
 }

@@ -70,10 +70,10 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
     await(3);
     EXPECT_EQ(show->artifacts()[1], ArtifactState::LeftOut);
     EXPECT_EQ(show->artifacts()[3], ArtifactState::LeftOut);
-    ASSERT_EQ(show->state({}).left_out.size(), 2U);
-    EXPECT_EQ(show->state({}).left_out[0].pack, files.files()[1].string());
-    EXPECT_NE(show->state({}).left_out[0].reason.find("damaged"), std::string::npos)
-        << show->state({}).left_out[0].reason;
+    ASSERT_EQ(show->state({}).left_out->size(), 2U);
+    EXPECT_EQ(show->state({}).left_out->front().pack, files.files()[1].string());
+    EXPECT_NE(show->state({}).left_out->front().reason.find("damaged"), std::string::npos)
+        << show->state({}).left_out->front().reason;
     step(next); // passes over them
     await(2);
     rest();

@@ -52,7 +52,12 @@ TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
-    const std::vector<PackLeftOut> left_out{{"cat.fspack", "there is no such file"}};
+    const auto left_out = std::make_shared<const std::vector<PackLeftOut>>(
+        std::vector<PackLeftOut>{{"cat.fspack", "there is no such file"}});
+    const auto set = std::make_shared<SetStatus>();
+    set->shown = 7;
+    set->packs.emplace_back().title = "A cat";
+    set->newest = {8, Verdict::Bad, 2, "dog.fspack: it is damaged"};
     const std::time_t before = std::time(nullptr);
     {
         StatusFile status_file(file);
@@ -61,6 +66,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
             status.artifact = "Amphora";
             status.frames = k;
             status.left_out = left_out;
+            status.set = set;
             status_file.post(status);
         }
     }
@@ -72,6 +78,10 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     EXPECT_EQ(json.at("artifact"), "Amphora");
     ASSERT_EQ(json.at("left_out").size(), 1U);
     EXPECT_EQ(json.at("left_out")[0].at("pack"), "cat.fspack");
+    EXPECT_EQ(json.at("set").at("number"), 7);
+    EXPECT_EQ(json.at("set").at("packs")[0].at("title"), "A cat");
+    EXPECT_EQ(json.at("set").at("newest").at("verdict"), "bad");
+    EXPECT_EQ(json.at("set").at("newest").at("reason"), "dog.fspack: it is damaged");
     EXPECT_EQ(json.at("left_out")[0].at("reason"), "there is no such file");
     std::tm utc{};
     const std::string written_at = json.at("written_at");

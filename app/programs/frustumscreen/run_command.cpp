@@ -5,6 +5,8 @@
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
+#include "app/show/installed_show.h"
+#include "app/show/library_watch.h"
 #include "app/show/live_exhibit.h"
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
@@ -142,12 +144,23 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     }
     ArtifactShowOptions options = request.show;
     options.waits = request.fast;
-    if (options.packs.empty()) {
+    const bool from_library = options.packs.empty();
+    if (from_library) {
         options.packs = settings.exhibit.packs;
         options.packs_key = settings.exhibit.packs_key;
     }
+    // Other sets come in real time alone: a run of simulated time is repeatable.
+    const bool watches = from_library && !request.fast && library_is_there(settings);
+    options.other_sets = watches;
+    const auto create = [&](const ArtifactShowOptions& each) {
+        return ArtifactShow::create(settings, devices, each, {display.framebuffer(), 0});
+    };
+    InstalledShow installed;
+    if (from_library) {
+        installed = show_installed_set(settings, options, create);
+    }
     Result<std::unique_ptr<ArtifactShow>> artifacts =
-        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0});
+        installed.show ? std::move(installed.show) : create(options);
     if (!artifacts) {
         return tl::unexpected<Error>(artifacts.error());
     }
@@ -155,9 +168,17 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         say_line("frustumscreen", note);
     }
     Exhibit exhibit = make_exhibit(settings, **artifacts, start);
-    return std::make_unique<LiveExhibit>(settings, std::move(*artifacts), std::move(exhibit), display.name(),
-                                         request.fast ? PromptReader::Answer::Always
-                                                      : PromptReader::Answer::WhenReady);
+    ArtifactShow& stage = **artifacts;
+    auto live = std::make_unique<LiveExhibit>(
+        settings, std::move(*artifacts), std::move(exhibit), display.name(),
+        request.fast ? PromptReader::Answer::Always : PromptReader::Answer::WhenReady);
+    if (watches) {
+        live->watch(stage, std::make_unique<LibraryWatch>(
+                               settings, LibraryWatch::SetUp{settings.exhibit.library, stage.set_options(),
+                                                             stage.expected_frames(),
+                                                             std::move(installed.start), stage.set().number}));
+    }
+    return live;
 }
 
 /// A service that cannot record says so, and the exhibit goes on without the recording.

@@ -74,8 +74,8 @@ Result<Password> ask_password(const std::string& question) {
     if (!is_at_terminal()) {
         return read_line();
     }
+    const Unseen unseen; // before the question: it drops what was typed already
     std::fprintf(stderr, "%s: ", question.c_str());
-    const Unseen unseen;
     Result<Password> password = read_line();
     std::fputc('\n', stderr); // the person's own was not shown
     return password;

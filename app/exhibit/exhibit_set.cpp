@@ -1,0 +1,137 @@
+// How the exhibit takes another set of artifacts.
+#include "app/exhibit/exhibit.h"
+#include "app/exhibit/languages.h"
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The languages in the order of their first appearance; the button goes through them in this order.
+std::vector<std::string> languages_of(const Catalogue& catalogue) {
+    std::vector<std::string> languages;
+    for (const CatalogueEntry& entry : catalogue) {
+        for (const std::string& language : entry.languages) {
+            add_language(languages, language);
+        }
+    }
+    return languages;
+}
+
+/// For each of the widths that captions are wrapped to, the size that holds them all.
+std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
+    std::vector<std::vector<glm::dvec2>> all;
+    for (const CatalogueEntry& entry : catalogue) {
+        all.insert(all.end(), entry.caption_sizes_m.begin(), entry.caption_sizes_m.end());
+        for (const DescriptionShape& description : entry.descriptions) {
+            all.push_back(description.largest_m);
+        }
+    }
+    return largest_sizes(all);
+}
+
+} // namespace
+
+Selection Exhibit::make_selection(const Catalogue& catalogue, const std::string& language,
+                                  MonotonicTime now) {
+    std::vector<std::string> languages = languages_of(catalogue);
+    const std::string first = languages.empty() ? language : languages[caption_for(language, languages)];
+    return {catalogue.size(), std::move(languages), first, now};
+}
+
+void Exhibit::make_table() {
+    table_.reset();
+    if (place_.table_pictures) {
+        table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
+                                  .picture_m = place_.picture_m,
+                                  .prop = place_.prop,
+                                  .lens_m = place_.lens_m,
+                                  .home_m = place_.attract_place_m,
+                                  .captions_m = sizes_of_all_captions(catalogue_)});
+    }
+}
+
+/// Whoever waits for it is told of nothing new meanwhile: what begins later does not put it off for ever.
+bool Exhibit::may_leave_set(MonotonicTime now) const {
+    if (state_ == State::Staff || state_ == State::Fault) {
+        return true;
+    }
+    if (selection_.at(now).changing || waits_) {
+        return false; // between two artifacts, not in the middle of a change
+    }
+    if (state_ == State::Attract) {
+        return now >= next_turn_;
+    }
+    const bool busy = tells() || speaking_ || state_ == State::Browse;
+    return !busy || now - *set_waits_since_ >= longest_wait;
+}
+
+void Exhibit::follow_set(MonotonicTime now) {
+    if (!set_is_ready_ && !leaves_set()) {
+        set_waits_since_.reset();
+        return;
+    }
+    set_waits_since_ = set_waits_since_ ? set_waits_since_ : now;
+    if (!leaves_set() && may_leave_set(now)) {
+        set_leaves_since_ = now;
+    }
+    set_left_ = leaves_set() && now - *set_leaves_since_ >= fade_time;
+}
+
+void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) const {
+    if (!leaves_set()) {
+        return;
+    }
+    const double share = 1.0 - ease(to_seconds(now - *set_leaves_since_) / to_seconds(fade_time));
+    presentation.set_share = share;
+    presentation.settled = false;
+    presentation.brightness *= share;
+    const auto dim = [share](auto& part) {
+        if (part && share > 0.0) {
+            part->brightness *= share;
+        } else {
+            part.reset(); // what is dark is not presented
+        }
+    };
+    dim(presentation.stand_in);
+    dim(presentation.caption);
+    dim(presentation.hotspot);
+    dim(presentation.advice);
+}
+
+Catalogue Exhibit::show_set(Catalogue catalogue, std::vector<AdviceLanguage> words, std::size_t artifact,
+                            MonotonicTime now) {
+    // Who chose no language has the house's, and another set may have a nearer one.
+    const std::string chosen = selection_.is_at_first_language() ? house_language_ : selection_.language();
+    Catalogue before = std::exchange(catalogue_, std::move(catalogue));
+    selection_ = make_selection(catalogue_, house_language_, now);
+    const std::vector<std::string> languages = languages_of(catalogue_);
+    selection_.begin_with(artifact, languages.empty() ? chosen : languages[caption_for(chosen, languages)],
+                          now);
+    ready_.assign(catalogue_.size(), ArtifactState::Ready);
+    offered_.assign(catalogue_.size(), true);
+    triangles_of_ = 0;
+    stand_in_ = StandIn();
+    sentences_ = Sentences(std::move(words), place_.picture_m);
+    spoken_.reset();
+    speech_due_ = false;
+    narration_ = {};
+    teller_ = Teller();
+    choose_ = help_ = answer_comes_ = false;
+    make_table();
+    placer_ = CaptionPlacer(place_.picture_m);
+    placed_ = nullptr;
+    labels_ = HotspotLabels(place_.picture_m);
+    hotspot_.reset();
+    selected_.fill(false);
+    next_turn_ = now + turn_time;
+    set_is_ready_ = set_left_ = waits_ = false;
+    set_waits_since_.reset();
+    set_leaves_since_.reset();
+    return before;
+}
+
+} // namespace frustumscreen

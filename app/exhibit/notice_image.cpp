@@ -1,0 +1,213 @@
+#include "app/exhibit/notice_image.h"
+
+#include "app/exhibit/captions.h"
+#include "app/exhibit/coverage.h"
+#include "app/exhibit/glyph_image.h"
+#include "app/exhibit/ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+using Coverage = Image<std::uint8_t>;
+
+/// In type sizes.
+constexpr double wide_em = 36.0; ///< what words are broken for at the bake
+constexpr double narrow_em = 18.0;
+constexpr double narrowest_em = 9.0;
+constexpr double most_label_em = 13.0; ///< beside a word
+constexpr double between_columns_em = 1.0;
+constexpr double between_lines_em = 0.3;
+constexpr double between_packs_em = 0.5; ///< where a pack takes two lines
+constexpr double below_sentences_em = 0.7;
+constexpr double beside_ring_em = 1.0;
+constexpr double fades_over_em = 1.5;
+
+constexpr double ring_reach_m = notice_ring_radius_m + ring_gap_m + ring_width_m;
+
+/// Set text, and the row of it that its first line stands on.
+struct SetText {
+    Coverage image;
+    int baseline = 0;
+};
+
+/// Where a text lies, from the reader's first side: from the right where the language runs from there.
+struct Piece {
+    SetText text;
+    int from_begin = 0;
+    int top = 0;
+    double brightness = 1.0;
+};
+
+class Page {
+public:
+    Page(const NoticeType& type, double width_em)
+        : type_(type), em_px_(least_caption_em_m * type.texels_per_m), width_em_(width_em) {}
+
+    void sentences(const std::vector<std::string_view>& keys, bool ring) {
+        const int ring_px = ring ? px_of(2.0 * ring_reach_m * type_.texels_per_m / em_px_) : 0;
+        const bool beside = ring && width_em_ > narrowest_em;
+        const int indent = beside ? ring_px + px_of(beside_ring_em) : 0;
+        top_ = ring && !beside ? ring_px + px_of(between_lines_em) : 0;
+        const std::size_t first = pieces_.size();
+        for (const std::string_view key : keys) {
+            add(word(key, width_em_), indent, top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0),
+                1.0);
+        }
+        if (beside) { // in the middle of one another
+            const int lower = std::max(0, (ring_px - top_) / 2);
+            for (std::size_t k = first; k < pieces_.size(); ++k) {
+                pieces_[k].top += lower;
+            }
+            top_ = std::max(top_, ring_px);
+        }
+        if (ring) {
+            reach(0, ring_px, top_);
+            ring_px_ = glm::dvec2(0.5 * ring_px, beside ? 0.5 * top_ : 0.5 * ring_px);
+        }
+    }
+
+    /// Label beside label, word beside word.
+    void columns(const std::vector<NoticeLine>& lines) {
+        std::vector<SetText> labels;
+        int column = 0;
+        for (const NoticeLine& line : lines) {
+            labels.push_back(label(line, most_label_em));
+            column = std::max(column, labels.back().image.width);
+        }
+        column += px_of(between_columns_em);
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            top_ += px_of(k == 0 ? below_sentences_em : between_lines_em);
+            row(std::move(labels[k]), word(lines[k].key, width_em_ - column / em_px_), column);
+        }
+    }
+
+    /// Words below labels, or beside them where both find room in one line.
+    void stacked(const std::vector<NoticeLine>& lines) {
+        for (const NoticeLine& line : lines) {
+            top_ += px_of(&line == &lines.front() ? below_sentences_em : between_packs_em);
+            SetText name = label(line, width_em_);
+            const int column = name.image.width + px_of(between_columns_em);
+            const double left_em = width_em_ - column / em_px_;
+            const GlyphSetting* const setting = fitting_setting(type_.runs.find(line.key), left_em);
+            if (setting != nullptr && setting->width <= left_em * em_units) {
+                row(std::move(name), word(line.key, left_em), column);
+            } else {
+                add(std::move(name), 0, top_, 1.0);
+                add(word(line.key, width_em_), 0, top_, caption_text_brightness);
+            }
+        }
+    }
+
+    [[nodiscard]] NoticeShape drawn() const {
+        NoticeShape shape;
+        shape.image.coverage = Coverage(std::max(width_, 1), std::max(height_, 1));
+        Coverage& page = shape.image.coverage;
+        for (const Piece& piece : pieces_) {
+            const int left =
+                to_the_left() ? page.width - piece.from_begin - piece.text.image.width : piece.from_begin;
+            draw_lighter(piece.text.image, piece.brightness, left, piece.top, page);
+        }
+        const glm::dvec2 size_px(page.width, page.height);
+        shape.image.size_m = size_px / type_.texels_per_m;
+        if (ring_px_) {
+            const double x = to_the_left() ? size_px.x - ring_px_->x : ring_px_->x;
+            shape.ring_m =
+                glm::dvec2(x - 0.5 * size_px.x, 0.5 * size_px.y - ring_px_->y) / type_.texels_per_m;
+        }
+        return shape;
+    }
+
+private:
+    [[nodiscard]] int px_of(double em) const { return static_cast<int>(std::lround(em * em_px_)); }
+    [[nodiscard]] bool to_the_left() const {
+        return !type_.runs.texts.empty() &&
+               type_.runs.texts.front().direction == TextDirection::RightToLeft;
+    }
+
+    [[nodiscard]] SetText word(std::string_view key, double width_em) const {
+        const GlyphSetting* const setting = fitting_setting(type_.runs.find(key), width_em);
+        if (setting == nullptr || setting->lines.empty()) {
+            return {};
+        }
+        GlyphImage image = glyph_image(type_.runs, type_.atlas, *setting, em_px_);
+        const double baseline_px = setting->lines.front().baseline * em_px_ / em_units;
+        return {std::move(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
+    }
+
+    [[nodiscard]] SetText label(const NoticeLine& line, double most_em) const {
+        const Typesetter& typesetter = type_.typesetter;
+        const bool has_file = !line.file.empty() && typesetter.can_set(line.file);
+        const std::string& text = typesetter.can_set(line.label) ? line.label
+                                  : has_file                     ? line.file
+                                                                 : "\u2013";
+        Coverage image = typesetter.line(text, em_px_);
+        if (image.width > px_of(most_em)) {
+            image = cut_off(image, px_of(most_em), px_of(fades_over_em), false);
+        }
+        return {std::move(image), px_of(Typesetter::ascent_em)};
+    }
+
+    /// Both stand on one line.
+    void row(SetText name, SetText outcome, int column) {
+        const int baseline = top_ + std::max(name.baseline, outcome.baseline);
+        const int name_top = baseline - name.baseline;
+        const int outcome_top = baseline - outcome.baseline;
+        add(std::move(name), 0, name_top, 1.0);
+        add(std::move(outcome), column, outcome_top, caption_text_brightness);
+    }
+
+    void add(SetText text, int from_begin, int top, double brightness) {
+        if (text.image.width > 0) {
+            reach(from_begin, text.image.width, top + text.image.height);
+            pieces_.push_back({std::move(text), from_begin, top, brightness});
+        }
+    }
+    void reach(int from_begin, int width, int bottom) {
+        width_ = std::max(width_, from_begin + width);
+        height_ = std::max(height_, bottom);
+        top_ = std::max(top_, bottom);
+    }
+
+    const NoticeType& type_;
+    double em_px_;
+    double width_em_;
+    std::vector<Piece> pieces_;
+    std::optional<glm::dvec2> ring_px_; ///< from the reader's first side, from the top
+    int width_ = 0, height_ = 0;
+    int top_ = 0; ///< what comes next lies below it
+};
+
+NoticeShape shape_of(const NoticeText& text, double width_em, bool in_columns, const NoticeType& type) {
+    Page page(type, width_em);
+    page.sentences(text.sentences, text.ring);
+    if (in_columns) {
+        page.columns(text.lines);
+    } else {
+        page.stacked(text.lines);
+    }
+    return page.drawn();
+}
+
+} // namespace
+
+NoticePicture draw_notice(const NoticeText& text, const NoticeText& counts, const NoticeType& type) {
+    NoticePicture picture{text, {}, {}};
+    picture.shapes.push_back(shape_of(text, wide_em, true, type));
+    picture.shapes.push_back(shape_of(text, narrow_em, false, type));
+    if (!(counts == text)) {
+        picture.shapes.push_back(shape_of(counts, narrow_em, false, type));
+    }
+    picture.shapes.push_back(shape_of(counts, narrowest_em, false, type));
+    for (const NoticeShape& shape : picture.shapes) {
+        picture.sizes_m.push_back(shape.image.size_m);
+    }
+    return picture;
+}
+
+} // namespace frustumscreen

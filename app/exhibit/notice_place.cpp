@@ -1,0 +1,73 @@
+#include "app/exhibit/notice_place.h"
+
+#include "app/exhibit/visitor_side.h"
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
+    const NoticeShape& shape = notice.picture->shapes[notice.shape];
+    if (!shape.ring_m) {
+        return std::nullopt;
+    }
+    const int quarter_turns = notice.rectangle.quarter_turns;
+    const glm::dvec2 middle = notice.rectangle.centre_m + turned(*shape.ring_m, quarter_turns);
+    TablePolygon round;
+    round.count = round.points.size();
+    for (std::size_t k = 0; k < round.count; ++k) {
+        const double angle =
+            2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(round.count);
+        round.points.at(k) = middle + notice_ring_radius_m * glm::dvec2(std::cos(angle), std::sin(angle));
+    }
+    return round;
+}
+
+void NoticePlace::look(MonotonicTime now, const NoticeSurroundings& surroundings) {
+    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::size_t count = std::min(surroundings.obstacles.size(), obstacles.size() - 1);
+    std::copy_n(surroundings.obstacles.begin(), count, obstacles.begin());
+    if (surroundings.caption && !on_caption_) {
+        obstacles.at(count++) = *surroundings.caption;
+    }
+    placer_.set_obstacles(std::span(obstacles).first(count));
+    placer_.update(now, surroundings.shadow, surroundings.hidden, surroundings.prop_m,
+                   surroundings.quarter_turns);
+}
+
+std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const SharedNotice& wanted,
+                                                 const NoticeSurroundings& surroundings) {
+    const double step = to_seconds(now - last_) / to_seconds(leaves);
+    last_ = now;
+    const bool stays = lies_ == wanted;
+    share_ = std::clamp(share_ + (stays ? step : -step), 0.0, 1.0);
+    if (!stays && (share_ <= 0.0 || placer_.at(now).opacity <= 0.0)) {
+        lies_ = wanted;
+        share_ = 1.0; // the placer fades it in
+        on_caption_ = false;
+        placer_.set_shapes(wanted ? std::span<const glm::dvec2>(wanted->sizes_m)
+                                  : std::span<const glm::dvec2>());
+    }
+    if (!lies_) {
+        return std::nullopt;
+    }
+    look(now, surroundings);
+    const CaptionPlace place = placer_.at(now);
+    const bool has_room = place.rectangle.size_m.x > 0.0;
+    on_caption_ = surroundings.caption && (has_room ? on_caption_ : !on_caption_); // each second search
+    const double brightness = place.opacity * ease(share_);
+    return brightness > 0.0
+               ? std::optional(PresentedNotice{lies_, place.shape, place.rectangle, brightness, 0.0})
+               : std::nullopt;
+}
+
+double left_to_caption(const TableRectangle& caption, const PresentedNotice& notice) {
+    const double apart = clearance(caption.corners(), notice.rectangle.corners());
+    return apart > 0.0 ? 1.0 : std::max(0.0, 1.0 - 2.0 * notice.brightness);
+}
+
+} // namespace frustumscreen

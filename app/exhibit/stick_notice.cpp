@@ -1,0 +1,217 @@
+#include "app/exhibit/stick_notice.h"
+
+#include "app/geometry/time_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double ring_follows_s = 0.3;
+
+/// In the order of ImportRefusal.
+constexpr std::array<std::string_view, import_refusal_names.size()> refusal_words{
+    "stick.refused.unreadable", // a refusal without a reason
+    "stick.refused.unsigned",   "stick.refused.wrong_key", "stick.refused.altered",
+    "stick.refused.older",      "stick.refused.not_a_pack", "stick.refused.no_room",
+    "stick.refused.unreadable", "stick.refused.unwritable", "stick.refused.too_much"};
+
+bool is_over(ImportStage stage) {
+    return stage == ImportStage::Done || stage == ImportStage::Failed;
+}
+
+double share_done(const ImportReport& report) {
+    if (report.stage == ImportStage::Found) {
+        return 0.0;
+    }
+    if (report.stage != ImportStage::Copying) {
+        return 1.0;
+    }
+    const auto all = static_cast<double>(std::max<std::uint64_t>(report.total_bytes, 1));
+    return std::min(1.0, static_cast<double>(report.done_bytes) / all);
+}
+
+/// Refusals first, then as a person asks.
+int rank_of(const ImportedPack& pack) {
+    switch (pack.outcome) {
+    case ImportOutcome::Refused:
+        return 0;
+    case ImportOutcome::Taken:
+        return 1;
+    case ImportOutcome::AlreadyThere:
+        return 2;
+    default:
+        return 3;
+    }
+}
+
+NoticeLine line_of(const ImportedPack& pack) {
+    const bool believed = pack.outcome != ImportOutcome::Refused && !pack.title.empty();
+    return {believed ? pack.title : pack.file, pack.file, outcome_word(pack.outcome, pack.refusal)};
+}
+
+/// How many of the packs, which are in their order, have each word.
+struct WordCount {
+    std::string_view key;
+    std::size_t count = 0;
+};
+std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs, std::size_t first) {
+    std::vector<WordCount> counts;
+    for (std::size_t k = first; k < packs.size(); ++k) {
+        const std::string_view key = outcome_word(packs[k]->outcome, packs[k]->refusal);
+        const auto found = std::find_if(counts.begin(), counts.end(),
+                                        [&](const WordCount& count) { return count.key == key; });
+        if (found != counts.end()) {
+            ++found->count;
+        } else {
+            counts.push_back({key, 1});
+        }
+    }
+    return counts;
+}
+
+/// The most lines of single packs that leave room for those that come together.
+std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
+    std::vector<const ImportedPack*> packs;
+    for (const ImportedPack& pack : report.packs) {
+        if (pack.outcome != ImportOutcome::Pending) {
+            packs.push_back(&pack);
+        }
+    }
+    std::stable_sort(packs.begin(), packs.end(), [](const ImportedPack* a, const ImportedPack* b) {
+        return rank_of(*a) < rank_of(*b);
+    });
+    std::size_t single = packs.size() <= most ? packs.size() : most;
+    while (single > 0 && single < packs.size() && single + count_words(packs, single).size() > most) {
+        --single;
+    }
+    std::vector<NoticeLine> lines;
+    for (std::size_t k = 0; k < single; ++k) {
+        lines.push_back(line_of(*packs[k]));
+    }
+    for (const WordCount& rest : count_words(packs, single)) {
+        lines.push_back({fmt::format("{}{}", single > 0 ? "+ " : "", rest.count), {}, rest.key});
+    }
+    return lines;
+}
+
+} // namespace
+
+std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal) {
+    switch (outcome) {
+    case ImportOutcome::Taken:
+        return "stick.taken";
+    case ImportOutcome::AlreadyThere:
+        return "stick.already_there";
+    case ImportOutcome::Removed:
+        return "stick.removed";
+    default:
+        return refusal_words.at(static_cast<std::size_t>(refusal));
+    }
+}
+
+NoticeText notice_text(const ImportReport& report, std::size_t most_lines) {
+    switch (report.stage) {
+    case ImportStage::Found:
+        return {{"stick.found"}, {}, true};
+    case ImportStage::Copying:
+        return {{"stick.copying"}, {}, true};
+    case ImportStage::MayTakeOut:
+        return {{"stick.take_out"}, {}, true};
+    case ImportStage::Done:
+        break;
+    case ImportStage::Failed: {
+        NoticeText text{{outcome_word(ImportOutcome::Refused, report.refusal)}, {}, false};
+        if (report.refusal != ImportRefusal::Unreadable) { // that one may be out already
+            text.sentences.emplace_back("stick.take_out");
+        }
+        text.lines = lines_of(report, most_lines);
+        return text;
+    }
+    }
+    NoticeText text{{"stick.take_out"}, lines_of(report, most_lines), false};
+    if (text.lines.empty()) {
+        text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
+    }
+    return text;
+}
+
+NoticeText stopped_text() {
+    return {{"stick.stopped"}, {}, false};
+}
+
+void StickNotice::take(MonotonicTime now, const ImportReport& report, bool was_there) {
+    const bool another = import_ == 0 || report.import_id != id_;
+    if (!another && report.stage == stage_ && report.done_bytes == done_bytes_) {
+        return;
+    }
+    if (another) {
+        id_ = report.import_id;
+        ++import_;
+        hidden_ = was_there && is_over(report.stage);
+        changed_ = now;
+        ring_to_ = 0.0;
+    } else if (is_over(stage_)) {
+        return; // it ended already
+    } else {
+        hidden_ = false; // what was said to have stopped goes on
+    }
+    const double full = share_done(report);
+    ring_from_ = another ? full : ring_at(now);
+    ring_to_ = full;
+    stage_ = report.stage;
+    refusal_ = report.refusal;
+    done_bytes_ = report.done_bytes;
+    changed_ = now;
+}
+
+bool StickNotice::stopped(MonotonicTime now) const {
+    return (stage_ == ImportStage::Copying && now - changed_ >= copy_patience) ||
+           (stage_ == ImportStage::Found && now - changed_ >= look_patience);
+}
+
+double StickNotice::ring_at(MonotonicTime now) const {
+    return ring_from_ + (ring_to_ - ring_from_) * ease(to_seconds(now - changed_) / ring_follows_s);
+}
+
+std::optional<ShownNotice> StickNotice::at(MonotonicTime now) const {
+    if (import_ == 0 || hidden_) {
+        return std::nullopt;
+    }
+    const bool has_stopped = stopped(now);
+    const MonotonicTime since =
+        has_stopped ? changed_ + (stage_ == ImportStage::Found ? look_patience : copy_patience) : changed_;
+    const bool lasts = !has_stopped && (stage_ == ImportStage::Found || stage_ == ImportStage::Copying);
+    if (!lasts && now - since >= told_for) {
+        return std::nullopt;
+    }
+    ShownNotice shown;
+    shown.import = import_;
+    shown.stopped = has_stopped;
+    shown.ends_at_press = has_stopped || is_over(stage_);
+    if (has_stopped) {
+        return shown;
+    }
+    if (!is_over(stage_)) {
+        shown.ring = ring_at(now);
+    }
+    if (stage_ == ImportStage::Found) {
+        shown.speech = "stick.found";
+    } else if (stage_ != ImportStage::Copying &&
+               !(stage_ == ImportStage::Failed && refusal_ == ImportRefusal::Unreadable)) {
+        shown.speech = "stick.take_out";
+    }
+    return shown;
+}
+
+bool StickNotice::press(MonotonicTime now) {
+    const std::optional<ShownNotice> shown = at(now);
+    hidden_ = hidden_ || (shown && shown->ends_at_press);
+    return shown && shown->ends_at_press;
+}
+
+} // namespace frustumscreen

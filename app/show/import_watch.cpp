@@ -1,0 +1,105 @@
+#include "app/show/import_watch.h"
+
+#include "firmware_host/base/device_thread.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t most_report_bytes = 8U << 20U;
+constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, may be taken out, over
+constexpr std::size_t lines_of_counts = 3; ///< where all of them may find no room
+constexpr int niceness = 5;                ///< the picture comes first
+
+} // namespace
+
+ImportWatch::ImportWatch(std::filesystem::path file, Draw draw, Answer answer)
+    : file_(std::move(file)), draw_(std::move(draw)), answer_(answer) {
+    if (answer_ == Answer::WhenReady) {
+        worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+    }
+}
+
+const SharedImport& ImportWatch::latest(MonotonicTime now) {
+    if (answer_ == Answer::Always && (!looked_ || now - *looked_ >= between_looks)) {
+        looked_ = now;
+        look();
+    }
+    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
+        latest_ = found_;
+    }
+    return latest_;
+}
+
+void ImportWatch::work(const std::stop_token& stop) {
+    begin_device_thread("import");
+    // On Linux this is about the calling thread alone. Where it is not allowed, it works at the usual priority.
+    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    while (!stop.stop_requested()) {
+        look();
+        std::unique_lock lock(mutex_);
+        ends_.wait_for(lock, stop, between_looks, [] { return false; });
+    }
+}
+
+void ImportWatch::look() {
+    const bool first = std::exchange(first_, false);
+    struct stat file {};
+    if (::stat(file_.c_str(), &file) != 0) {
+        mark_.reset();
+        return;
+    }
+    const FileMark mark{file.st_dev, file.st_ino, static_cast<std::uint64_t>(file.st_size),
+                        std::int64_t{file.st_mtim.tv_sec} * 1'000'000'000 + file.st_mtim.tv_nsec};
+    if (mark_ == mark) {
+        return;
+    }
+    mark_ = mark;
+    const Result<Bytes> bytes = read_file(file_, most_report_bytes);
+    Result<ImportReport> report =
+        bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
+    if (!report) {
+        const std::string line = fmt::format("{}: {}; nothing is told of it on the table", file_.string(),
+                                             report.error().message);
+        if (line != said_) {
+            say_line("frustumscreen", line);
+            said_ = line;
+        }
+        return;
+    }
+    auto seen = std::make_shared<SeenImport>();
+    seen->notice = drawn(notice_text(*report), notice_text(*report, lines_of_counts));
+    seen->stopped = drawn(stopped_text(), stopped_text());
+    seen->report = std::move(*report);
+    const SharedImport before = found_; // only this thread changes it
+    seen->was_there =
+        first || (before && before->was_there && before->report.import_id == seen->report.import_id);
+    const std::scoped_lock lock(mutex_);
+    found_ = std::move(seen);
+}
+
+/// While a stick is copied, its report changes and its words do not.
+SharedNotice ImportWatch::drawn(const NoticeText& text, const NoticeText& counts) {
+    const auto kept = std::find_if(drawn_.begin(), drawn_.end(),
+                                   [&](const SharedNotice& notice) { return notice->text == text; });
+    if (kept != drawn_.end()) {
+        return *kept;
+    }
+    SharedNotice notice = draw_(text, counts);
+    if (notice) {
+        drawn_.insert(drawn_.begin(), notice);
+        drawn_.resize(std::min(drawn_.size(), notices_kept));
+    }
+    return notice;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,56 @@
+#include "app/show/installed_show.h"
+
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace frustumscreen {
+
+bool library_is_there(const Settings& settings) {
+    std::error_code failed;
+    return !settings.exhibit.library.empty() &&
+           std::filesystem::is_directory(settings.exhibit.library, failed);
+}
+
+InstalledShow show_installed_set(
+    const Settings& settings, const ArtifactShowOptions& options,
+    const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create) {
+    InstalledShow installed;
+    if (!library_is_there(settings)) {
+        return installed;
+    }
+    const std::filesystem::path& library = settings.exhibit.library;
+    installed.start = start_library(library);
+    if (!installed.start.trouble.empty()) {
+        say_line(options.program, installed.start.trouble);
+    }
+    std::optional<SetTrial>& trial = installed.start.trial;
+    for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad one leads to the one before
+        const InstalledSet target = trial->target();
+        const SetRequest request = request_of(target, library, settings);
+        ArtifactShowOptions own = options;
+        own.packs = request.packs;
+        own.packs_key = request.packs_key;
+        own.set_number = request.number;
+        own.attract = request.attract;
+        Result<std::unique_ptr<ArtifactShow>> show = create(own);
+        const std::string fault = show ? fault_of((*show)->left_out(), false) : show.error().message;
+        if (!fault.empty()) {
+            say_line(options.program, fmt::format("set {}: {}", target.number, fault));
+            trial->refuse(target.number, fault);
+        }
+        if (show && trial->target().number == target.number) {
+            installed.show = std::move(*show);
+        }
+    }
+    if (trial) {
+        if (const Result<void> kept = keep_verdict(library, trial->verdict()); !kept) {
+            installed.start.trouble = kept.error().message;
+        }
+    }
+    return installed;
+}
+
+} // namespace frustumscreen

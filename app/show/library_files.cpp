@@ -1,0 +1,99 @@
+#include "app/show/library_files.h"
+
+#include "app/library/set_file.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t most_verdict_bytes = 64U << 10U;
+
+} // namespace
+
+std::optional<FileStamp> stamp_of_set(const std::filesystem::path& library) {
+    struct stat file {};
+    if (::stat((library / set_file_name).c_str(), &file) != 0) {
+        return std::nullopt;
+    }
+    return FileStamp{file.st_dev, file.st_ino, static_cast<std::uint64_t>(file.st_size), file.st_ctim.tv_sec,
+                     file.st_ctim.tv_nsec};
+}
+
+Result<std::optional<SetChoice>> read_choice(const std::filesystem::path& library) {
+    if (!stamp_of_set(library)) {
+        return std::optional<SetChoice>();
+    }
+    const std::filesystem::path path = library / set_file_name;
+    const Result<Bytes> bytes = read_file(path, most_set_file_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    Result<SetFile> file = parse_set_file(as_text(*bytes));
+    if (!file) {
+        return at(path.string(), file.error());
+    }
+    return std::optional(std::move(file->choice));
+}
+
+std::optional<SetVerdict> read_verdict(const std::filesystem::path& library) {
+    const Result<Bytes> bytes = read_file(library / verdict_file_name, most_verdict_bytes);
+    const Result<SetVerdict> verdict =
+        bytes ? parse_verdict(as_text(*bytes)) : Result<SetVerdict>(tl::unexpected<Error>(bytes.error()));
+    return verdict ? std::optional(*verdict) : std::nullopt;
+}
+
+Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict) {
+    const std::filesystem::path path = library / verdict_file_name;
+    std::error_code failed; // then the file cannot be written either, and that says why
+    std::filesystem::create_directories(path.parent_path(), failed);
+    return write_file(path, as_bytes(write_verdict(verdict)));
+}
+
+LibraryStart start_library(const std::filesystem::path& library) {
+    LibraryStart start;
+    Result<std::optional<SetChoice>> choice = read_choice(library);
+    if (!choice) {
+        start.trouble = choice.error().message;
+        return start;
+    }
+    if (!*choice) {
+        return start;
+    }
+    start.trial.emplace(std::move(**choice), read_verdict(library));
+    if (const Result<void> kept = keep_verdict(library, start.trial->verdict()); !kept) {
+        start.trouble = kept.error().message;
+    }
+    return start;
+}
+
+SetRequest request_of(const InstalledSet& set, const std::filesystem::path& library,
+                      const Settings& settings) {
+    SetRequest request;
+    request.number = set.number;
+    if (set.packs.empty()) {
+        request.packs = settings.exhibit.packs;
+        request.packs_key = settings.exhibit.packs_key;
+    }
+    std::transform(set.packs.begin(), set.packs.end(), std::back_inserter(request.packs),
+                   [&](const InstalledPack& pack) { return library / pack.file; });
+    std::transform(set.attract.begin(), set.attract.end(), std::back_inserter(request.attract),
+                   [](const AttractText& text) { return AttractLine{text.language, text.text}; });
+    return request;
+}
+
+std::string fault_of(const PacksLeftOut& left_out, bool shows_nothing) {
+    if (left_out && !left_out->empty()) {
+        return fmt::format("{}: {}", left_out->front().pack, left_out->front().reason);
+    }
+    return shows_nothing ? "none of its artifacts can be shown" : "";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,175 @@
+#include "app/show/library_watch.h"
+
+#include "firmware_host/base/device_thread.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// As the reader of artifacts: the picture comes first.
+constexpr int niceness = 5;
+/// A disk that is busy with a stick's packs is slow.
+constexpr Nanoseconds look_patience = std::chrono::seconds(30);
+/// Of one pack, or of all small pictures of a set.
+constexpr Nanoseconds pack_patience = std::chrono::minutes(5);
+
+} // namespace
+
+LibraryWatch::LibraryWatch(const Settings& settings, SetUp set_up)
+    : settings_(settings), set_up_(std::move(set_up)), trial_(std::move(set_up_.start.trial)),
+      offered_(set_up_.shown), on_show_(set_up_.shown), heartbeat_(monotonic_now() + look_patience) {
+    if (trial_) {
+        verdict_trouble_ = set_up_.start.trouble;
+        kept_ = trial_->verdict();
+        if (trial_->target().number == offered_) {
+            offered_set_ = shown_set_ = trial_->target();
+        } else {
+            failed_ = trial_->target().number; // the exhibit could not begin with it
+        }
+    }
+    thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+LibraryWatch::~LibraryWatch() {
+    thread_.request_stop();
+    thread_.join();
+    delete coming_.load();
+    delete gone_.load();
+}
+
+std::unique_ptr<ShownSet> LibraryWatch::take() {
+    return std::unique_ptr<ShownSet>(coming_.exchange(nullptr));
+}
+
+bool LibraryWatch::give_back(std::unique_ptr<ShownSet>& set) {
+    ShownSet* nobody = nullptr;
+    if (!gone_.compare_exchange_strong(nobody, set.get())) {
+        return false;
+    }
+    static_cast<void>(set.release());
+    return true;
+}
+
+void LibraryWatch::work(const std::stop_token& stop) {
+    begin_device_thread("library");
+    // On Linux this is about the calling thread alone. Where it is not allowed, it works at the usual priority.
+    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    while (!stop.stop_requested()) {
+        heartbeat_.promise(monotonic_now() + look_patience);
+        take_what_comes();
+        look();
+        keep();
+        follow_target(stop);
+        keep();
+        post();
+        std::unique_lock lock(mutex_);
+        stopping_.wait_for(lock, stop, set_up_.between_looks, [] { return false; });
+    }
+}
+
+void LibraryWatch::take_what_comes() {
+    if (const std::unique_ptr<ShownSet> gone(gone_.exchange(nullptr)); gone && trial_ && !gone->trouble.empty()) {
+        trial_->refuse(gone->number, gone->trouble);
+    }
+    ShownReport report;
+    if (!shown_.take(report)) {
+        return;
+    }
+    if (report.number == offered_set_.number) {
+        shown_set_ = offered_set_;
+    }
+    on_show_ = report.number;
+    if (trial_) {
+        trial_->shown(report.now, report.number, fault_of(report.left_out, report.shows_nothing));
+    }
+}
+
+void LibraryWatch::look() {
+    const std::optional<FileStamp> stamp = stamp_of_set(set_up_.library);
+    if (!stamp || stamp == stamp_) {
+        return;
+    }
+    stamp_ = stamp;
+    Result<std::optional<SetChoice>> choice = read_choice(set_up_.library);
+    trouble_ = choice ? "" : choice.error().message;
+    if (!choice || !*choice) {
+        return;
+    }
+    if (trial_) {
+        trial_->take(std::move(**choice));
+    } else {
+        trial_.emplace(std::move(**choice), read_verdict(set_up_.library));
+    }
+}
+
+/// Before anything of the set is shown, and once only where it cannot be written.
+void LibraryWatch::keep() {
+    if (!trial_ || kept_ == trial_->verdict()) {
+        return;
+    }
+    kept_ = trial_->verdict();
+    const Result<void> written = keep_verdict(set_up_.library, *kept_);
+    verdict_trouble_ = written ? "" : written.error().message;
+}
+
+void LibraryWatch::follow_target(const std::stop_token& stop) {
+    // A set that turns out bad leads to the one before: two steps at most.
+    for (int step = 0; step < 2 && trial_; ++step) {
+        const InstalledSet& target = trial_->target();
+        if (target.number == offered_ || target.number == failed_ || stop.stop_requested()) {
+            return;
+        }
+        offer(InstalledSet(target), stop);
+    }
+}
+
+void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
+    SetRequest request = request_of(set, set_up_.library, settings_);
+    request.goes_on = [&] {
+        heartbeat_.promise(monotonic_now() + pack_patience);
+        return !stop.stop_requested();
+    };
+    Result<std::unique_ptr<ShownSet>> opened =
+        open_set(settings_, set_up_.options, request, set_up_.frames);
+    if (stop.stop_requested()) {
+        return;
+    }
+    const std::string fault =
+        opened ? fault_of((*opened)->residents->left_out(), false) : opened.error().message;
+    if (!fault.empty()) {
+        trial_->refuse(set.number, fault);
+    }
+    if (!opened || trial_->target().number != set.number) {
+        failed_ = set.number;
+        return;
+    }
+    failed_.reset();
+    offered_ = set.number;
+    offered_set_ = set;
+    delete coming_.exchange(opened->release());
+}
+
+void LibraryWatch::post() {
+    SetStatus status;
+    status.shown = on_show_;
+    if (on_show_ == shown_set_.number) {
+        status.packs = shown_set_.packs;
+    }
+    if (trial_) {
+        status.newest = trial_->verdict();
+        status.on_trial = trial_->on_trial();
+    }
+    status.trouble = !trouble_.empty() ? trouble_ : verdict_trouble_;
+    if (status != posted_) {
+        posted_ = status;
+        status_.put(std::make_shared<const SetStatus>(std::move(status)));
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,243 @@
+#include "app/show/notice_show.h"
+
+#include "app/exhibit/languages.h"
+#include "app/exhibit/ring.h"
+#include "app/pack/words_file.h"
+#include "app/scene/scene_plan.h"
+#include "app/settings/lit_zone.h"
+#include "app/show/artifact_opener.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double empty_ring_brightness = 0.2; ///< of a text's
+
+Result<LanguageWords> read_house_words(const Settings& settings) {
+    const Result<Bytes> file = read_file(settings.exhibit.words);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    const Result<std::vector<WordsLanguage>> listed = list_words(*file);
+    if (!listed) {
+        return at(settings.exhibit.words.string(), listed.error());
+    }
+    std::vector<std::string> languages;
+    for (const WordsLanguage& language : *listed) {
+        languages.push_back(language.language);
+    }
+    Result<LanguageWords> words =
+        read_words(*file, languages[caption_for(settings.exhibit.language, languages)]);
+    if (!words) {
+        return at(settings.exhibit.words.string(), words.error());
+    }
+    if (words->runs.find("stick.take_out") == nullptr) {
+        return bad_input(settings.exhibit.words.string() +
+                         ": has no words for a stick; bake it again with frustumscreen-bake --words");
+    }
+    return words;
+}
+
+SharedRecording recording_of(const LanguageWords& words, const std::string& key, double gain_db) {
+    const auto sound = words.sounds.find(key);
+    if (sound == words.sounds.end()) {
+        return nullptr;
+    }
+    return std::make_shared<const Recording>(
+        Recording{fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {},
+                  gain_db});
+}
+
+/// None: nothing can be drawn, and a line says why.
+ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
+    Result<Typesetter> opened = Typesetter::open();
+    if (!opened) {
+        say_line("frustumscreen", "what is done with a stick is not told on the table: " + opened.error().message);
+        return [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
+    }
+    words.sounds.clear();
+    return [kept = std::make_shared<const LanguageWords>(std::move(words)),
+            typesetter = std::make_shared<const Typesetter>(std::move(*opened)),
+            texels_per_m](const NoticeText& text, const NoticeText& counts) {
+        return std::make_shared<const NoticePicture>(
+            draw_notice(text, counts, {kept->runs, kept->atlas, *typesetter, texels_per_m}));
+    };
+}
+
+/// A rectangle along the axes around a sign, with room for its move.
+TableRectangle around(const PlacedSign& sign) {
+    constexpr double moves_m = 0.02;
+    glm::dvec2 low = sign.corners_m[0];
+    glm::dvec2 high = low;
+    for (const glm::dvec2& corner : sign.corners_m) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    return {0.5 * (low + high), high - low + 2.0 * moves_m, 0};
+}
+
+/// What visitors are shown beside the prop, but for the caption.
+class Obstacles {
+public:
+    explicit Obstacles(const Presentation& presentation) {
+        if (presentation.sign) {
+            add(around(*presentation.sign));
+        }
+        if (presentation.advice) {
+            add(presentation.advice->rectangle);
+        }
+        if (presentation.hotspot) {
+            add(presentation.hotspot->label);
+        }
+        if (presentation.table != nullptr) {
+            for (const PlacedPicture& picture : presentation.table->pictures()) {
+                add(picture.place.whole());
+            }
+        }
+    }
+    [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
+
+private:
+    void add(const TableRectangle& rectangle) {
+        if (count_ < all_.size()) {
+            all_[count_++] = rectangle;
+        }
+    }
+    std::array<TableRectangle, CaptionPlacer::most_obstacles - 1> all_{};
+    std::size_t count_ = 0;
+};
+
+} // namespace
+
+NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
+    : prop_(make_prop(settings.prop)), lens_m_(settings.projector.table_from_projector.translation),
+      place_(picture_on_table(settings, 0.0)) {
+    ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
+    if (!settings.exhibit.words.empty()) {
+        Result<LanguageWords> words = read_house_words(settings);
+        if (words) {
+            found_ = recording_of(*words, "stick.found", found_gain_db);
+            take_out_ = recording_of(*words, "stick.take_out", 0.0);
+            draw = draws_with(std::move(*words), text_style(settings).texels_per_m);
+        } else {
+            say_line("frustumscreen",
+                     "what is done with a stick is not told on the table: " + words.error().message);
+        }
+    }
+    if (settings.sound.kind == SoundKind::None) {
+        found_ = take_out_ = nullptr;
+    }
+    watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
+}
+
+bool NoticeShow::take_press(MonotonicTime now, std::span<const Command> commands) {
+    const bool pressed = std::any_of(commands.begin(), commands.end(),
+                                     [](Command command) { return command != Command::StaffMode; });
+    return pressed && lies_there_ && notice_.press(now);
+}
+
+SharedNotice NoticeShow::wanted(const std::optional<ShownNotice>& shown) const {
+    if (!shown || !import_) {
+        return nullptr;
+    }
+    return shown->stopped ? import_->stopped : import_->notice;
+}
+
+void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentation& presentation) {
+    const SharedImport& latest = watch_->latest(now);
+    if (latest != import_) {
+        import_ = latest;
+        notice_.take(now, import_->report, import_->was_there);
+    }
+    side_.update(situation.eye_m);
+    const std::optional<ShownNotice> shown = notice_.at(now);
+    const SharedNotice notice = wanted(shown);
+    place(now, notice, situation, presentation);
+    if (presentation.notice) {
+        presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
+    }
+    lies_there_ = presentation.notice.has_value() && !presentation.staff;
+    due_.reset();
+    if (shown && lies_there_ && presentation.notice->picture == notice && !shown->speech.empty() &&
+        said_ != Said{shown->import, shown->speech}) {
+        due_ = {shown->import, shown->speech};
+    }
+    announcement_ = !due_ ? nullptr : due_->key == "stick.found" ? found_ : take_out_;
+}
+
+void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+                       Presentation& presentation) {
+    const Obstacles obstacles(presentation);
+    NoticeSurroundings surroundings{
+        hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
+        hidden_by_prop(prop_, presentation.table_from_prop, situation.eye_m),
+        glm::dvec2(presentation.table_from_prop.translation), side_.quarter_turns(), obstacles.all(), {}};
+    if (presentation.caption) {
+        surroundings.caption = presentation.caption->rectangle;
+    }
+    presentation.notice = place_.step(now, wanted, surroundings);
+    if (presentation.notice && presentation.caption) {
+        presentation.caption->brightness *=
+            left_to_caption(presentation.caption->rectangle, *presentation.notice);
+    }
+}
+
+void NoticeTextures::follow(const SharedNotice& picture, GpuStore& store) {
+    if (picture == picture_) {
+        return;
+    }
+    for (const TextureId texture : textures_) {
+        store.release(texture);
+    }
+    textures_.clear();
+    picture_ = picture;
+    if (!picture_) {
+        return;
+    }
+    for (const NoticeShape& shape : picture_->shapes) {
+        textures_.push_back(store.upload(shape.image.coverage).value_or(TextureId::None));
+    }
+    if (white_ == TextureId::None) {
+        white_ = store.upload(Image<std::uint8_t>(1, 1, 255)).value_or(TextureId::None);
+    }
+}
+
+std::uint64_t NoticeTextures::planned_gpu_bytes() const {
+    std::uint64_t bytes = white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
+    for (std::size_t k = 0; k < textures_.size(); ++k) {
+        const Image<std::uint8_t>& coverage = picture_->shapes[k].image.coverage;
+        bytes += textures_[k] != TextureId::None ? caption_gpu_bytes(coverage.width, coverage.height) : 0;
+    }
+    return bytes;
+}
+
+void NoticeTextures::place(const std::optional<PresentedNotice>& notice, double brightness,
+                           const Pinhole& projector, const RigidTransform& table_from_projector,
+                           std::span<const glm::dvec2> room, GpuStore& store, OnTable& on_table) {
+    follow(notice ? notice->picture : nullptr, store);
+    if (!notice) {
+        return;
+    }
+    on_table.add({picture_corners(on_pixels(notice->rectangle, projector, table_from_projector)),
+                  brightness * notice->brightness, textures_[notice->shape]});
+    const std::optional<TablePolygon> round = notice_ring(*notice);
+    if (!round) {
+        return;
+    }
+    const Ring ring = ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, room);
+    for (const RingPiece& piece : ring.pieces()) {
+        on_table.add({flat_corners(piece.corners_m),
+                      brightness * notice->brightness * (piece.filled ? 1.0 : empty_ring_brightness), white_});
+    }
+}
+
+} // namespace frustumscreen

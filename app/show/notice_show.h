@@ -1,0 +1,89 @@
+/// What is told of a stick, beside what visitors are shown: decided in each step, drawn from textures of its own.
+///
+///     ImportWatch -> StickNotice, NoticePlace -> Presentation::notice -> NoticeTextures -> OnTable
+///
+/// It outlives the artifacts: a set that is taken in meanwhile changes nothing of it.
+///
+/// Language the house's; its words and its speech are those of the file of words.
+/// Threads  the render thread. `step` allocates nothing while nothing new is said of a stick.
+/// Errors   without words it is not told on the table, and a line on standard error says why; the journal and the status have it.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/exhibit/stick_notice.h"
+#include "app/exhibit/visitor_side.h"
+#include "app/render/gpu_store.h"
+#include "app/settings/settings.h"
+#include "app/show/import_watch.h"
+#include "app/show/on_table.h"
+#include "app/show/prompt_reader.h"
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+class NoticeShow {
+public:
+    static constexpr double found_gain_db = -9.0; ///< nobody asked for it
+
+    /// Reads the words. `answer`: of a clock that is not the wall's, always.
+    NoticeShow(const Settings& settings, ImportWatch::Answer answer);
+
+    /// Whether a press ends what is shown; then it does nothing else.
+    [[nodiscard]] bool take_press(MonotonicTime now, std::span<const Command> commands);
+    /// Adds the notice to what the exhibit shows at this step.
+    void step(MonotonicTime now, const Situation& situation, Presentation& presentation);
+    /// What is to be said now, if nothing else is; none: nothing. It stays until it was.
+    [[nodiscard]] const SharedRecording& announcement() const { return announcement_; }
+    void announced() { said_ = due_; }
+
+    [[nodiscard]] bool speaks() const { return found_ || take_out_; }
+    /// None: nothing was said of any stick.
+    [[nodiscard]] const SharedImport& import() const { return import_; }
+
+private:
+    [[nodiscard]] SharedNotice wanted(const std::optional<ShownNotice>& shown) const;
+    void place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+               Presentation& presentation);
+
+    PropShape prop_;
+    glm::dvec3 lens_m_;
+    SharedRecording found_, take_out_; ///< spoken
+    StickNotice notice_;
+    NoticePlace place_;
+    VisitorSide side_;
+    SharedImport import_;
+    /// A word that is said once for each import.
+    struct Said {
+        std::uint64_t import = 0;
+        std::string_view key;
+        [[nodiscard]] bool operator==(const Said&) const = default;
+    };
+    std::optional<Said> said_; ///< last
+    std::optional<Said> due_;
+    SharedRecording announcement_;
+    bool lies_there_ = false;          ///< at the step before: a press is for it
+    std::optional<ImportWatch> watch_; ///< last: its thread draws with the words
+};
+
+/// A notice's pictures in the GPU's memory, while it is shown.
+class NoticeTextures {
+public:
+    /// Uploads what is new, and lets go of what is not shown. `brightness`: of texts, share of the projector's light.
+    void place(const std::optional<PresentedNotice>& notice, double brightness, const Pinhole& projector,
+               const RigidTransform& table_from_projector, std::span<const glm::dvec2> room, GpuStore& store,
+               OnTable& on_table);
+    [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
+
+private:
+    void follow(const SharedNotice& picture, GpuStore& store);
+
+    SharedNotice picture_;
+    std::vector<TextureId> textures_;    ///< by shape; none: the driver has no memory
+    TextureId white_ = TextureId::None; ///< one texel: what the ring is drawn with
+};
+
+} // namespace frustumscreen

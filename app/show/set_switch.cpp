@@ -1,0 +1,98 @@
+#include "app/show/set_switch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
+    static_cast<void>(library_->news(status_));
+    release_the_old();
+    if (coming_ && exhibit.set_has_left()) {
+        const std::size_t first = goal(state, exhibit).value_or(0);
+        leaving_ = artifacts_.exchange(std::move(coming_));
+        // The one that the exhibit had goes where it is destroyed, as the set does.
+        leaving_->catalogue =
+            exhibit.show_set(artifacts_.catalogue(), artifacts_.words(), first, now);
+        ++switches_;
+        return true;
+    }
+    take_the_new(exhibit);
+    if (coming_) {
+        bring(state, exhibit);
+    }
+    return false;
+}
+
+void SetSwitch::release_the_old() {
+    if (leaving_ && !leaving_->release_some(artifacts_.store())) {
+        static_cast<void>(library_->give_back(leaving_));
+    }
+}
+
+/// A newer set takes the place of one that has not begun to be shown.
+void SetSwitch::take_the_new(Exhibit& exhibit) {
+    if (leaving_ || exhibit.leaves_set()) {
+        return;
+    }
+    std::unique_ptr<ShownSet> newer = library_->take();
+    if (!newer) {
+        return;
+    }
+    leaving_ = std::exchange(coming_, std::move(newer));
+    exhibit.await_set(false);
+    if (const Result<void> prepared = artifacts_.prepare(*coming_); !prepared) {
+        give_up(prepared.error().message, exhibit);
+    }
+}
+
+std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) const {
+    const std::span<const ArtifactState> states = coming_->residents->states();
+    const auto can_be_shown = [&](std::size_t artifact) { return states[artifact] != ArtifactState::LeftOut; };
+    if (state != State::Attract) { // there somebody looks at it
+        const std::vector<std::string>& names = coming_->names;
+        const auto same = std::find(names.begin(), names.end(), artifacts_.set().names[exhibit.chosen()]);
+        const auto artifact = static_cast<std::size_t>(same - names.begin());
+        if (same != names.end() && can_be_shown(artifact)) {
+            return artifact;
+        }
+    }
+    for (std::size_t artifact = 0; artifact < states.size(); ++artifact) {
+        if (can_be_shown(artifact)) {
+            return artifact;
+        }
+    }
+    return std::nullopt;
+}
+
+void SetSwitch::bring(State state, Exhibit& exhibit) {
+    const std::optional<std::size_t> first = goal(state, exhibit);
+    if (!first || !coming_->trouble.empty()) {
+        give_up(first ? std::string(coming_->trouble) : fault_of(coming_->residents->left_out(), true), exhibit);
+        return;
+    }
+    const std::array<std::size_t, 1> wanted{*first};
+    const ResidentsWish wish{*first, exhibit.language(), wanted, exhibit.language()};
+    if (const Result<void> uploaded = coming_->upload(artifacts_.store(), wish, frame_bytes); !uploaded) {
+        give_up(uploaded.error().message, exhibit);
+        return;
+    }
+    exhibit.await_set(coming_->ready(wish));
+}
+
+void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
+    if (exhibit.leaves_set()) {
+        return; // it is too late: what it shows is reported then
+    }
+    coming_->trouble = trouble;
+    exhibit.await_set(false);
+    if (!leaving_) {
+        leaving_ = std::move(coming_);
+    }
+}
+
+void SetSwitch::report(MonotonicTime now, State state) {
+    library_->report({now, artifacts_.set().number, state == State::Fault, artifacts_.left_out()});
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,54 @@
+/// Which installed set is to be shown, and what has been seen of it: good, bad or not known yet.
+///
+/// Good     it was shown for `long_enough` in one piece, without a fault. A break in what is told of it, longer than
+///          `longest_silence`, begins the time anew.
+/// Bad      one of its packs cannot be shown, or it can show nothing at all, or the exhibit began with it `most_starts` times and
+///          came to no verdict. The set before comes back then, if there is one.
+/// Time     monotonic; the wall's clock is never asked, as it may be wrong. Time that goes back begins anew, too.
+/// Threads  values; one caller.
+/// Errors   none.
+#pragma once
+
+#include "app/library/installed_set.h"
+#include "firmware_host/base/time.h"
+
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+class SetTrial {
+public:
+    static constexpr Nanoseconds long_enough = std::chrono::seconds(30);
+    static constexpr Nanoseconds longest_silence = std::chrono::seconds(2);
+
+    /// The exhibit starts. `verdict`: as it was left; of another set it says nothing.
+    SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict);
+    /// Something else was installed, or the same is without `last_good` now: nothing is lost then.
+    void take(SetChoice choice);
+
+    /// To show now.
+    [[nodiscard]] const InstalledSet& target() const { return set_to_show(choice_, verdict_); }
+    /// To keep; written before `target` is shown.
+    [[nodiscard]] const SetVerdict& verdict() const { return verdict_; }
+    [[nodiscard]] const SetChoice& choice() const { return choice_; }
+    /// There is another set to go back to, and no verdict.
+    [[nodiscard]] bool on_trial() const {
+        return choice_.last_good.has_value() && verdict_.verdict == Verdict::Trying;
+    }
+
+    /// The set of this number is on show now; `fault`: why it is not good, a sentence; empty: there is none.
+    void shown(MonotonicTime now, std::uint64_t number, const std::string& fault);
+    /// The set of this number cannot be shown.
+    void refuse(std::uint64_t number, const std::string& reason);
+
+private:
+    void begin();
+
+    SetChoice choice_;
+    SetVerdict verdict_;
+    std::optional<MonotonicTime> since_; ///< it has been on show in one piece
+    MonotonicTime latest_;               ///< when that was told
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,98 @@
+/// The artifacts that are shown together, with all that is theirs: what is in memory of them, their pictures on the table, the
+/// exhibit's words in their languages.
+///
+///     open_set (any thread) -> upload some, once a frame -> shown -> release some, once a frame -> destroyed (any thread)
+///
+/// Memory   while one set comes and another is shown, both are there: the coming one adds its first artifact's levels, the
+///          caption, all small pictures and words. Budgets count each set alone.
+/// Threads  `open_set` on any, without a context. `upload` and `release_some` on the render thread, with the display's context
+///          current. A set of which nothing is in the store may be destroyed on any; that may wait for its reader.
+/// Errors   as open_artifacts; the driver has no memory.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/render/gpu_store.h"
+#include "app/scene/frame_plan.h"
+#include "app/scene/frame_time_model.h"
+#include "app/scene/scene_plan.h"
+#include "app/settings/settings.h"
+#include "app/show/advice_words.h"
+#include "app/show/artifact_opener.h"
+#include "app/show/loaded.h"
+#include "app/show/residents.h"
+#include "app/show/table_show.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The same for all sets of a run.
+struct SetOptions {
+    std::string technique = "auto"; ///< this, `samples`, `economies`, `program` and `waits`: as ArtifactShowOptions
+    int samples = 1;
+    unsigned economies = AllEconomies;
+    std::string_view program = "frustumscreen";
+    bool waits = false;
+    DevicePlan devices;
+    std::uint64_t gpu_bytes_that_stay = 0; ///< of the memory's budget, whatever set is shown
+};
+struct SetRequest {
+    std::uint64_t number = 0; ///< as InstalledSet; 0: the packs of the settings or of the command line
+    std::vector<std::filesystem::path> packs;
+    std::string packs_key; ///< as ArtifactShowOptions
+    std::vector<AttractLine> attract;
+    std::function<bool()> goes_on = [] { return true; }; ///< asked before each pack; no: the set is given up
+};
+/// What frames cost on this GPU, and the view that they are expected for.
+struct ExpectedFrames {
+    RungCost cost;
+    PropShape prop;
+    PlanView view;
+    glm::dvec3 eye_m{0.0};
+};
+
+struct ShownSet {
+    std::uint64_t number = 0;
+    Catalogue catalogue; ///< as it was opened; the exhibit has its own
+    std::vector<std::string> names; ///< by artifact: its id; without one its file. The same in another set: the same artifact
+    std::vector<std::string> languages; ///< of all captions
+    std::string trouble;                ///< why it cannot be shown after all; empty: it can
+    std::vector<std::string> notes;     ///< sentences about what a person may not have meant
+    RenderNeeds needs;
+    std::unique_ptr<Residents> residents;
+    AdviceWords words;
+    LoadedTexts word_pictures;
+    TableShow table;
+
+    /// So many bytes more, or a little more than that, towards showing what is wished for.
+    [[nodiscard]] Result<void> upload(GpuStore& store, const ResidentsWish& wish, std::uint64_t most_bytes);
+    [[nodiscard]] bool ready(const ResidentsWish& wish) const;
+    /// False: nothing is left in the store. Nothing can be shown any more.
+    bool release_some(GpuStore& store);
+
+    [[nodiscard]] TextureId word(const WordIndex& word, std::size_t shape) const;
+    [[nodiscard]] SharedRecording recording(const WordIndex& word) const;
+    /// Anything of it can be heard.
+    [[nodiscard]] bool speaks() const;
+    [[nodiscard]] std::uint64_t planned_gpu_bytes() const {
+        return word_pictures.bytes() + table.planned_gpu_bytes();
+    }
+
+private:
+    bool words_released_ = false;
+};
+
+/// `frames`: the set's reader begins at once; none: call Residents::start later.
+[[nodiscard]] Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOptions& options,
+                                                         const SetRequest& request,
+                                                         const std::optional<ExpectedFrames>& frames);
+
+} // namespace frustumscreen

@@ -1,0 +1,335 @@
+// Sets of packs that are installed while the exhibit runs: real packs, a real library's files, a display without a screen.
+
+#include "app/library/set_file.h"
+#include "app/pack/sha256.h"
+#include "app/render/read_back.h"
+#include "app/show/installed_show.h"
+#include "app/show/set_switch.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/show/shown_packs.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <thread>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+namespace fs = std::filesystem;
+
+/// With an id of its own, as curators' packs have.
+Bytes pack_of(std::size_t number) {
+    Pack pack = numbered_pack(number);
+    pack.id = fmt::format("rings-{}", number);
+    return write_pack(pack).value();
+}
+
+class SetSwitching : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() / fmt::format("frustumscreen_sets_{}", ::getpid());
+        fs::remove_all(folder);
+        fs::create_directories(folder / "packs");
+        settings.exhibit.library = folder;
+        settings.exhibit.captions = false;
+        settings.projector.pinhole = settings.projector.pinhole.scaled_to(320, 200);
+        options.technique = "finest"; // no governor: pictures can be compared
+        options.other_sets = true;
+        devices.other_packs = true;
+    }
+    void TearDown() override {
+        sets.reset(); // before the show that it is about
+        show.reset();
+        fs::remove_all(folder);
+    }
+
+    /// Of packs, by their numbers; `spoiled` counts from 0: its levels are damaged, its manifest is not.
+    InstalledSet put(std::uint64_t number, const std::vector<std::size_t>& packs,
+                     std::optional<std::size_t> spoiled = {}) {
+        InstalledSet set;
+        set.number = number;
+        for (std::size_t k = 0; k < packs.size(); ++k) {
+            Bytes bytes = pack_of(packs[k]);
+            if (spoiled == k) {
+                bytes[bytes.size() / 2] ^= std::byte{0x40};
+            }
+            InstalledPack pack;
+            pack.sha256 = sha256_hex(bytes);
+            pack.file = installed_file_name(pack.sha256);
+            pack.id = fmt::format("rings-{}", packs[k]);
+            pack.title = fmt::format("Rings {}", packs[k]);
+            pack.bytes = bytes.size();
+            EXPECT_TRUE(write_file(folder / pack.file, bytes));
+            set.packs.push_back(pack);
+        }
+        return set;
+    }
+    void install(const InstalledSet& set, const std::optional<InstalledSet>& last_good = {}) {
+        SetFile file;
+        file.choice = {set, last_good};
+        ASSERT_TRUE(write_file(folder / set_file_name, as_bytes(write_set_file(file))));
+    }
+    [[nodiscard]] std::unique_ptr<ArtifactShow> create(const ArtifactShowOptions& each) {
+        return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0}).value();
+    }
+    void start() {
+        InstalledShow installed =
+            show_installed_set(settings, options, [&](const ArtifactShowOptions& each) {
+                return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
+            });
+        ASSERT_TRUE(installed.show);
+        show = std::move(installed.show);
+        exhibit.emplace(make_exhibit(settings, *show, now));
+        sets.emplace(*show, std::make_unique<LibraryWatch>(
+                                settings, LibraryWatch::SetUp{folder, show->set_options(),
+                                                              show->expected_frames(),
+                                                              std::move(installed.start),
+                                                              show->set().number, milliseconds(2)}));
+    }
+    void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
+        now += length;
+        Situation situation;
+        situation.prop_known = true;
+        situation.eye_m = settings.eye.default_m;
+        static_cast<void>(sets->step(now, shown.state, *exhibit));
+        exhibit->note(show->artifacts());
+        shown = exhibit->step(now, commands, situation);
+        sets->report(now, shown.state);
+        static_cast<void>(
+            show->draw(now, shown, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
+    }
+    void visit() {
+        step(next);
+        step(previous);
+        rest();
+    }
+    void rest() {
+        for (int k = 0; k < 30; ++k) {
+            step();
+        }
+    }
+    /// Goes on until it is so, for at most ten seconds of the wall's clock.
+    bool await(const std::function<bool()>& is_so) {
+        const MonotonicTime begin = monotonic_now();
+        while (!is_so() && monotonic_now() - begin < seconds(10)) {
+            step();
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return is_so();
+    }
+    bool await_switches(std::uint64_t number) {
+        return await([&] { return sets->switches() >= number; });
+    }
+    [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
+    /// What an exhibit that was started with these packs alone shows.
+    Image8 picture_of(const std::vector<std::size_t>& packs) {
+        ArtifactShowOptions own = options;
+        own.other_sets = false;
+        for (const InstalledPack& pack : put(1000, packs).packs) {
+            own.packs.push_back(folder / pack.file);
+        }
+        const std::unique_ptr<ArtifactShow> alone = create(own);
+        Exhibit its = make_exhibit(settings, *alone, now);
+        for (int k = 0; k < 30; ++k) {
+            now += milliseconds(40);
+            Situation situation;
+            situation.prop_known = true;
+            situation.eye_m = settings.eye.default_m;
+            const Presentation presentation = its.step(now, {}, situation);
+            static_cast<void>(alone->draw(now, presentation, situation.eye_m, {display->framebuffer(), 0},
+                                          Redraw::Everything));
+        }
+        return picture();
+    }
+    [[nodiscard]] SetVerdict verdict() const { return read_verdict(folder).value_or(SetVerdict{}); }
+
+    fs::path folder;
+    Settings settings = steep_table();
+    ArtifactShowOptions options;
+    DevicePlan devices;
+    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
+    std::unique_ptr<ArtifactShow> show;
+    std::optional<Exhibit> exhibit;
+    std::optional<SetSwitch> sets;
+    Presentation shown;
+    MonotonicTime now{seconds(100)};
+    const std::array<Command, 1> next{Command::NextArtifact};
+    const std::array<Command, 1> previous{Command::PreviousArtifact};
+};
+
+TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
+    const Image8 expected = picture_of({4});
+    const InstalledSet one = put(1, {0, 1});
+    install(one);
+    start();
+    visit();
+    const Image8 before = picture();
+    EXPECT_NE(before.texels, expected.texels);
+    const std::uint64_t gpu_bytes = show->use().gpu_bytes;
+
+    install(put(2, {4}), one);
+    ASSERT_TRUE(await_switches(1));
+    rest();
+    EXPECT_EQ(show->set().number, 2U);
+    EXPECT_EQ(picture().texels, expected.texels);
+    EXPECT_EQ(show->state(shown).artifact, "Rings 4");
+    rest(); // the old set is released frame by frame
+    EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
+    EXPECT_LT(show->use().gpu_bytes, gpu_bytes);
+    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    ASSERT_TRUE(await([&] { return sets->status() && sets->status()->shown == 2; }));
+    EXPECT_TRUE(sets->status()->on_trial);
+    ASSERT_EQ(sets->status()->packs.size(), 1U);
+    EXPECT_EQ(sets->status()->packs[0].title, "Rings 4");
+}
+
+TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
+    install(put(1, {0, 1, 2}));
+    start();
+    visit();
+    step(next);
+    rest();
+    ASSERT_EQ(exhibit->chosen(), 1U);
+    const Image8 before = picture();
+    install(put(2, {3, 4, 1}), put(1, {0, 1, 2}));
+    ASSERT_TRUE(await_switches(1));
+    rest();
+    EXPECT_EQ(exhibit->chosen(), 2U);
+    EXPECT_EQ(picture().texels, before.texels);
+}
+
+TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
+    const InstalledSet one = put(1, {0});
+    install(put(2, {1}), one);
+    start();
+    visit();
+    for (int k = 0; k < 29; ++k) {
+        step({}, seconds(1));
+        std::this_thread::sleep_for(milliseconds(10));
+    }
+    EXPECT_EQ(verdict().verdict, Verdict::Trying);
+    ASSERT_TRUE(await([&] { return verdict().verdict == Verdict::Good; }));
+    EXPECT_EQ(sets->switches(), 0U);
+}
+
+TEST_F(SetSwitching, ASetWithABrokenPackIsNeverShown) {
+    const InstalledSet one = put(1, {0});
+    install(one);
+    start();
+    visit();
+    const InstalledSet broken = put(2, {3, 4});
+    fs::resize_file(folder / broken.packs[1].file, 100);
+    install(broken, one);
+    ASSERT_TRUE(await([&] { return verdict().number == 2 && verdict().verdict == Verdict::Bad; }));
+    rest();
+    EXPECT_NE(verdict().reason.find(broken.packs[1].file), std::string::npos) << verdict().reason;
+    EXPECT_EQ(sets->switches(), 0U);
+    EXPECT_EQ(show->set().number, 1U);
+    const InstalledSet good = put(3, {4});
+    install(good, one);
+    EXPECT_TRUE(await_switches(1));
+    EXPECT_EQ(show->set().number, 3U);
+}
+
+TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
+    const InstalledSet one = put(1, {0});
+    install(one);
+    start();
+    visit();
+    const Image8 before = picture();
+    install(put(2, {3, 4}, 1), one); // the second one's levels are read when they are wanted
+    ASSERT_TRUE(await_switches(1));
+    ASSERT_TRUE(await_switches(2));
+    rest();
+    EXPECT_EQ(show->set().number, 1U);
+    EXPECT_EQ(picture().texels, before.texels);
+    EXPECT_EQ(verdict().number, 2U);
+    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_NE(verdict().reason.find("damaged"), std::string::npos) << verdict().reason;
+}
+
+TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
+    install(put(2, {3}), put(1, {0}));
+    for (int begun = 1; begun <= most_starts; ++begun) {
+        start();
+        step();
+        EXPECT_EQ(show->set().number, 2U);
+        EXPECT_EQ(verdict().starts, begun);
+        sets.reset(); // no verdict comes of it
+        show.reset();
+    }
+    start();
+    EXPECT_EQ(show->set().number, 1U);
+    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    step();
+    rest();
+    EXPECT_EQ(sets->switches(), 0U);
+}
+
+TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
+    const InstalledSet broken = put(2, {3, 4});
+    fs::remove(folder / broken.packs[0].file);
+    install(broken, put(1, {0}));
+    start();
+    EXPECT_EQ(show->set().number, 1U);
+    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+}
+
+TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
+    install(put(1, {0}));
+    start();
+    visit();
+    const Bytes good = read_file(folder / set_file_name).value();
+    ASSERT_TRUE(write_file(folder / set_file_name, std::span(good).first(good.size() / 2)));
+    ASSERT_TRUE(await([&] { return sets->status() && !sets->status()->trouble.empty(); }));
+    EXPECT_EQ(show->set().number, 1U);
+    install(put(2, {1}), put(1, {0}));
+    EXPECT_TRUE(await_switches(1));
+    ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
+}
+
+TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
+    std::array<InstalledSet, 2> both{put(1, {0, 1}), put(2, {2, 3})};
+    install(both[0]);
+    start();
+    visit();
+    std::array<std::uint64_t, 2> gpu_bytes{}, loaded_bytes{};
+    for (std::uint64_t number = 2; number < 52; ++number) {
+        InstalledSet& set = both.at(number % 2);
+        set.number = number;
+        install(set);
+        ASSERT_TRUE(await_switches(number - 1)) << number;
+        ASSERT_TRUE(await([&] { // its artifacts are there, and nothing of the old ones
+            return show->state(shown).loaded == 2 && show->use().gpu_bytes == show->use().planned_gpu_bytes;
+        })) << number;
+        std::uint64_t& gpu = gpu_bytes.at(number % 2);
+        std::uint64_t& loaded = loaded_bytes.at(number % 2);
+        gpu = number < 4 ? show->use().gpu_bytes : gpu;
+        loaded = number < 4 ? show->state(shown).loaded_bytes : loaded;
+        EXPECT_EQ(show->use().gpu_bytes, gpu) << number;
+        EXPECT_EQ(show->state(shown).loaded_bytes, loaded) << number;
+    }
+}
+
+TEST_F(SetSwitching, TheSetsOwnLineTakesThePlaceOfTheInvitation) {
+    InstalledSet set = put(1, {0});
+    set.attract = {{"de", "Bitte anfassen"}, {"en", "Please touch"}};
+    install(set);
+    start();
+    ASSERT_EQ(show->words().size(), 1U);
+    EXPECT_EQ(show->words()[0].language, "en");
+    ASSERT_EQ(show->words()[0].texts.size(), 1U);
+    EXPECT_EQ(show->words()[0].texts[0].key, "attract_line");
+    step();
+    ASSERT_EQ(shown.state, State::Attract);
+    rest();
+    EXPECT_TRUE(shown.advice);
+    EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

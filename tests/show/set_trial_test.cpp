@@ -1,0 +1,131 @@
+// What becomes of an installed set, over time and over starts.
+
+#include "app/show/set_trial.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const MonotonicTime start{seconds(1000)};
+
+InstalledSet set_of(std::uint64_t number) {
+    InstalledSet set;
+    set.number = number;
+    return set;
+}
+SetChoice on_trial() {
+    return {set_of(8), set_of(7)};
+}
+/// Shows the set in steps of half a second.
+void show(SetTrial& trial, MonotonicTime from, Nanoseconds length, std::uint64_t number = 8) {
+    for (MonotonicTime now = from; now <= from + length; now += milliseconds(500)) {
+        trial.shown(now, number, "");
+    }
+}
+
+TEST(SetTrial, IsGoodWhenItWasShownForHalfAMinuteInOnePiece) {
+    SetTrial trial(on_trial(), std::nullopt);
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""}));
+    EXPECT_TRUE(trial.on_trial());
+    show(trial, start, milliseconds(29'500));
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+    trial.shown(start + seconds(30), 8, "");
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+    EXPECT_FALSE(trial.on_trial());
+    EXPECT_EQ(trial.target().number, 8U);
+    trial.shown(start + seconds(31), 8, "one pack went bad later"); // that is no reason to go back any more
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+}
+
+TEST(SetTrial, ASilenceOrTimeThatGoesBackBeginsTheHalfMinuteAnew) {
+    SetTrial silent(on_trial(), std::nullopt);
+    show(silent, start, seconds(20));
+    show(silent, start + milliseconds(22'100), seconds(29));
+    EXPECT_EQ(silent.verdict().verdict, Verdict::Trying);
+    show(silent, start + milliseconds(51'100), seconds(1));
+    EXPECT_EQ(silent.verdict().verdict, Verdict::Good);
+
+    SetTrial jumping(on_trial(), std::nullopt);
+    show(jumping, start + hours(1000), seconds(20));
+    show(jumping, start, seconds(29)); // no monotonic clock does that; nothing comes of it
+    EXPECT_EQ(jumping.verdict().verdict, Verdict::Trying);
+    jumping.shown(start + hours(2000), 8, ""); // nor of a leap
+    EXPECT_EQ(jumping.verdict().verdict, Verdict::Trying);
+}
+
+TEST(SetTrial, TheTimeOfAnotherSetDoesNotCount) {
+    SetTrial trial(on_trial(), std::nullopt);
+    show(trial, start, seconds(60), 7);
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+    show(trial, start + seconds(60), seconds(20), 8);
+    show(trial, start + seconds(80), seconds(1), 7);
+    show(trial, start + seconds(82), seconds(29), 8);
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+}
+
+TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
+    SetTrial trial(on_trial(), std::nullopt);
+    show(trial, start, seconds(29));
+    trial.shown(start + milliseconds(29'500), 8, "vase.fspack: it is damaged");
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Bad, 1, "vase.fspack: it is damaged"}));
+    EXPECT_EQ(trial.target().number, 7U);
+    show(trial, start + seconds(30), seconds(60), 8); // it stays on show until the other one is there
+    show(trial, start + seconds(90), seconds(60), 7);
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+}
+
+TEST(SetTrial, WithoutAnotherSetABadOneStays) {
+    SetTrial trial({set_of(8), std::nullopt}, std::nullopt);
+    EXPECT_FALSE(trial.on_trial());
+    trial.refuse(8, "it is damaged");
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(trial.target().number, 8U);
+}
+
+TEST(SetTrial, StartsWithoutAVerdictAreCountedAndTheFourthGoesBack) {
+    std::optional<SetVerdict> kept;
+    for (int begun = 1; begun <= most_starts; ++begun) {
+        SetTrial trial(on_trial(), kept);
+        show(trial, start, seconds(10)); // then the exhibit crashes
+        EXPECT_EQ(trial.target().number, 8U);
+        EXPECT_EQ(trial.verdict().starts, begun);
+        kept = trial.verdict();
+    }
+    SetTrial trial(on_trial(), kept);
+    EXPECT_EQ(trial.target().number, 7U);
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+    EXPECT_NE(trial.verdict().reason.find("3 times"), std::string::npos) << trial.verdict().reason;
+}
+
+TEST(SetTrial, AGoodSetsStartsAreNotCounted) {
+    const SetVerdict good{8, Verdict::Good, 2, ""};
+    for (int begun = 0; begun < 10; ++begun) {
+        SetTrial trial(on_trial(), good);
+        EXPECT_EQ(trial.target().number, 8U);
+        EXPECT_EQ(trial.verdict(), good);
+    }
+}
+
+TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
+    SetTrial trial({set_of(7), std::nullopt}, SetVerdict{7, Verdict::Good, 1, ""});
+    trial.take(on_trial());
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""})); // its coming is its first start
+    EXPECT_EQ(trial.target().number, 8U);
+    show(trial, start, seconds(30));
+    trial.take({set_of(8), std::nullopt}); // the importer lets go of the one before
+    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+}
+
+TEST(SetTrial, AVerdictOnAnotherSetSaysNothing) {
+    const SetTrial trial(on_trial(), SetVerdict{9, Verdict::Bad, 3, "damaged"});
+    EXPECT_EQ(trial.target().number, 8U);
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""}));
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,271 @@
+// frustumscreen-pack keygen, sign and verify from outside, beside Debian's minisign: what one writes the other takes.
+#include "tests/signature/signature_testing.h"
+
+#include <pty.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// A folder of its own for each test, in which commands run.
+class SignProgram : public ::testing::Test {
+protected:
+    struct Outcome {
+        int status = -1;
+        std::string out;
+        std::string error;
+    };
+
+    void SetUp() override {
+        folder_ = fs::absolute(std::string("sign_program_") +
+                               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::remove_all(folder_);
+        fs::create_directory(folder_);
+        ASSERT_TRUE(write_file(folder_ / "vase.fspack", samples::bytes_of(samples::full_pack())));
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// As a person would type it, without a terminal: standard input is empty unless the command says what it is.
+    [[nodiscard]] Outcome run(const std::string& command) const {
+        const std::string all =
+            fmt::format("cd '{}' && exec 0</dev/null >out.txt 2>error.txt && {}", folder_.string(), command);
+        const int ended = std::system(all.c_str());
+        return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text_of(folder_ / "out.txt"),
+                text_of(folder_ / "error.txt")};
+    }
+    [[nodiscard]] Outcome pack(const std::string& arguments, const std::string& before = {}) const {
+        return run(before + FRUSTUMSCREEN_BIN_DIR "/frustumscreen-pack " + arguments);
+    }
+    void expect_done(const Outcome& outcome) const {
+        EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.error;
+    }
+    void expect_failed(const Outcome& outcome, const std::string& words) const {
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_TRUE(outcome.error.starts_with("frustumscreen-pack: ")) << outcome.error;
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+        EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
+    }
+    /// What FORMAT.md says to do with minisign.
+    [[nodiscard]] Outcome minisign_verifies(const std::string& file, const std::string& options) const {
+        expect_done(run("python3 -c 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); "
+                        "open(\"m\", \"wb\").write(z.read(\"manifest.json\")); "
+                        "open(\"m.minisig\", \"wb\").write(z.read(\"signature\"))' " +
+                        file));
+        return run("minisign -V -m m -x m.minisig " + options);
+    }
+    /// On a terminal of its own, with these lines typed. Gives what the terminal showed.
+    std::pair<int, std::string> on_terminal(const std::string& arguments, const std::string& typed) const {
+        int terminal = -1;
+        const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+        if (child == 0) {
+            ::alarm(100); // a question that nobody answers ends the test
+            const std::string command = fmt::format("cd '{}' && exec {}/frustumscreen-pack {}",
+                                                    folder_.string(), FRUSTUMSCREEN_BIN_DIR, arguments);
+            ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+            ::_exit(127);
+        }
+        std::string shown;
+        std::size_t asked = 0;
+        std::istringstream lines(typed);
+        std::array<char, 4096> piece{};
+        for (ssize_t got = 0; (got = ::read(terminal, piece.data(), piece.size())) > 0;) {
+            shown.append(piece.data(), static_cast<std::size_t>(got));
+            // A line is typed when it is asked for: what is typed before, the terminal may show.
+            for (std::size_t at = shown.find(": ", asked); at != std::string::npos;
+                 at = shown.find(": ", asked)) {
+                asked = at + 2;
+                std::string line;
+                if (shown.size() == asked && std::getline(lines, line)) {
+                    line += '\n';
+                    EXPECT_EQ(::write(terminal, line.data(), line.size()), static_cast<ssize_t>(line.size()));
+                }
+            }
+        }
+        int ended = 0;
+        ::waitpid(child, &ended, 0);
+        ::close(terminal);
+        return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, shown};
+    }
+    void make_keys() const {
+        expect_done(pack("keygen -o house"));
+        expect_done(pack("keygen -o stranger"));
+    }
+    [[nodiscard]] nlohmann::json verified(const std::string& arguments) const {
+        return nlohmann::json::parse(pack("verify --json " + arguments).out);
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
+    const Outcome made = pack("keygen -o house");
+    expect_done(made);
+    EXPECT_NE(made.out.find("WITHOUT A PASSWORD"), std::string::npos) << made.out;
+    struct stat status {};
+    ASSERT_EQ(::stat((folder_ / "house.key").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777U, 0600U);
+    EXPECT_NE(made.out.find(public_key_line(parse_public_key(text_of(folder_ / "house.pub")).value())),
+              std::string::npos)
+        << "the settings' line is said";
+    const std::string before = text_of(folder_ / "house.key");
+    expect_failed(pack("keygen -o house"), "house.key: it is there already");
+    EXPECT_EQ(text_of(folder_ / "house.key"), before);
+    fs::remove(folder_ / "house.key");
+    expect_failed(pack("keygen -o house"), "house.pub: it is there already");
+    EXPECT_FALSE(fs::exists(folder_ / "house.key"));
+    expect_failed(pack("keygen -o nowhere/house"), "nowhere/house.key: cannot be written");
+}
+
+TEST_F(SignProgram, WhatWeSignMinisignVerifies) {
+    make_keys();
+    const Outcome done = pack("sign vase.fspack --key house.key --serial 17");
+    expect_done(done);
+    EXPECT_NE(done.out.find("serial 17"), std::string::npos) << done.out;
+    const Outcome verified = minisign_verifies("vase.fspack", "-H -p house.pub");
+    expect_done(verified);
+    EXPECT_NE(verified.out.find("Trusted comment: serial:17\tfile:vase.fspack\thashed"), std::string::npos)
+        << verified.out;
+    EXPECT_NE(minisign_verifies("vase.fspack", "-p stranger.pub").status, 0);
+    expect_done(run("echo >> m && ! minisign -V -m m -x m.minisig -p house.pub"));
+}
+
+TEST_F(SignProgram, WhatMinisignSignsIsVerifiedHere) {
+    expect_done(run("minisign -G -W -p curator.pub -s curator.key"));
+    const Bytes plain = samples::bytes_of(samples::pack());
+    ASSERT_TRUE(write_file(folder_ / "m", testing::manifest_of(plain)));
+    for (const std::string options : {"", "-l", "-t 'serial:5 of today'"}) {
+        expect_done(run("minisign -S -s curator.key -m m " + options));
+        const Bytes with = with_signature(plain, text_of(folder_ / "m.minisig")).value();
+        ASSERT_TRUE(write_file(folder_ / "theirs.fspack", with));
+        const nlohmann::json json = verified("theirs.fspack --key curator.pub");
+        EXPECT_EQ(json[0]["signed"], true) << json;
+        EXPECT_EQ(json[0]["key"], "curator");
+    }
+    EXPECT_EQ(verified("theirs.fspack --key curator.pub")[0]["serial"], 5);
+}
+
+TEST_F(SignProgram, MinisignSignsWithOurKeysAndWeWithIts) {
+    make_keys();
+    expect_done(run("minisign -S -s house.key -m house.pub && minisign -V -m house.pub -p house.pub"));
+    expect_done(run("minisign -R -s house.key -p again.pub && cmp house.pub again.pub"));
+    expect_done(run("minisign -G -W -p curator.pub -s curator.key"));
+    expect_done(pack("sign vase.fspack --key curator.key"));
+    expect_done(minisign_verifies("vase.fspack", "-p curator.pub"));
+    expect_done(pack("verify vase.fspack --key house.pub --key curator.pub"));
+}
+
+TEST_F(SignProgram, APasswordIsAskedUnseenAndTwice) {
+    const auto [twice_different, shown] = on_terminal("keygen -o secret", "one\nanother\n");
+    EXPECT_EQ(twice_different, 1) << shown;
+    EXPECT_NE(shown.find("are not the same"), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("another"), std::string::npos) << "the password is on the screen: " << shown;
+    EXPECT_FALSE(fs::exists(folder_ / "secret.key"));
+
+    const auto [made, said] = on_terminal("keygen -o secret", "sesame\nsesame\n");
+    ASSERT_EQ(made, 0) << said;
+    EXPECT_EQ(said.find("sesame"), std::string::npos) << said;
+    EXPECT_NE(said.find("encrypted with your password"), std::string::npos) << said;
+    expect_done(run("printf 'sesame\\n' | minisign -S -s secret.key -m vase.fspack"));
+
+    expect_failed(pack("sign vase.fspack --key secret.key"), "no password came");
+    const auto [done, asked] = on_terminal("sign vase.fspack --key secret.key", "sesame\n");
+    EXPECT_EQ(done, 0) << asked;
+    EXPECT_NE(asked.find("Password of secret.key: "), std::string::npos) << asked;
+    expect_done(minisign_verifies("vase.fspack", "-p secret.pub"));
+}
+
+TEST_F(SignProgram, VerifySaysWhoSigned) {
+    make_keys();
+    EXPECT_EQ(verified("vase.fspack")[0]["signed"], false);
+    expect_failed(pack("verify vase.fspack --key house.pub"), "vase.fspack: it is not signed");
+    expect_done(pack("sign vase.fspack --key house.key --serial 3"));
+    const Outcome unchecked = pack("verify vase.fspack");
+    expect_done(unchecked);
+    EXPECT_NE(unchecked.out.find("serial 3, which nobody checked"), std::string::npos) << unchecked.out;
+    const Outcome checked = pack("verify vase.fspack --key stranger.pub --key house.pub");
+    expect_done(checked);
+    EXPECT_NE(checked.out.find("sound, signed by house, serial 3"), std::string::npos) << checked.out;
+    const nlohmann::json json = verified("vase.fspack --key house.pub")[0];
+    EXPECT_EQ(json["sound"], true);
+    EXPECT_EQ(json["signed"], true);
+    EXPECT_EQ(json["checked"], true);
+    EXPECT_EQ(json["key"], "house");
+    EXPECT_EQ(json["serial"], 3);
+    EXPECT_EQ(json["trusted_comment"], "serial:3\tfile:vase.fspack\thashed");
+    expect_failed(pack("verify vase.fspack --key stranger.pub"), "none of those known here (stranger)");
+    EXPECT_EQ(verified("vase.fspack --key stranger.pub")[0]["signed"], false);
+    EXPECT_NE(pack("list vase.fspack").out.find("serial 3, not checked"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(pack("explain vase.fspack --json").out)["serial"], 3);
+    expect_failed(pack("verify vase.fspack --key vase.fspack"), "vase.fspack: ");
+}
+
+TEST_F(SignProgram, ASerialDoesNotGoBackUnlessItIsSaid) {
+    make_keys();
+    expect_done(pack("sign vase.fspack --key house.key"));
+    const auto now = static_cast<std::uint64_t>(std::time(nullptr));
+    const auto serial = verified("vase.fspack --key house.pub")[0]["serial"].get<std::uint64_t>();
+    EXPECT_LE(serial, now);
+    EXPECT_GT(serial + 600, now);
+    expect_done(pack("sign vase.fspack --key house.key --serial 99999999999"));
+    const std::string before = text_of(folder_ / "vase.fspack");
+    expect_failed(pack("sign vase.fspack --key house.key"),
+                  "vase.fspack: its signature has the serial 99999999999 already");
+    EXPECT_EQ(text_of(folder_ / "vase.fspack"), before);
+    expect_done(pack("sign vase.fspack --key house.key --serial 12"));
+    EXPECT_EQ(verified("vase.fspack --key house.pub")[0]["serial"], 12);
+    for (const char* wrong : {"0", "-1", "x", "9007199254740992"}) {
+        EXPECT_EQ(pack(fmt::format("sign vase.fspack --key house.key --serial {}", wrong)).status, 2)
+            << wrong;
+    }
+}
+
+TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
+    make_keys();
+    samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
+    entries.parts[0].second[0] ^= std::byte{1};
+    const Bytes broken = samples::put_together(entries);
+    ASSERT_TRUE(write_file(folder_ / "broken.fspack", broken));
+    fs::copy_file(folder_ / "vase.fspack", folder_ / "bowl.fspack");
+    const Outcome outcome = pack("sign vase.fspack broken.fspack bowl.fspack --key house.key --json");
+    expect_failed(outcome, "broken.fspack: ");
+    const nlohmann::json json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json[0]["signed"], true);
+    EXPECT_EQ(json[1]["signed"], false);
+    EXPECT_EQ(json[2]["file"], "bowl.fspack");
+    expect_done(pack("verify vase.fspack bowl.fspack --key house.pub"));
+    EXPECT_EQ(text_of(folder_ / "broken.fspack"), as_text(broken));
+    expect_failed(pack("sign vase.fspack --key house.pub"), "house.pub: this is not a minisign secret key");
+    expect_failed(pack("sign house.pub --key house.key"), "house.pub: this is not a pack");
+}
+
+TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
+    make_keys();
+    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("packs = [\"vase.fspack\"]\n")));
+    expect_done(pack("sign exhibit.toml --key house.key --serial 8"));
+    EXPECT_EQ(text_of(folder_ / "exhibit.toml"), "packs = [\"vase.fspack\"]\n");
+    const Outcome verified = run("minisign -V -m exhibit.toml -p house.pub");
+    expect_done(verified);
+    EXPECT_NE(verified.out.find("serial:8\tfile:exhibit.toml"), std::string::npos) << verified.out;
+    expect_done(pack("sign exhibit.toml --key house.key"));
+    expect_done(pack("sign exhibit.toml --key house.key --serial 99999999999"));
+    expect_failed(pack("sign exhibit.toml --key house.key"), "exhibit.toml: its signature has the serial");
+}
+
+} // namespace
+} // namespace frustumscreen
