@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 #include <utility>
 
 namespace frustumscreen {
@@ -66,13 +65,6 @@ InstalledPack described(const SignedPack& opened, std::uint64_t bytes) {
 
 tl::unexpected<ImportFailure> failed(ImportFailure failure) {
     return tl::unexpected<ImportFailure>(std::move(failure));
-}
-
-ImportFailure too_large() {
-    return {ImportRefusal::TooMuch,
-            "its manifest takes more memory than an import may; bake it again with fewer "
-            "texts and parts",
-            false};
 }
 
 tl::unexpected<ImportFailure> changed() {
@@ -173,10 +165,8 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
 
 } // namespace
 
-namespace {
-
-tl::expected<StickPack, ImportFailure> look_at(FileTree& tree, const std::string& path,
-                                               const PackTrust& trust) {
+tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
+                                                    const PackTrust& trust) {
     int fault = 0;
     const FileResult<WatchedPack> opened = open_watched(tree, path, trust, fault);
     if (!opened) {
@@ -189,17 +179,6 @@ tl::expected<StickPack, ImportFailure> look_at(FileTree& tree, const std::string
     pack.told.file = printable(path);
     pack.told.title = printable(pack.pack.title, 1000);
     return pack;
-}
-
-} // namespace
-
-tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
-                                                    const PackTrust& trust) {
-    try {
-        return look_at(tree, path, trust);
-    } catch (const std::bad_alloc&) { // the program has bounded its memory
-        return failed(too_large());
-    }
 }
 
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,

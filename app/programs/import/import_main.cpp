@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,17 +12,6 @@
 
 namespace frustumscreen {
 namespace {
-
-/// Whatever a stick holds, the exhibit beside it keeps its memory: what goes beyond is refused. With the program itself these
-/// are less than 64 MiB.
-void bound_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    constexpr rlim_t most_bytes = rlim_t{44} << 20U;
-    const rlimit limit{most_bytes, most_bytes};
-    static_cast<void>(
-        ::setrlimit(RLIMIT_DATA, &limit)); // where it may not be set, the service's own limit is there
-#endif
-}
 
 int complain(const std::string& message) {
     fmt::print(stderr, "frustumscreen-import: {}\n", message);
@@ -114,7 +102,6 @@ int run(int argc, char** argv) {
         const char* result = std::getenv("SERVICE_RESULT");
         return exit_status("frustumscreen-import", tell_ended(arguments, result != nullptr ? result : ""));
     }
-    bound_memory();
     arguments.allow_unsigned = unsigned_packs == "allow";
     return to_list ? list(arguments)
                    : say(is_unmounted ? tell_unmounted(arguments) : import_from(arguments), arguments);
