@@ -148,11 +148,21 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         const double ms = median_ms(rung, prop, view, renderer, target);
         times.push_back({rung.samples, work(rung.samples), ms});
     }
-    if (fades()) { // the driver makes the fade's shaders now and not in the middle of the first one
-        plan_frame(prop, fade(levels_[0].placed, levels_[1].placed, 0.5), view, plan_);
-        renderer.draw(plan_, target, Redraw::Everything);
-        wait_until_drawn();
+    // The driver makes its own programs at the first draw with a shader: now, and not in the middle of a fade or with the first
+    // artifact that leaves out texels.
+    for (const ShaderKey& key : renderer.shaders()) {
+        if (key.pass == ShaderKey::Pass::Surface && !key.places && key.even_light == view.light.has_value()) {
+            PlacedLevel level = levels_.front().placed;
+            level.drawable.material.cut_out = key.cut_out;
+            if (key.dithered) {
+                plan_frame(prop, fade(level, level, 0.5), view, plan_);
+            } else {
+                plan_frame(prop, level, view, plan_);
+            }
+            renderer.draw(plan_, target, Redraw::Everything);
+        }
     }
+    wait_until_drawn();
     start(times);
 }
 

@@ -27,8 +27,10 @@ public:
     /// Something else was installed, or the same is without `last_good` now: nothing is lost then.
     void take(SetChoice choice);
 
-    /// To show now.
-    [[nodiscard]] const InstalledSet& target() const { return set_to_show(choice_, verdict_); }
+    /// To show now. This start is counted already, so that `set_to_show` of the verdict is about the next one.
+    [[nodiscard]] const InstalledSet& target() const {
+        return verdict_.verdict == Verdict::Bad && choice_.last_good ? *choice_.last_good : choice_.set;
+    }
     /// To keep; written before `target` is shown.
     [[nodiscard]] const SetVerdict& verdict() const { return verdict_; }
     [[nodiscard]] const SetChoice& choice() const { return choice_; }
