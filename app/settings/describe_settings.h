@@ -238,8 +238,9 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                   "after so long without a visitor the artifacts come in turn, in the first language");
     fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
                    "10^6 bytes that loaded artifacts may take; what was shown least recently goes first");
-    fields.path("import_report", exhibit.import_report,
-                "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
+    fields.path(
+        "import_report", exhibit.import_report,
+        "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
 }
 
 void hour_settings(auto& fields, auto& hour) {
