@@ -80,7 +80,7 @@ CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, con
     for (const SetPart& part : set.parts) {
         const bool flush_right = part.direction == TextDirection::RightToLeft;
         draw_lighter(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
-             flush_right ? set.width_px - part.extent.width_px : 0, top, caption.coverage);
+                     flush_right ? set.width_px - part.extent.width_px : 0, top, caption.coverage);
         top += part.extent.height_px + set.gap_px;
     }
     caption.size_m = glm::dvec2(caption.coverage.width, caption.coverage.height) / texels_per_m;

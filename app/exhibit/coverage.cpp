@@ -23,7 +23,7 @@ const GlyphSetting* fitting_setting(const GlyphText* text, double width_em) {
 }
 
 void draw_lighter(const Image<std::uint8_t>& from, double brightness, int left, int top,
-          Image<std::uint8_t>& onto) {
+                  Image<std::uint8_t>& onto) {
     for (int y = 0; y < from.height; ++y) {
         for (int x = 0; x < from.width; ++x) {
             std::uint8_t& texel = onto.at(left + x, top + y);

@@ -17,11 +17,13 @@ namespace {
 using Coverage = Image<std::uint8_t>;
 
 /// In type sizes.
-constexpr double wide_em = 36.0; ///< what words are broken for at the bake
+constexpr double wide_em = 36.0;   ///< what words are broken for at the bake
+constexpr double middle_em = 25.0; ///< beside a prop in the middle of the table
 constexpr double narrow_em = 18.0;
 constexpr double narrowest_em = 9.0;
-constexpr double most_label_em = 13.0; ///< beside a word
+constexpr double most_label_share = 0.36; ///< of the width, beside a word
 constexpr double between_columns_em = 1.0;
+constexpr double number_em = 2.5;
 constexpr double between_lines_em = 0.3;
 constexpr double between_packs_em = 0.5; ///< where a pack takes two lines
 constexpr double below_sentences_em = 0.7;
@@ -56,8 +58,8 @@ public:
         top_ = ring && !beside ? ring_px + px_of(between_lines_em) : 0;
         const std::size_t first = pieces_.size();
         for (const std::string_view key : keys) {
-            add(word(key, width_em_), indent, top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0),
-                1.0);
+            add(word(key, width_em_, caption_title_em), indent,
+                top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0), 1.0);
         }
         if (beside) { // in the middle of one another
             const int lower = std::max(0, (ring_px - top_) / 2);
@@ -77,7 +79,7 @@ public:
         std::vector<SetText> labels;
         int column = 0;
         for (const NoticeLine& line : lines) {
-            labels.push_back(label(line, most_label_em));
+            labels.push_back(label(line, most_label_share * width_em_));
             column = std::max(column, labels.back().image.width);
         }
         column += px_of(between_columns_em);
@@ -89,13 +91,20 @@ public:
 
     /// Words below labels, or beside them where both find room in one line.
     void stacked(const std::vector<NoticeLine>& lines) {
+        const bool numbers =
+            std::all_of(lines.begin(), lines.end(), [](const NoticeLine& line) { return line.file.empty(); });
+        if (numbers) {
+            columns(lines);
+            return;
+        }
         for (const NoticeLine& line : lines) {
             top_ += px_of(&line == &lines.front() ? below_sentences_em : between_packs_em);
             SetText name = label(line, width_em_);
-            const int column = name.image.width + px_of(between_columns_em);
+            const int least = line.file.empty() ? px_of(number_em) : 0; // numbers have one column
+            const int column = std::max(name.image.width, least) + px_of(between_columns_em);
             const double left_em = width_em_ - column / em_px_;
             const GlyphSetting* const setting = fitting_setting(type_.runs.find(line.key), left_em);
-            if (setting != nullptr && setting->width <= left_em * em_units) {
+            if (setting != nullptr && setting->lines.size() == 1 && setting->width <= left_em * em_units) {
                 row(std::move(name), word(line.key, left_em), column);
             } else {
                 add(std::move(name), 0, top_, 1.0);
@@ -126,17 +135,17 @@ public:
 private:
     [[nodiscard]] int px_of(double em) const { return static_cast<int>(std::lround(em * em_px_)); }
     [[nodiscard]] bool to_the_left() const {
-        return !type_.runs.texts.empty() &&
-               type_.runs.texts.front().direction == TextDirection::RightToLeft;
+        return !type_.runs.texts.empty() && type_.runs.texts.front().direction == TextDirection::RightToLeft;
     }
 
-    [[nodiscard]] SetText word(std::string_view key, double width_em) const {
-        const GlyphSetting* const setting = fitting_setting(type_.runs.find(key), width_em);
+    /// `em`: its type size.
+    [[nodiscard]] SetText word(std::string_view key, double width_em, double em = 1.0) const {
+        const GlyphSetting* const setting = fitting_setting(type_.runs.find(key), width_em / em);
         if (setting == nullptr || setting->lines.empty()) {
             return {};
         }
-        GlyphImage image = glyph_image(type_.runs, type_.atlas, *setting, em_px_);
-        const double baseline_px = setting->lines.front().baseline * em_px_ / em_units;
+        GlyphImage image = glyph_image(type_.runs, type_.atlas, *setting, em * em_px_);
+        const double baseline_px = setting->lines.front().baseline * em * em_px_ / em_units;
         return {std::move(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
     }
 
@@ -199,10 +208,8 @@ NoticeShape shape_of(const NoticeText& text, double width_em, bool in_columns, c
 NoticePicture draw_notice(const NoticeText& text, const NoticeText& counts, const NoticeType& type) {
     NoticePicture picture{text, {}, {}};
     picture.shapes.push_back(shape_of(text, wide_em, true, type));
-    picture.shapes.push_back(shape_of(text, narrow_em, false, type));
-    if (!(counts == text)) {
-        picture.shapes.push_back(shape_of(counts, narrow_em, false, type));
-    }
+    picture.shapes.push_back(shape_of(text, middle_em, true, type));
+    picture.shapes.push_back(shape_of(counts, narrow_em, false, type));
     picture.shapes.push_back(shape_of(counts, narrowest_em, false, type));
     for (const NoticeShape& shape : picture.shapes) {
         picture.sizes_m.push_back(shape.image.size_m);

@@ -4,7 +4,7 @@
 /// from right to left are mirrored: the title is at the right. A title or a file's name that the kiosk's typeface cannot set, as it
 /// shapes no letters, is left out for the other one, then for a dash.
 ///
-/// Units    metres on the table; type of 24 pt. Coverage is linear light, 255 = white; row 0 at the top.
+/// Units    metres on the table; type of 24 pt, sentences larger, as a caption's title. Coverage is linear light, 255 = white; row 0 at the top.
 /// Threads  as Typesetter; never in a frame.
 /// Errors   none: a word that is not there is left out.
 #pragma once

@@ -29,10 +29,18 @@ std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
 
 void NoticePlace::look(MonotonicTime now, const NoticeSurroundings& surroundings) {
     std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
-    std::size_t count = std::min(surroundings.obstacles.size(), obstacles.size() - 1);
-    std::copy_n(surroundings.obstacles.begin(), count, obstacles.begin());
-    if (surroundings.caption && !on_caption_) {
-        obstacles.at(count++) = *surroundings.caption;
+    std::size_t count = 0;
+    const auto add = [&](std::span<const TableRectangle> more) {
+        const std::size_t fit = std::min(more.size(), obstacles.size() - count);
+        std::copy_n(more.begin(), fit, obstacles.begin() + static_cast<std::ptrdiff_t>(count));
+        count += fit;
+    };
+    if (surroundings.caption && beside_ != Beside::AllButCaption) {
+        add(std::span(&*surroundings.caption, 1));
+    }
+    add(surroundings.obstacles);
+    if (beside_ == Beside::All) {
+        add(surroundings.kept);
     }
     placer_.set_obstacles(std::span(obstacles).first(count));
     placer_.update(now, surroundings.shadow, surroundings.hidden, surroundings.prop_m,
@@ -48,7 +56,7 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
     if (!stays && (share_ <= 0.0 || placer_.at(now).opacity <= 0.0)) {
         lies_ = wanted;
         share_ = 1.0; // the placer fades it in
-        on_caption_ = false;
+        beside_ = Beside::All;
         placer_.set_shapes(wanted ? std::span<const glm::dvec2>(wanted->sizes_m)
                                   : std::span<const glm::dvec2>());
     }
@@ -57,8 +65,11 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
     }
     look(now, surroundings);
     const CaptionPlace place = placer_.at(now);
-    const bool has_room = place.rectangle.size_m.x > 0.0;
-    on_caption_ = surroundings.caption && (has_room ? on_caption_ : !on_caption_); // each second search
+    if (!(place.rectangle.size_m.x > 0.0)) {
+        beside_ = beside_ == Beside::All                 ? Beside::AllButEmptyPlaces
+                  : beside_ == Beside::AllButEmptyPlaces ? Beside::AllButCaption
+                                                         : Beside::All;
+    }
     const double brightness = place.opacity * ease(share_);
     return brightness > 0.0
                ? std::optional(PresentedNotice{lies_, place.shape, place.rectangle, brightness, 0.0})

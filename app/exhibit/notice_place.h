@@ -1,8 +1,8 @@
 /// Where on the table a notice lies: beside the prop and beside what visitors are shown there, and it gives way to that.
 ///
-/// A notice fades in at the best place that there is, stays there, and fades out before the next one comes. It lies beside the
-/// caption; where it finds no room there it lies in the caption's place, which dims meanwhile. Pictures to choose from, words and
-/// signs of guidance are never covered: a notice waits until there is room.
+/// A notice fades in at the best place that there is, stays there, and fades out before the next one comes. It lies beside all else;
+/// without room there, where a picture to choose would lie that is not shown now; then in the caption's place, which dims
+/// meanwhile. Pictures to choose from, words and signs of guidance are never covered: a notice waits until there is room.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -14,6 +14,7 @@
 #include "app/exhibit/notice_image.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,8 +38,10 @@ struct NoticeSurroundings {
     std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
     std::optional<TablePolygon> hidden; ///< and from the eye
     glm::dvec2 prop_m{0.0};
-    int quarter_turns = 0;                     ///< the reader's side
-    std::span<const TableRectangle> obstacles; ///< less than CaptionPlacer::most_obstacles
+    int quarter_turns = 0; ///< the reader's side
+    /// With the kept ones and the caption at most CaptionPlacer::most_obstacles.
+    std::span<const TableRectangle> obstacles;
+    std::span<const TableRectangle> kept; ///< empty places, where something may come
     std::optional<TableRectangle> caption;
 };
 
@@ -56,9 +59,11 @@ private:
     void look(MonotonicTime now, const NoticeSurroundings& surroundings);
 
     CaptionPlacer placer_;
-    SharedNotice lies_;       ///< that the placer has
-    bool on_caption_ = false; ///< beside it there was no room
-    double share_ = 0.0;      ///< of its light; it falls while another is wanted
+    SharedNotice lies_; ///< that the placer has
+    /// What it lies beside: the next one is tried where there was no room.
+    enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
+    Beside beside_ = Beside::All;
+    double share_ = 0.0; ///< of its light; it falls while another is wanted
     MonotonicTime last_;
 };
 

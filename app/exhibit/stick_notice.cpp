@@ -16,7 +16,7 @@ constexpr double ring_follows_s = 0.3;
 /// In the order of ImportRefusal.
 constexpr std::array<std::string_view, import_refusal_names.size()> refusal_words{
     "stick.refused.unreadable", // a refusal without a reason
-    "stick.refused.unsigned",   "stick.refused.wrong_key", "stick.refused.altered",
+    "stick.refused.unsigned",   "stick.refused.wrong_key",  "stick.refused.altered",
     "stick.refused.older",      "stick.refused.not_a_pack", "stick.refused.no_room",
     "stick.refused.unreadable", "stick.refused.unwritable", "stick.refused.too_much"};
 
@@ -58,6 +58,7 @@ NoticeLine line_of(const ImportedPack& pack) {
 struct WordCount {
     std::string_view key;
     std::size_t count = 0;
+    const ImportedPack* first = nullptr;
 };
 std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs, std::size_t first) {
     std::vector<WordCount> counts;
@@ -68,7 +69,7 @@ std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs
         if (found != counts.end()) {
             ++found->count;
         } else {
-            counts.push_back({key, 1});
+            counts.push_back({key, 1, packs[k]});
         }
     }
     return counts;
@@ -82,9 +83,8 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
             packs.push_back(&pack);
         }
     }
-    std::stable_sort(packs.begin(), packs.end(), [](const ImportedPack* a, const ImportedPack* b) {
-        return rank_of(*a) < rank_of(*b);
-    });
+    std::stable_sort(packs.begin(), packs.end(),
+                     [](const ImportedPack* a, const ImportedPack* b) { return rank_of(*a) < rank_of(*b); });
     std::size_t single = packs.size() <= most ? packs.size() : most;
     while (single > 0 && single < packs.size() && single + count_words(packs, single).size() > most) {
         --single;
@@ -94,7 +94,11 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
         lines.push_back(line_of(*packs[k]));
     }
     for (const WordCount& rest : count_words(packs, single)) {
-        lines.push_back({fmt::format("{}{}", single > 0 ? "+ " : "", rest.count), {}, rest.key});
+        const bool more = std::any_of(lines.begin(), lines.end(),
+                                      [&](const NoticeLine& line) { return line.key == rest.key; });
+        lines.push_back(rest.count == 1
+                            ? line_of(*rest.first)
+                            : NoticeLine{fmt::format("{}{}", more ? "+ " : "", rest.count), {}, rest.key});
     }
     return lines;
 }

@@ -26,7 +26,8 @@ namespace frustumscreen {
 [[nodiscard]] std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal);
 
 struct NoticeLine {
-    std::string label;    ///< the pack's title; of a refused one its file's name; `+ 490`: of so many more
+    std::string
+        label; ///< the pack's title; of a refused one its file's name; 490: so many; `+ 483`: so many more
     std::string file;     ///< in place of a title that no typeface has; may be empty
     std::string_view key; ///< of the word for what became of it
     [[nodiscard]] bool operator==(const NoticeLine&) const = default;
@@ -44,11 +45,11 @@ inline constexpr std::size_t most_notice_lines = 8;
 [[nodiscard]] NoticeText stopped_text();
 
 struct ShownNotice {
-    bool stopped = false;        ///< stopped_text in place of the report's
-    std::optional<double> ring;  ///< how full it is, 0..1
-    std::string_view speech;     ///< key of the word that is spoken while this is shown; empty: none
-    std::uint64_t import = 0;    ///< which one, by its number: what was spoken of it is spoken once
-    bool ends_at_press = false;  ///< and the press does nothing else
+    bool stopped = false;       ///< stopped_text in place of the report's
+    std::optional<double> ring; ///< how full it is, 0..1
+    std::string_view speech;    ///< key of the word that is spoken while this is shown; empty: none
+    std::uint64_t import = 0;   ///< which one, by its number: what was spoken of it is spoken once
+    bool ends_at_press = false; ///< and the press does nothing else
     [[nodiscard]] bool operator==(const ShownNotice&) const = default;
 };
 

@@ -207,8 +207,8 @@ CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas,
         const double baseline_px = lines[k].lines.front().baseline * em_px / em_units;
         SetLine line{trimmed(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
         if (line.image.width > width_px || (k + 1 == most_lines && lines.size() > most_lines)) {
-            line.image =
-                cut_off(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)), to_the_left);
+            line.image = cut_off(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)),
+                                 to_the_left);
         }
         set.push_back(std::move(line));
     }

@@ -60,10 +60,10 @@ std::u32string decode(std::string_view text) {
 
 /// Letters of scripts that run from right to left, join or stack, and what turns the order of letters round.
 bool needs_shaping(char32_t code) {
-    return (code >= 0x0590 && code < 0x10A0) ||
-           (code >= 0x1100 && code < 0x1200) || (code >= 0x1700 && code < 0x1C80) ||
-           (code >= 0x200B && code < 0x2010) || (code >= 0x202A && code < 0x202F) ||
-           (code >= 0x2060 && code < 0x2070) || (code >= 0xFB1D && code < 0xFE10) || code >= 0xFE70;
+    return (code >= 0x0590 && code < 0x10A0) || (code >= 0x1100 && code < 0x1200) ||
+           (code >= 0x1700 && code < 0x1C80) || (code >= 0x200B && code < 0x2010) ||
+           (code >= 0x202A && code < 0x202F) || (code >= 0x2060 && code < 0x2070) ||
+           (code >= 0xFB1D && code < 0xFE10) || code >= 0xFE70;
 }
 
 void set_size(FT_Face face, double em_px) {

@@ -224,9 +224,8 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
-                   request.live &&
-                       (shows_zone_frame(settings) || guides_visitors(settings) || request.table_pictures ||
-                        tells_of_sticks(settings)),
+                   request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||
+                                    request.table_pictures || tells_of_sticks(settings)),
                    plan);
     choose_faces(plan);
     return plan;
@@ -250,12 +249,15 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
     plan.language = !pressed && asks(Command::NextLanguage);
-    plan.threads = {"the exhibit", "the reader of what the importer says"};
+    plan.threads = {"the exhibit"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
     }
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");
+    }
+    if (tells_of_sticks(settings)) {
+        plan.threads.emplace_back("the reader of what the importer says");
     }
     if (status_file) {
         plan.threads.emplace_back("the status file's writer");

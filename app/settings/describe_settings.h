@@ -272,8 +272,9 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
         "packs on a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
-    fields.path("import_report", exhibit.import_report,
-                "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
+    fields.path(
+        "import_report", exhibit.import_report,
+        "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
 }
 
 void hour_settings(auto& fields, auto& hour) {

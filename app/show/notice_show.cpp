@@ -4,6 +4,7 @@
 #include "app/exhibit/ring.h"
 #include "app/pack/words_file.h"
 #include "app/scene/scene_plan.h"
+#include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/artifact_opener.h"
 #include "firmware_host/base/file.h"
@@ -52,16 +53,16 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key,
     if (sound == words.sounds.end()) {
         return nullptr;
     }
-    return std::make_shared<const Recording>(
-        Recording{fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {},
-                  gain_db});
+    return std::make_shared<const Recording>(Recording{
+        fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}, gain_db});
 }
 
 /// None: nothing can be drawn, and a line says why.
 ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
     Result<Typesetter> opened = Typesetter::open();
     if (!opened) {
-        say_line("frustumscreen", "what is done with a stick is not told on the table: " + opened.error().message);
+        say_line("frustumscreen",
+                 "what is done with a stick is not told on the table: " + opened.error().message);
         return [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
     }
     words.sounds.clear();
@@ -90,30 +91,39 @@ class Obstacles {
 public:
     explicit Obstacles(const Presentation& presentation) {
         if (presentation.sign) {
-            add(around(*presentation.sign));
+            lit_.add(around(*presentation.sign));
         }
         if (presentation.advice) {
-            add(presentation.advice->rectangle);
+            lit_.add(presentation.advice->rectangle);
         }
         if (presentation.hotspot) {
-            add(presentation.hotspot->label);
+            lit_.add(presentation.hotspot->label);
         }
         if (presentation.table != nullptr) {
             for (const PlacedPicture& picture : presentation.table->pictures()) {
-                add(picture.place.whole());
+                (picture.brightness > 0.0 ? lit_ : empty_).add(picture.place.whole());
             }
         }
     }
-    [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
+    [[nodiscard]] std::span<const TableRectangle> lit() const { return lit_.all(); }
+    /// Places where nothing lies now.
+    [[nodiscard]] std::span<const TableRectangle> empty() const { return empty_.all(); }
 
 private:
-    void add(const TableRectangle& rectangle) {
-        if (count_ < all_.size()) {
-            all_[count_++] = rectangle;
+    class List {
+    public:
+        void add(const TableRectangle& rectangle) {
+            if (count_ < all_.size()) {
+                all_[count_++] = rectangle;
+            }
         }
-    }
-    std::array<TableRectangle, CaptionPlacer::most_obstacles - 1> all_{};
-    std::size_t count_ = 0;
+        [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
+
+    private:
+        std::array<TableRectangle, CaptionPlacer::most_obstacles> all_{};
+        std::size_t count_ = 0;
+    };
+    List lit_, empty_;
 };
 
 } // namespace
@@ -121,20 +131,20 @@ private:
 NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
     : prop_(make_prop(settings.prop)), lens_m_(settings.projector.table_from_projector.translation),
       place_(picture_on_table(settings, 0.0)) {
-    ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
-    if (!settings.exhibit.words.empty()) {
-        Result<LanguageWords> words = read_house_words(settings);
-        if (words) {
-            found_ = recording_of(*words, "stick.found", found_gain_db);
-            take_out_ = recording_of(*words, "stick.take_out", 0.0);
-            draw = draws_with(std::move(*words), text_style(settings).texels_per_m);
-        } else {
-            say_line("frustumscreen",
-                     "what is done with a stick is not told on the table: " + words.error().message);
-        }
+    if (!tells_of_sticks(settings)) {
+        return;
     }
-    if (settings.sound.kind == SoundKind::None) {
-        found_ = take_out_ = nullptr;
+    ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
+    Result<LanguageWords> words = read_house_words(settings);
+    if (words && settings.sound.kind != SoundKind::None) {
+        found_ = recording_of(*words, "stick.found", found_gain_db);
+        take_out_ = recording_of(*words, "stick.take_out", 0.0);
+    }
+    if (words) {
+        draw = draws_with(std::move(*words), text_style(settings).texels_per_m);
+    } else {
+        say_line("frustumscreen",
+                 "what is done with a stick is not told on the table: " + words.error().message);
     }
     watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
 }
@@ -153,6 +163,9 @@ SharedNotice NoticeShow::wanted(const std::optional<ShownNotice>& shown) const {
 }
 
 void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentation& presentation) {
+    if (!watch_) {
+        return;
+    }
     const SharedImport& latest = watch_->latest(now);
     if (latest != import_) {
         import_ = latest;
@@ -164,6 +177,7 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
     place(now, notice, situation, presentation);
     if (presentation.notice) {
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
+        presentation.settled = presentation.settled && presentation.notice->brightness >= 1.0;
     }
     lies_there_ = presentation.notice.has_value() && !presentation.staff;
     due_.reset();
@@ -177,10 +191,13 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
 void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
                        Presentation& presentation) {
     const Obstacles obstacles(presentation);
-    NoticeSurroundings surroundings{
-        hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
-        hidden_by_prop(prop_, presentation.table_from_prop, situation.eye_m),
-        glm::dvec2(presentation.table_from_prop.translation), side_.quarter_turns(), obstacles.all(), {}};
+    NoticeSurroundings surroundings{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
+                                    hidden_by_prop(prop_, presentation.table_from_prop, situation.eye_m),
+                                    glm::dvec2(presentation.table_from_prop.translation),
+                                    side_.quarter_turns(),
+                                    obstacles.lit(),
+                                    obstacles.empty(),
+                                    {}};
     if (presentation.caption) {
         surroundings.caption = presentation.caption->rectangle;
     }
@@ -236,7 +253,8 @@ void NoticeTextures::place(const std::optional<PresentedNotice>& notice, double 
     const Ring ring = ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, room);
     for (const RingPiece& piece : ring.pieces()) {
         on_table.add({flat_corners(piece.corners_m),
-                      brightness * notice->brightness * (piece.filled ? 1.0 : empty_ring_brightness), white_});
+                      brightness * notice->brightness * (piece.filled ? 1.0 : empty_ring_brightness),
+                      white_});
     }
 }
 

@@ -6,7 +6,8 @@
 ///
 /// Language the house's; its words and its speech are those of the file of words.
 /// Threads  the render thread. `step` allocates nothing while nothing new is said of a stick.
-/// Errors   without words it is not told on the table, and a line on standard error says why; the journal and the status have it.
+/// Errors   where the settings name no words, nothing is read. Words that cannot be read are a line on standard error; then the
+///          journal and the status alone have it.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -66,7 +67,7 @@ private:
     std::optional<Said> due_;
     SharedRecording announcement_;
     bool lies_there_ = false;          ///< at the step before: a press is for it
-    std::optional<ImportWatch> watch_; ///< last: its thread draws with the words
+    std::optional<ImportWatch> watch_; ///< none: no stick is told of
 };
 
 /// A notice's pictures in the GPU's memory, while it is shown.
@@ -82,7 +83,7 @@ private:
     void follow(const SharedNotice& picture, GpuStore& store);
 
     SharedNotice picture_;
-    std::vector<TextureId> textures_;    ///< by shape; none: the driver has no memory
+    std::vector<TextureId> textures_;   ///< by shape; none: the driver has no memory
     TextureId white_ = TextureId::None; ///< one texel: what the ring is drawn with
 };
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace frustumscreen;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -190,6 +192,34 @@ TEST_F(Speaking, a_step_allocates_nothing) {
         speaker.hear(mixer.report(Nanoseconds(0)));
     }
     EXPECT_EQ(synthetic::allocations_so_far(), before);
+}
+
+TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_once) {
+    const SharedRecording loud = recording_of("tone.opus");
+    Recording soft_one = *loud;
+    soft_one.gain_db = -12.0;
+    const SharedRecording soft = std::make_shared<const Recording>(soft_one);
+    tell();
+    frames(10);
+    while (speaker.narration().state == Narration::State::Heard) {
+        EXPECT_FALSE(speaker.step(presentation, stage, loud));
+        frame();
+    }
+    const auto loudest_of = [&](const SharedRecording& recording) {
+        const std::size_t from = heard.size();
+        int steps = 0;
+        while (!speaker.step(presentation, stage, recording) && steps < 100) {
+            frame();
+            ++steps;
+        }
+        EXPECT_LT(steps, 100);
+        frames(150);
+        EXPECT_FALSE(sounds());
+        return *std::max_element(heard.begin() + static_cast<std::ptrdiff_t>(from), heard.end());
+    };
+    const double of_loud = loudest_of(loud);
+    EXPECT_GT(of_loud, 1000.0);
+    EXPECT_NEAR(loudest_of(soft), of_loud * std::pow(10.0, -12.0 / 20.0), 0.01 * of_loud);
 }
 
 TEST_F(Speaking, the_staff_are_left_in_peace) {

@@ -1,0 +1,321 @@
+// A notice's pictures, set of letters that can be counted, and where they come to lie on the table.
+#include "app/exhibit/notice_place.h"
+#include "app/exhibit/ring.h"
+#include "app/exhibit/visitor_side.h"
+#include "tests/exhibit/block_words.h"
+#include "tests/render/counted_new.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const MonotonicTime start{seconds(100)};
+constexpr double texels_per_m = 2400.0;
+const std::vector<glm::dvec2> room{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
+
+const NoticeText copying{{"stick.copying"}, {}, true};
+const NoticeText told{
+    {"stick.take_out"},
+    {{"coin.fspack", "coin.fspack", "stick.refused.altered"}, {"Vase", "vase.fspack", "stick.taken"}},
+    false};
+
+const Typesetter& typesetter() {
+    static const Typesetter opened = Typesetter::open().value();
+    return opened;
+}
+NoticePicture draw(const NoticeText& text, TextDirection direction = TextDirection::LeftToRight) {
+    const LanguageWords words = synthetic::block_words("en", direction);
+    return draw_notice(text, text, {words.runs, words.atlas, typesetter(), texels_per_m});
+}
+
+/// Solid squares of half the type size: their area in type sizes is a quarter each.
+double squares_in(const Image<std::uint8_t>& image) {
+    const double em_px = least_caption_em_m * texels_per_m;
+    double light = 0.0;
+    for (const std::uint8_t texel : image.texels) {
+        light += texel / 255.0;
+    }
+    return light / (0.25 * em_px * em_px);
+}
+/// Of the columns [first, end), as shares of the picture's width.
+double light_between(const Image<std::uint8_t>& image, double first, double end) {
+    double light = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = static_cast<int>(first * image.width); x < static_cast<int>(end * image.width); ++x) {
+            light += image.at(x, y) / 255.0;
+        }
+    }
+    return light;
+}
+
+} // namespace
+
+TEST(NoticeImage, every_shape_has_all_letters) {
+    for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
+        const NoticePicture picture = draw(copying, direction);
+        ASSERT_EQ(picture.shapes.size(), 3U);
+        for (const NoticeShape& shape : picture.shapes) {
+            EXPECT_NEAR(squares_in(shape.image.coverage), 14.0, 0.3);
+            ASSERT_TRUE(shape.ring_m);
+        }
+        // Letters, then the words in lines: 24 pt, as captions.
+        EXPECT_LT(picture.sizes_m[2].x, picture.sizes_m[1].x);
+        EXPECT_NEAR(picture.sizes_m[0].x, 13.5 * least_caption_em_m + 0.032 + least_caption_em_m, 0.006);
+    }
+}
+
+TEST(NoticeImage, the_ring_has_a_place_without_letters) {
+    constexpr double reach_m = notice_ring_radius_m + ring_gap_m + ring_width_m;
+    for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
+        for (const NoticeShape& shape : draw(copying, direction).shapes) {
+            const Image<std::uint8_t>& image = shape.image.coverage;
+            const glm::dvec2 middle(0.5 * image.width + shape.ring_m->x * texels_per_m,
+                                    0.5 * image.height - shape.ring_m->y * texels_per_m);
+            double light = 0.0;
+            for (int y = 0; y < image.height; ++y) {
+                for (int x = 0; x < image.width; ++x) {
+                    const double off = glm::distance(glm::dvec2(x + 0.5, y + 0.5), middle);
+                    light += off < reach_m * texels_per_m ? image.at(x, y) : 0;
+                }
+            }
+            EXPECT_EQ(light, 0.0);
+            EXPECT_GE(middle.x, reach_m * texels_per_m - 1.0);
+            EXPECT_LE(middle.x, image.width - reach_m * texels_per_m + 1.0);
+            EXPECT_EQ(direction == TextDirection::RightToLeft, shape.ring_m->x > 0.001);
+        }
+    }
+}
+
+TEST(NoticeImage, titles_stand_where_the_reader_begins) {
+    NoticeText lines = told;
+    lines.lines = {{"IIIII", "", "stick.taken"}};
+    lines.sentences.clear();
+    // Words alone are fainter than titles and have solid letters: their light is known.
+    const double word = 3 * 0.8 * 0.25 * std::pow(least_caption_em_m * texels_per_m, 2);
+    const Image<std::uint8_t> to_right = draw(lines).shapes[0].image.coverage;
+    const Image<std::uint8_t> to_left = draw(lines, TextDirection::RightToLeft).shapes[0].image.coverage;
+    EXPECT_NEAR(light_between(to_right, 0.5, 1.0), word, 0.1 * word);
+    EXPECT_NEAR(light_between(to_left, 0.0, 0.5), word, 0.1 * word);
+}
+
+TEST(NoticeImage, a_title_that_cannot_be_set_gives_way_to_the_files_name) {
+    const auto width = [](const NoticeLine& line) {
+        return draw({{}, {line}, false}).shapes[0].image.coverage.texels;
+    };
+    const auto file = width({"file.fspack", "", "stick.taken"});
+    EXPECT_EQ(width({"أمفورة", "file.fspack", "stick.taken"}), file);
+    EXPECT_EQ(width({"壺", "file.fspack", "stick.taken"}), file);
+    EXPECT_NE(width({"Αμφορέας", "file.fspack", "stick.taken"}), file);
+    EXPECT_EQ(width({"壺", "壺.fspack", "stick.taken"}), width({"–", "", "stick.taken"}));
+}
+
+TEST(NoticeImage, a_long_name_is_cut_off) {
+    NoticeText text = told;
+    text.lines[0].label = std::string(900, 'W');
+    const NoticePicture picture = draw(text);
+    EXPECT_LE(picture.sizes_m[0].x, 36.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[1].x, 18.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[2].x, 9.5 * least_caption_em_m);
+}
+
+namespace {
+
+SharedNotice notice_of(std::vector<glm::dvec2> sizes_m) {
+    NoticePicture picture;
+    picture.sizes_m = std::move(sizes_m);
+    picture.shapes.resize(picture.sizes_m.size());
+    return std::make_shared<const NoticePicture>(picture);
+}
+
+struct Table {
+    PropShape prop = make_frustum({});
+    RigidTransform pose;
+    int quarter_turns = 0;
+    std::vector<TableRectangle> obstacles, kept;
+    std::optional<TableRectangle> caption;
+    NoticePlace place{room};
+    MonotonicTime now = start;
+
+    [[nodiscard]] NoticeSurroundings surroundings() const {
+        return {hidden_by_prop(prop, pose, {0.0, 0.0, 1.5}),
+                hidden_by_prop(prop, pose, {0.0, -0.55, 0.5}),
+                glm::dvec2(pose.translation),
+                quarter_turns,
+                obstacles,
+                kept,
+                caption};
+    }
+    std::optional<PresentedNotice> wait(milliseconds time, const SharedNotice& wanted) {
+        std::optional<PresentedNotice> shown;
+        for (milliseconds each{0}; each < time; each += milliseconds(20)) {
+            now += milliseconds(20);
+            shown = place.step(now, wanted, surroundings());
+        }
+        return shown;
+    }
+};
+
+bool touch(const TableRectangle& a, const TableRectangle& b) {
+    return clearance(a.corners(), b.corners()) <= 0.0;
+}
+
+} // namespace
+
+TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_other) {
+    const SharedNotice small = notice_of({{0.2, 0.05}});
+    Table table;
+    table.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+    const auto beside = table.wait(milliseconds(600), small);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->brightness, 1.0);
+    EXPECT_FALSE(touch(beside->rectangle, *table.caption));
+    EXPECT_EQ(left_to_caption(*table.caption, *beside), 1.0);
+
+    Table full;
+    full.caption = table.caption;
+    full.obstacles = {
+        {{-0.3, 0.0}, {0.19, 0.49}, 0}, {{0.3, 0.0}, {0.19, 0.49}, 0}, {{0.0, 0.19}, {0.4, 0.1}, 0}};
+    const auto over = full.wait(milliseconds(1500), small);
+    ASSERT_TRUE(over);
+    EXPECT_TRUE(touch(over->rectangle, *full.caption));
+    EXPECT_EQ(left_to_caption(*full.caption, *over), 0.0);
+    for (const TableRectangle& obstacle : full.obstacles) {
+        EXPECT_FALSE(touch(over->rectangle, obstacle));
+    }
+    const TableRectangle first = over->rectangle;
+    for (int k = 0; k < 100; ++k) {
+        const auto later = full.wait(milliseconds(100), small);
+        ASSERT_TRUE(later);
+        EXPECT_EQ(later->rectangle.centre_m, first.centre_m) << "it stays";
+        EXPECT_EQ(later->brightness, 1.0);
+    }
+}
+
+TEST(NoticePlace, empty_places_are_kept_free_where_there_is_other_room) {
+    const SharedNotice tall = notice_of({{0.12, 0.3}});
+    Table table;
+    table.kept = {{{-0.3, 0.0}, {0.1, 0.1}, 0}};
+    table.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+    const auto right = table.wait(milliseconds(1500), tall);
+    ASSERT_TRUE(right);
+    EXPECT_GT(right->rectangle.centre_m.x, 0.2);
+    table.obstacles = {{{0.3, 0.0}, {0.1, 0.1}, 0}};
+    const auto left = table.wait(milliseconds(1500), tall);
+    ASSERT_TRUE(left);
+    EXPECT_LT(left->rectangle.centre_m.x, -0.2);
+    EXPECT_FALSE(touch(left->rectangle, *table.caption));
+}
+
+TEST(NoticePlace, it_gives_way_to_what_comes) {
+    const SharedNotice notice = notice_of({{0.2, 0.05}});
+    Table table;
+    const TableRectangle before = table.wait(milliseconds(600), notice)->rectangle;
+    table.obstacles = {before};
+    const auto after = table.wait(milliseconds(800), notice);
+    ASSERT_TRUE(after);
+    EXPECT_FALSE(touch(after->rectangle, before));
+    table.obstacles = {{{0.0, 0.0}, {0.8, 0.5}, 0}};
+    EXPECT_FALSE(table.wait(milliseconds(800), notice)) << "it waits until there is room";
+    table.obstacles.clear();
+    EXPECT_TRUE(table.wait(milliseconds(800), notice));
+}
+
+TEST(NoticePlace, one_notice_goes_before_the_next_comes) {
+    const SharedNotice first = notice_of({{0.2, 0.05}});
+    const SharedNotice second = notice_of({{0.1, 0.1}});
+    Table table;
+    static_cast<void>(table.wait(milliseconds(600), first));
+    double last = 1.0;
+    bool changed = false;
+    for (int k = 0; k < 40; ++k) {
+        const auto shown = table.wait(milliseconds(20), second);
+        const double brightness = shown ? shown->brightness : 0.0;
+        EXPECT_LE(std::abs(brightness - last), 1.5 * 0.020 / 0.25 + 1e-9);
+        if (shown && !changed && shown->picture == second) {
+            EXPECT_LT(last, 0.15);
+            changed = true;
+        }
+        last = brightness;
+    }
+    EXPECT_TRUE(changed);
+    EXPECT_EQ(last, 1.0);
+    EXPECT_FALSE(table.wait(milliseconds(400), nullptr));
+}
+
+TEST(NoticePlace, the_ring_lies_in_the_picture_for_every_reader) {
+    const NoticePicture drawn = draw(copying);
+    const SharedNotice notice = std::make_shared<const NoticePicture>(drawn);
+    for (int side = 0; side < 4; ++side) {
+        Table table;
+        table.quarter_turns = side;
+        const auto shown = table.wait(milliseconds(600), notice);
+        ASSERT_TRUE(shown) << side;
+        const auto round = notice_ring(*shown);
+        ASSERT_TRUE(round);
+        for (const glm::dvec2& corner : round->corners()) {
+            EXPECT_LE(clearance(polygon_of(shown->rectangle).corners(), std::span(&corner, 1)), 0.0);
+            const glm::dvec2 seen = turned(corner - shown->rectangle.centre_m, -side);
+            EXPECT_LT(seen.x, 0.0) << "at the reader's left";
+        }
+    }
+}
+
+/// A prop that is slid and turned anywhere, and things that come and go: a lit notice is never on any of them.
+TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) {
+    const std::array<SharedNotice, 3> notices{notice_of({{0.3, 0.1}, {0.15, 0.2}, {0.08, 0.1}}),
+                                              notice_of({{0.25, 0.04}, {0.1, 0.08}}), nullptr};
+    int lit = 0;
+    for (unsigned seed = 0; seed < 12; ++seed) {
+        std::mt19937 random(seed);
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * static_cast<double>(random() % 10001) / 10000.0;
+        };
+        Table table;
+        table.obstacles.reserve(8);
+        SharedNotice wanted = notices[0];
+        std::vector<MonotonicTime> came;
+        came.reserve(8);
+        for (int k = 0; k < 1500; ++k) {
+            if (random() % 100 == 0) {
+                wanted = notices.at(random() % 3);
+            }
+            if (random() % 60 == 0) {
+                table.pose.translation = {between(-0.3, 0.3), between(-0.15, 0.15), 0.0};
+            }
+            table.quarter_turns = random() % 300 == 0 ? static_cast<int>(random() % 4) : table.quarter_turns;
+            if (random() % 80 == 0) {
+                table.obstacles.clear();
+                came.clear();
+                for (std::size_t each = random() % 4; each > 0; --each) {
+                    table.obstacles.push_back({{between(-0.3, 0.3), between(-0.2, 0.2)}, {0.1, 0.08}, 0});
+                    came.push_back(table.now);
+                }
+            }
+            const long before = synthetic::allocations_so_far();
+            const auto shown = table.wait(milliseconds(20), wanted);
+            if (synthetic::allocations_are_counted) {
+                ASSERT_EQ(synthetic::allocations_so_far(), before);
+            }
+            if (!shown) {
+                continue;
+            }
+            ++lit;
+            EXPECT_GT(clearance(shown->rectangle.corners(), table.surroundings().shadow->corners()), 0.0);
+            for (std::size_t each = 0; each < table.obstacles.size(); ++each) {
+                if (table.now - came[each] > milliseconds(300)) { // it had the time to leave
+                    EXPECT_FALSE(touch(shown->rectangle, table.obstacles[each]));
+                }
+            }
+        }
+    }
+    EXPECT_GT(lit, 5000);
+}
+
+} // namespace frustumscreen

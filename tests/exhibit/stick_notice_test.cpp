@@ -1,0 +1,247 @@
+// What is told of a stick, and for how long, by reports that an importer might write and by presses.
+#include "app/exhibit/stick_notice.h"
+#include "tests/exhibit/block_words.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::minutes;
+using std::chrono::seconds;
+
+const MonotonicTime start{seconds(100)};
+
+ImportReport report_of(const std::string& id, ImportStage stage, std::uint64_t done = 0,
+                       std::uint64_t total = 100) {
+    ImportReport report;
+    report.import_id = id;
+    report.stage = stage;
+    report.done_bytes = done;
+    report.total_bytes = total;
+    return report;
+}
+
+ImportedPack pack_of(const std::string& name, ImportOutcome outcome,
+                     ImportRefusal refusal = ImportRefusal::None) {
+    return {name + ".fspack", "Title of " + name, outcome, refusal, "because"};
+}
+
+using Keys = std::vector<std::string_view>;
+
+} // namespace
+
+TEST(NoticeText, each_stage_has_its_sentence_and_its_ring) {
+    EXPECT_EQ(notice_text(report_of("a", ImportStage::Found)), (NoticeText{{"stick.found"}, {}, true}));
+    EXPECT_EQ(notice_text(report_of("a", ImportStage::Copying)), (NoticeText{{"stick.copying"}, {}, true}));
+    EXPECT_EQ(notice_text(report_of("a", ImportStage::MayTakeOut)),
+              (NoticeText{{"stick.take_out"}, {}, true}));
+    EXPECT_EQ(notice_text(report_of("a", ImportStage::Done)),
+              (NoticeText{{"stick.nothing_on_it", "stick.take_out"}, {}, false}));
+    ImportReport failed = report_of("a", ImportStage::Failed);
+    failed.refusal = ImportRefusal::NoRoom;
+    EXPECT_EQ(notice_text(failed), (NoticeText{{"stick.refused.no_room", "stick.take_out"}, {}, false}));
+    failed.refusal = ImportRefusal::Unreadable; // whoever pulled it out is not asked to take it out
+    EXPECT_EQ(notice_text(failed).sentences, (Keys{"stick.refused.unreadable"}));
+}
+
+TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
+    std::set<std::string> keys;
+    for (const auto& [key, letters] : synthetic::stick_words()) {
+        keys.insert(key);
+    }
+    for (std::size_t k = 1; k < import_refusal_names.size(); ++k) {
+        EXPECT_EQ(outcome_word(ImportOutcome::Refused, static_cast<ImportRefusal>(k)),
+                  "stick.refused." + std::string(import_refusal_names[k]));
+    }
+    for (const ImportOutcome outcome :
+         {ImportOutcome::Taken, ImportOutcome::AlreadyThere, ImportOutcome::Removed}) {
+        EXPECT_TRUE(keys.contains(std::string(outcome_word(outcome, ImportRefusal::None))));
+    }
+}
+
+TEST(NoticeText, a_refused_pack_is_called_by_its_file_and_comes_first) {
+    ImportReport report = report_of("a", ImportStage::Done);
+    report.packs = {pack_of("vase", ImportOutcome::Taken), pack_of("old", ImportOutcome::Removed),
+                    pack_of("coin", ImportOutcome::Refused, ImportRefusal::Altered),
+                    pack_of("cup", ImportOutcome::AlreadyThere)};
+    EXPECT_EQ(notice_text(report).lines,
+              (std::vector<NoticeLine>{{"coin.fspack", "coin.fspack", "stick.refused.altered"},
+                                       {"Title of vase", "vase.fspack", "stick.taken"},
+                                       {"Title of cup", "cup.fspack", "stick.already_there"},
+                                       {"Title of old", "old.fspack", "stick.removed"}}));
+}
+
+TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 400; ++round) {
+        ImportReport report = report_of("a", round % 5 == 0 ? ImportStage::Failed : ImportStage::Done);
+        report.refusal = ImportRefusal::TooMuch;
+        const std::size_t count = random() % (round % 3 == 0 ? 600 : 12);
+        std::map<std::string, int, std::less<>> expected;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto outcome = static_cast<ImportOutcome>(random() % 5);
+            const auto refusal = outcome == ImportOutcome::Refused
+                                     ? static_cast<ImportRefusal>(1 + random() % 9)
+                                     : ImportRefusal::None;
+            report.packs.push_back(pack_of(std::to_string(k), outcome, refusal));
+            if (outcome != ImportOutcome::Pending) {
+                ++expected[std::string(outcome_word(outcome, refusal))];
+            }
+        }
+        for (const std::size_t most : {std::size_t{3}, most_notice_lines}) {
+            std::map<std::string, int, std::less<>> told;
+            bool refusals_are_over = false;
+            std::set<std::string_view> single;
+            const NoticeText text = notice_text(report, most);
+            for (const NoticeLine& line : text.lines) {
+                const bool together = line.file.empty();
+                const std::string number =
+                    together ? line.label.substr(line.label.starts_with("+ ") ? 2 : 0) : "1";
+                told[std::string(line.key)] += std::stoi(number);
+                EXPECT_EQ(together && single.contains(line.key), line.label.starts_with("+ "));
+                if (!together) {
+                    single.insert(line.key);
+                }
+                const bool refused = line.key.starts_with("stick.refused.");
+                EXPECT_FALSE(refused && refusals_are_over && !together);
+                refusals_are_over = refusals_are_over || (!refused && !together);
+            }
+            EXPECT_EQ(told, expected);
+            EXPECT_LE(text.lines.size(), std::max(most, expected.size()));
+        }
+    }
+}
+
+TEST(StickNotice, lines_stay_for_two_minutes_or_until_a_press) {
+    for (const bool pressed : {false, true}) {
+        StickNotice notice;
+        EXPECT_FALSE(notice.press(start));
+        notice.take(start, report_of("a", ImportStage::Found), false);
+        EXPECT_EQ(notice.at(start)->speech, "stick.found");
+        notice.take(start + seconds(1), report_of("a", ImportStage::Copying, 0), false);
+        EXPECT_FALSE(notice.press(start + seconds(2))) << "a visitor's press is a visitor's";
+        notice.take(start + seconds(3), report_of("a", ImportStage::Copying, 40), false);
+        EXPECT_NEAR(*notice.at(start + seconds(4))->ring, 0.4, 1e-9);
+        EXPECT_TRUE(notice.at(start + seconds(4))->speech.empty());
+        notice.take(start + seconds(5), report_of("a", ImportStage::MayTakeOut), false);
+        EXPECT_NEAR(*notice.at(start + seconds(6))->ring, 1.0, 1e-9);
+        EXPECT_EQ(notice.at(start + seconds(6))->speech, "stick.take_out");
+        EXPECT_FALSE(notice.press(start + seconds(7)));
+        const MonotonicTime over = start + seconds(8);
+        notice.take(over, report_of("a", ImportStage::Done), false);
+        EXPECT_FALSE(notice.at(over)->ring);
+        EXPECT_TRUE(notice.at(over + minutes(2) - milliseconds(1)));
+        EXPECT_EQ(notice.press(over + seconds(pressed ? 10 : 120)), pressed);
+        EXPECT_FALSE(notice.at(over + seconds(120)));
+        EXPECT_EQ(notice.at(over + seconds(11)).has_value(), !pressed);
+        EXPECT_FALSE(notice.press(over + seconds(121))) << "nothing is there to end";
+        notice.take(over + seconds(122), report_of("a", ImportStage::Done, 1), false);
+        EXPECT_FALSE(notice.at(over + seconds(122))) << "it was over";
+        notice.take(over + seconds(123), report_of("b", ImportStage::Found), false);
+        ASSERT_TRUE(notice.at(over + seconds(123))) << "another stick";
+        EXPECT_EQ(notice.at(over + seconds(123))->import, 2U);
+    }
+}
+
+TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
+    for (const ImportStage stage : {ImportStage::Done, ImportStage::Failed}) {
+        StickNotice notice;
+        notice.take(start, report_of("a", stage), true);
+        EXPECT_FALSE(notice.at(start));
+        EXPECT_FALSE(notice.press(start));
+        notice.take(start, report_of("b", stage), false); // quicker than anybody looks
+        EXPECT_TRUE(notice.at(start));
+    }
+    StickNotice notice;
+    notice.take(start, report_of("a", ImportStage::Copying, 20), true);
+    EXPECT_TRUE(notice.at(start)) << "it goes on";
+    notice.take(start + seconds(1), report_of("a", ImportStage::Done), true);
+    EXPECT_TRUE(notice.at(start + seconds(1)));
+}
+
+TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
+    StickNotice notice;
+    notice.take(start, report_of("a", ImportStage::Copying, 20), false);
+    const MonotonicTime renewed = start + seconds(20);
+    notice.take(renewed, report_of("a", ImportStage::Copying, 20), false); // the same again
+    EXPECT_FALSE(notice.at(start + seconds(30) - milliseconds(1))->stopped);
+    EXPECT_TRUE(notice.at(start + seconds(30))->stopped);
+    EXPECT_FALSE(notice.at(start + seconds(30))->ring);
+    EXPECT_TRUE(notice.at(start + seconds(30) + minutes(2) - milliseconds(1)));
+    EXPECT_FALSE(notice.at(start + seconds(30) + minutes(2)));
+    EXPECT_TRUE(notice.press(start + seconds(40)));
+    EXPECT_FALSE(notice.at(start + seconds(41)));
+    notice.take(start + seconds(50), report_of("a", ImportStage::Copying, 30), false);
+    ASSERT_TRUE(notice.at(start + seconds(50))) << "a slow stick";
+    EXPECT_FALSE(notice.at(start + seconds(50))->stopped);
+
+    StickNotice looked;
+    looked.take(start, report_of("a", ImportStage::Found), false);
+    EXPECT_FALSE(looked.at(start + seconds(60))->stopped) << "looking may take a minute";
+    EXPECT_TRUE(looked.at(start + seconds(90))->stopped);
+}
+
+TEST(StickNotice, sizes_that_lie_break_nothing) {
+    StickNotice notice;
+    notice.take(start, report_of("a", ImportStage::Copying, 500, 100), false);
+    EXPECT_EQ(*notice.at(start + seconds(1))->ring, 1.0);
+    notice.take(start, report_of("b", ImportStage::Copying, 5, 0), false);
+    EXPECT_EQ(*notice.at(start + seconds(1))->ring, 1.0);
+    notice.take(start, report_of("c", ImportStage::Copying, 0, 0), false);
+    EXPECT_EQ(*notice.at(start + seconds(1))->ring, 0.0);
+}
+
+/// Any reports in any order, and presses; the ring's end goes no quicker than a smooth step of 0.3 s.
+TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_ever) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        std::mt19937 random(seed);
+        StickNotice notice;
+        MonotonicTime now = start;
+        MonotonicTime silent_since = now; // the last report
+        for (int k = 0; k < 3000; ++k) {
+            now += milliseconds(random() % 40 == 0 ? random() % 60000 : 10);
+            if (random() % 50 == 0) {
+                ImportReport report =
+                    report_of(std::to_string(random() % 2), ImportStage(random() % 5), random() % 101, 100);
+                report.refusal = static_cast<ImportRefusal>(random() % 10);
+                notice.take(now, report, random() % 4 == 0);
+                silent_since = now;
+            }
+            const std::optional<ShownNotice> shown = notice.at(now);
+            if (now - silent_since >= StickNotice::look_patience + StickNotice::told_for) {
+                EXPECT_FALSE(shown);
+            }
+            if (shown && shown->ring) {
+                EXPECT_GE(*shown->ring, 0.0);
+                EXPECT_LE(*shown->ring, 1.0);
+            }
+            if (random() % 100 == 0) {
+                const bool ends = shown && shown->ends_at_press;
+                EXPECT_EQ(notice.press(now), ends);
+                EXPECT_EQ(notice.at(now).has_value(), shown.has_value() && !ends);
+            }
+        }
+    }
+    StickNotice notice;
+    double last = 0.0;
+    for (int k = 0; k < 500; ++k) {
+        const MonotonicTime now = start + milliseconds(10 * k);
+        if (k % 7 == 0) {
+            notice.take(now, report_of("a", ImportStage::Copying, std::min(100U, 2U * (k / 7))), false);
+        }
+        const double ring = *notice.at(now)->ring;
+        EXPECT_GE(ring, last - 1e-9);
+        EXPECT_LE(ring - last, 1.5 * 0.010 / 0.3);
+        last = ring;
+    }
+    EXPECT_GT(last, 0.9);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,338 @@
+// What is done with a stick, as the importer's report says it: on the table in pixels, aloud in samples, in the journal and the status.
+#include "app/pack/pack_file.h"
+#include "app/render/read_back.h"
+#include "app/show/artifact_show.h"
+#include "app/show/import_journal.h"
+#include "app/show/live_exhibit.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "firmware_host/sound/mixer.h"
+#include "firmware_host/sound/opus_reader.h"
+#include "tests/exhibit/block_words.h"
+#include "tests/render/counted_new.h"
+#include "tests/show/shown_packs.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include <array>
+#include <set>
+#include <thread>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int width = 960;
+constexpr int height = 600;
+
+ImportReport report_of(ImportStage stage, std::uint64_t done = 0) {
+    ImportReport report;
+    report.import_id = "first";
+    report.stick = "MUSEUM";
+    report.stage = stage;
+    report.done_bytes = done;
+    report.total_bytes = 1000;
+    return report;
+}
+ImportReport done_with(std::size_t packs) {
+    ImportReport report = report_of(ImportStage::Done, 1000);
+    for (std::size_t k = 0; k < packs; ++k) {
+        report.packs.push_back({fmt::format("{}.fspack", k), fmt::format("Title {}", k), ImportOutcome::Taken,
+                                ImportRefusal::None, ""});
+    }
+    return report;
+}
+void put(const fs::path& file, const ImportReport& report) {
+    ASSERT_TRUE(write_file(file, as_bytes(write_import_report(report))));
+}
+
+class Notice : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() / fmt::format("frustumscreen_notice_{}", ::getpid());
+        fs::create_directories(folder);
+        report = folder / "report.json";
+        LanguageWords words = block_words("en", TextDirection::LeftToRight);
+        words.sounds["stick.take_out"] = tone();
+        ASSERT_TRUE(write_file(folder / "own.fswords", *write_words(std::array{words})));
+        start(true);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    static Bytes tone() { return *read_file(FRUSTUMSCREEN_SOUND_FIXTURES "/tone.opus"); }
+
+    void start(bool with_words) {
+        settings = **parse_settings(
+            fmt::format(
+                "[projector]\nwidth = {}\nheight = {}\n[exhibit]\nguidance = false\ntable_pictures = false\n"
+                "import_report = \"{}\"\n{}",
+                width, height, report.string(),
+                with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
+            "kiosk.toml");
+        settings.panel.script = {{1.0, 0}, {2.0, 1}};
+        ArtifactShowOptions options{packs.files(), "auto", 1, AllEconomies};
+        options.waits = true;
+        now = MonotonicTime(seconds(100));
+        auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
+                                              {display->framebuffer(), 0})
+                             .value();
+        Exhibit exhibit = make_exhibit(settings, *artifacts, now);
+        show = std::make_unique<LiveExhibit>(settings, std::move(artifacts), std::move(exhibit), "a driver",
+                                             PromptReader::Answer::Always);
+        situation.prop_known = true;
+        situation.eye_m = settings.eye.default_m;
+        wait(milliseconds(1500));
+    }
+    void wait(Nanoseconds time, std::span<const Command> commands = {}) {
+        const MonotonicTime end = now + time;
+        while (now < end) {
+            now += milliseconds(20);
+            situation.table_from_prop.translation.x =
+                now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // somebody is there
+            show->step(now, std::exchange(commands, {}), situation);
+            std::vector<std::int16_t> block(sample_rate_hz / 50);
+            mixer.mix(block);
+            mixer.follow(show->wish());
+            heard.insert(heard.end(), block.begin(), block.end());
+            show->hear(mixer.report(Nanoseconds(0)));
+        }
+        situation.table_from_prop.translation.x = 0.0;
+        show->step(now, {}, situation);
+    }
+    Image8 picture() {
+        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 0}, Redraw::Everything));
+        return read_colour(display->framebuffer(), width, height);
+    }
+    /// Codes of the pixels that two pictures differ in, by place: 0 where they do not.
+    static Image<std::uint8_t> difference(const Image8& without, const Image8& with) {
+        Image<std::uint8_t> light(width, height);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                light.at(x, y) = without.at(x, y) == with.at(x, y) ? 0 : with.at(x, y).g;
+            }
+        }
+        return light;
+    }
+    static int left_of(const Image<std::uint8_t>& light) {
+        int left = width;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                left = light.at(x, y) > 0 ? std::min(left, x) : left;
+            }
+        }
+        return left;
+    }
+    static long lit(const Image<std::uint8_t>& light) {
+        return std::count_if(light.texels.begin(), light.texels.end(),
+                             [](std::uint8_t c) { return c > 100; });
+    }
+
+    ShownPacks packs{3};
+    fs::path folder;
+    fs::path report;
+    Settings settings;
+    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
+    std::unique_ptr<LiveExhibit> show;
+    Situation situation;
+    Mixer mixer;
+    std::vector<std::int16_t> heard;
+    MonotonicTime now;
+};
+
+TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
+    const Image8 with_words = picture();
+    const long before = allocations_so_far();
+    for (int k = 0; k < 100; ++k) {
+        now += milliseconds(20);
+        show->step(now, {}, situation);
+        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 1}, Redraw::Changes));
+    }
+    if (allocations_are_counted) {
+        EXPECT_EQ(allocations_so_far(), before);
+    }
+    start(false);
+    EXPECT_EQ(picture().texels, with_words.texels);
+}
+
+TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
+    const Image8 without = picture();
+    for (const std::uint64_t done : {150U, 400U, 800U}) {
+        put(report, report_of(ImportStage::Copying, done));
+        wait(seconds(2));
+        const Image<std::uint8_t> light = difference(without, picture());
+        const double px_per_m =
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
+        const int left = left_of(light);
+        const int ring_px = static_cast<int>(0.034 * px_per_m); // 16 mm to each side, then letters
+        int full = 0;
+        int empty = 0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = left; x < left + ring_px; ++x) {
+                full += light.at(x, y) > 150 ? 1 : 0;
+                empty += light.at(x, y) > 40 && light.at(x, y) <= 150 ? 1 : 0;
+            }
+        }
+        EXPECT_GT(full + empty, 300);
+        EXPECT_NEAR(1.0 * full / (full + empty), done / 1000.0, 0.07) << done;
+        EXPECT_GT(lit(light), full + 100) << "and letters beside it";
+    }
+}
+
+TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
+    const Image8 without = picture();
+    const std::string_view shown = show->state().artifact;
+    put(report, done_with(1));
+    wait(seconds(2));
+    const long one = lit(difference(without, picture()));
+    EXPECT_GT(one, 100);
+    wait(seconds(115));
+    EXPECT_GT(lit(difference(without, picture())), 100);
+    wait(seconds(5));
+    EXPECT_EQ(picture().texels, without.texels);
+
+    ImportReport second = done_with(3);
+    second.import_id = "second";
+    put(report, second);
+    wait(seconds(2));
+    EXPECT_GT(lit(difference(without, picture())), one + 100);
+    wait(seconds(2), std::array{Command::NextArtifact});
+    EXPECT_EQ(picture().texels, without.texels);
+    EXPECT_EQ(show->state().artifact, shown);
+    wait(seconds(2), std::array{Command::NextArtifact});
+    EXPECT_NE(show->state().artifact, shown) << "the next press is a visitor's again";
+}
+
+TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
+    put(report, report_of(ImportStage::Copying, 100));
+    wait(seconds(2));
+    const std::string first(show->state().artifact);
+    wait(seconds(2), std::array{Command::PreviousArtifact});
+    const std::string chosen(show->state().artifact);
+    EXPECT_NE(chosen, first);
+    put(report, done_with(1));
+    wait(seconds(2));
+    wait(seconds(1), std::array{Command::PreviousArtifact}); // ends the lines
+    wait(seconds(1), std::array{Command::StaffMode});
+    EXPECT_EQ(show->state().state, State::Staff);
+    wait(seconds(1), std::array{Command::StaffMode});
+    wait(seconds(2));
+    EXPECT_EQ(show->state().artifact, chosen);
+}
+
+TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
+    const std::vector<std::int16_t> truth = read_opus(tone())->samples;
+    const auto is_loud = [&] {
+        return std::count_if(heard.begin(), heard.end(), [](std::int16_t s) { return std::abs(s) > 300; });
+    };
+    put(report, report_of(ImportStage::Copying, 500));
+    wait(seconds(2));
+    EXPECT_EQ(is_loud(), 0);
+    put(report, report_of(ImportStage::MayTakeOut, 1000));
+    wait(seconds(10));
+    const auto spoken = std::search(heard.begin(), heard.end(), truth.begin() + 1000, truth.begin() + 3000);
+    EXPECT_NE(spoken, heard.end()) << "the words are not there";
+    const auto loud = is_loud();
+    put(report, done_with(2));
+    wait(seconds(20));
+    EXPECT_EQ(is_loud(), loud) << "it is said once";
+}
+
+TEST_F(Notice, BytesThatAreNoReportSayNothing) {
+    const Image8 without = picture();
+    for (const std::string& bytes :
+         {std::string("{"), std::string("[]"), std::string(20U << 20U, '['), std::string()}) {
+        ASSERT_TRUE(write_file(report, as_bytes(bytes)));
+        wait(seconds(1));
+        EXPECT_EQ(picture().texels, without.texels);
+    }
+    fs::remove(report);
+    ASSERT_EQ(::mkfifo(report.c_str(), 0600), 0);
+    wait(seconds(1));
+    EXPECT_EQ(picture().texels, without.texels);
+    fs::remove(report);
+    put(report, done_with(1));
+    wait(seconds(1));
+    EXPECT_NE(picture().texels, without.texels);
+}
+
+TEST_F(Notice, WhatWasOverBeforeTheExhibitBeganIsNotShown) {
+    const Image8 without = picture();
+    put(report, done_with(3));
+    start(true);
+    EXPECT_EQ(picture().texels, without.texels);
+    ASSERT_NE(show->state().import, nullptr) << "the status has it all the same";
+    RunStatus status;
+    status.import = show->state().import;
+    EXPECT_EQ(nlohmann::json::parse(status_json(status)).at("import").at("packs")[2].at("title"), "Title 2");
+    EXPECT_TRUE(nlohmann::json::parse(status_json(RunStatus())).at("import").is_null());
+}
+
+TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
+    const fs::path file = fs::temp_directory_path() / fmt::format("frustumscreen_report_{}.json", ::getpid());
+    fs::remove(file);
+    std::atomic<int> drawn{0};
+    ImportWatch watch(
+        file,
+        [&](const NoticeText& text, const NoticeText&) {
+            ++drawn;
+            return std::make_shared<const NoticePicture>(NoticePicture{text, {}, {}});
+        },
+        ImportWatch::Answer::WhenReady);
+    EXPECT_EQ(watch.latest({}), nullptr);
+    const auto wait_for = [&](const ImportReport& report) {
+        put(file, report);
+        for (int k = 0; k < 1000; ++k) {
+            if (watch.latest({}) && watch.latest({})->report == report) {
+                return true;
+            }
+            std::this_thread::sleep_for(milliseconds(10));
+        }
+        return false;
+    };
+    for (std::uint64_t done = 0; done < 4; ++done) {
+        ASSERT_TRUE(wait_for(report_of(ImportStage::Copying, done)));
+    }
+    EXPECT_EQ(drawn, 2) << "the words of a copy are drawn once, and that it stopped";
+    EXPECT_FALSE(watch.latest({})->was_there);
+    ASSERT_TRUE(wait_for(done_with(500)));
+    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), most_notice_lines);
+    fs::remove(file);
+}
+
+TEST(ImportJournal, EachStageAndEachPackIsALine) {
+    ImportJournal journal;
+    std::vector<std::string> lines;
+    const auto note = [&](const ImportReport& report, bool was_there = false) {
+        const std::size_t before = lines.size();
+        journal.note(std::make_shared<const SeenImport>(SeenImport{report, was_there, nullptr, nullptr}),
+                     [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
+        return lines.size() - before;
+    };
+    EXPECT_EQ(note(done_with(500), true), 0U);
+    ImportReport copying = report_of(ImportStage::Copying, 1);
+    copying.import_id = "second";
+    EXPECT_EQ(note(copying), 1U);
+    EXPECT_EQ(lines.back(), "stick: 1000 bytes are copied from 'MUSEUM'");
+    copying.done_bytes = 2;
+    EXPECT_EQ(note(copying), 0U);
+    ImportReport done = done_with(500);
+    done.import_id = "second";
+    done.packs[3] = {"coin.fspack", "", ImportOutcome::Refused, ImportRefusal::Altered,
+                     "its hash is another"};
+    std::size_t calls = 0;
+    const std::size_t before = lines.size();
+    for (std::size_t written = 1; written > 0; ++calls) {
+        written = note(done);
+        EXPECT_LE(written, ImportJournal::most_lines + 1);
+    }
+    EXPECT_EQ(lines.size() - before, 501U);
+    EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());
+    EXPECT_EQ(lines[before + 4], "stick: coin.fspack: refused: its hash is another");
+    EXPECT_EQ(lines[before + 1], "stick: 0.fspack: taken: Title 0");
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
