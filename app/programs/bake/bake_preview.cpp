@@ -24,9 +24,9 @@ bool begins_as_page(const std::filesystem::path& file) {
     return begin == page_begin;
 }
 
-/// A quarter of the pictures, half as large: for a page that is made again and again.
+/// Half of the pictures, and smaller ones: for a page that is made again and again.
 TurnOptions turn_options(bool watched) {
-    return watched ? TurnOptions{6, 3, {400, 280}} : TurnOptions{};
+    return watched ? TurnOptions{6, 3, {400, 280}, 960} : TurnOptions{};
 }
 
 } // namespace

@@ -24,7 +24,9 @@ h1 { font: normal 1.9rem/1.2 Georgia, "Noto Serif", serif; margin: .5rem 0; }
 table { width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .9rem .35rem 0; text-align: right; vertical-align: top; border-bottom: 1px solid #dcdfe3; }
 th { position: sticky; top: 0; font-weight: normal; color: #5b6169; background: #fbfaf7; }
-th.text, td.text { text-align: left; overflow-wrap: anywhere; }
+th, td { white-space: nowrap; }
+th.text, td.text { text-align: left; }
+td.long { min-width: 20rem; white-space: normal; overflow-wrap: anywhere; }
 tr.failed td, tr.missing td { background: #fdf4e0; }
 p { color: #5b6169; }
 a { color: #1f5f8b; }
@@ -80,8 +82,8 @@ std::string page_row(const BatchRow& row) {
         numbers[1] = bytes_in_words(row.bytes);
     }
     cells += fmt::format("<td>{}</td>", fmt::join(numbers, "</td><td>"));
-    return fmt::format("<tr class=\"{}\">{}<td class=\"text\">{}</td></tr>\n", name_of(row.status), cells,
-                       xml_text(is_good(row) ? row.title : row.sentence));
+    return fmt::format("<tr class=\"{}\">{}<td class=\"text long\">{}</td></tr>\n", name_of(row.status),
+                       cells, xml_text(is_good(row) ? row.title : row.sentence));
 }
 
 } // namespace

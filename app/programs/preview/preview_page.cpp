@@ -84,7 +84,16 @@ std::string fact(std::string_view name, std::string_view words) {
     return words.empty() ? std::string() : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, xml_text(words));
 }
 
-std::string beginning(const PackDescription& pack, const PreviewFacts& facts, const TurnPictures& turn) {
+/// The small picture by which visitors choose; nothing if the pack has none.
+std::string table_picture_of(const Image8& picture) {
+    return picture.texels.empty()
+               ? std::string()
+               : fmt::format("<figure class=\"card\"><img alt=\"\" width=\"{}\" height=\"{}\" src=\"{}\">"
+                             "<figcaption>as it lies on the table among others</figcaption></figure>\n",
+                             picture.width, picture.height, data_address("image/webp", encode_webp(picture)));
+}
+
+std::string beginning(const PackDescription& pack, const PreviewFacts& facts, const PreviewMedia& media) {
     std::string lines;
     const PackCaption none;
     const PackCaption& first = pack.captions.empty() ? none : pack.captions.front();
@@ -97,15 +106,16 @@ std::string beginning(const PackDescription& pack, const PreviewFacts& facts, co
     const glm::dvec3 mm = 1000.0 * facts.size_m;
     return fmt::format(
         "<header><div class=\"row\">\n{}<div><h1 lang=\"{}\" dir=\"auto\">{}</h1>\n{}<dl>\n{}{}{}{}{}{}{}{}"
-        "</dl></div>\n</div></header>\n",
-        turn_of(pack, turn), xml_text(first.language), xml_text(pack.title), lines,
+        "</dl>\n{}</div>\n</div></header>\n",
+        turn_of(pack, media.turn), xml_text(first.language), xml_text(pack.title), lines,
         fact("credit", first.credit), fact("licence", pack.provenance.licence),
         fact("size", fmt::format("{:.0f} mm wide, {:.0f} deep, {:.0f} high in the usual {}", mm.x, mm.y, mm.z,
                                  pack.prop_kind)),
         fact("stands", facts.stands), fact("languages", fmt::format("{}", fmt::join(pack.languages, ", "))),
         fact("id", pack.id),
         fact("pack", fmt::format("{}, {}", facts.pack_name, bytes_in_words(facts.pack_bytes))),
-        fact("light", pack.unlit ? "the colours have it in them (unlit)" : "lit as in a museum"));
+        fact("light", pack.unlit ? "the colours have it in them (unlit)" : "lit as in a museum"),
+        table_picture_of(media.table_picture));
 }
 
 std::string notes_of(std::string_view kind, const std::vector<std::string>& sentences, bool plain) {
@@ -138,8 +148,9 @@ std::string figure(const ProjectedText& text, const std::string& what) {
             ? "<p class=\"missing\">the bake could not set this text; the kiosk uses its own typeface</p>"
             : fmt::format("<img width=\"{}\" height=\"{}\" alt=\"\" src=\"{}\">", text.size.x, text.size.y,
                           data_address("image/webp", text.picture));
-    return fmt::format("<figure class=\"projected\">{}<figcaption>{}</figcaption></figure>\n", picture,
-                       xml_text(what));
+    const std::string said =
+        what.empty() ? std::string() : fmt::format("<figcaption>{}</figcaption>", xml_text(what));
+    return fmt::format("<figure class=\"projected\">{}{}</figure>\n", picture, said);
 }
 
 std::string words_of(const PackCaption& caption) {
@@ -239,22 +250,13 @@ std::string preview_page(const PackDescription& pack, const PreviewFacts& facts,
     for (const ProjectedLanguage& language : media.languages) {
         texts += language_part(language);
     }
-    const std::string card =
-        media.table_picture.texels.empty()
-            ? std::string()
-            : fmt::format(
-                  "<div class=\"card\"><img alt=\"the small picture that lies on the table\" width=\"{}\" "
-                  "height=\"{}\" src=\"{}\"></div>",
-                  media.table_picture.width, media.table_picture.height,
-                  data_address("image/webp", encode_webp(media.table_picture)));
-    std::string page =
-        head(pack, style_of(media.turn), kind) + "<body>\n" + beginning(pack, facts, media.turn) +
-        "<main>\n" + warnings(facts) +
-        fmt::format("<h2>Texts on the table</h2>\n{}<p class=\"soft\">Left as the projector draws them, "
-                    "30 cm wide; right the words for reading.</p>\n",
-                    card) +
-        texts + hotspots_part(pack, media.languages) + levels_part(pack, facts) + source_part(pack, facts) +
-        "</main>\n";
+    std::string page = head(pack, style_of(media.turn), kind) + "<body>\n" + beginning(pack, facts, media) +
+                       "<main>\n" + warnings(facts) +
+                       "<h2>Texts on the table</h2>\n<p class=\"soft\">Left as the projector draws them, 30 "
+                       "cm wide; right the "
+                       "words for reading.</p>\n" +
+                       texts + hotspots_part(pack, media.languages) + levels_part(pack, facts) +
+                       source_part(pack, facts) + "</main>\n";
     page += fmt::format("<footer>Made by {} from {}. This page needs no network and no other file.</footer>\n"
                         "<script>{}</script>\n",
                         xml_text(facts.program), xml_text(facts.pack_name), page_script());

@@ -43,7 +43,8 @@ struct Scene {
     CheckedSettings settings;
 };
 
-Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<RigidTransform>& props) {
+Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<RigidTransform>& props,
+                         int projected_width) {
     OfflineOptions options;
     options.technique = "finest";
     ScenePlan plan;
@@ -57,6 +58,9 @@ Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<Ri
                 return tl::unexpected<Error>(parsed.error());
             }
             settings = *parsed;
+            const Pinhole& projector = (**parsed).projector.pinhole;
+            options.width = projected_width;
+            options.height = projected_width * projector.height / projector.width;
             for (const RigidTransform& prop : props) {
                 options.views.push_back({prop, (*settings)->eye.default_m});
             }
@@ -73,10 +77,13 @@ Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<Ri
     return Scene{*std::move(pack), std::move(plan), std::move(options), *std::move(settings)};
 }
 
-VisitorScene visitor_scene(const Settings& settings) {
-    return {settings.projector.pinhole, settings.projector.table_from_projector,
-            make_prop(settings.prop),   RigidTransform(),
-            settings.eye.default_m,     {settings.table.width_m, settings.table.depth_m}};
+VisitorScene visitor_scene(const Settings& settings, const Pinhole& projector) {
+    return {projector,
+            settings.projector.table_from_projector,
+            make_prop(settings.prop),
+            RigidTransform(),
+            settings.eye.default_m,
+            {settings.table.width_m, settings.table.depth_m}};
 }
 
 /// One camera for all pictures, in which the prop's outline is as large as it can be.
@@ -128,7 +135,7 @@ MarkPlace mark_of(const PackHotspot& hotspot, double metres_per_box, const Rigid
 Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file, const TurnOptions& options) {
     TurnPictures turn{options.columns, options.rows, options.columns * options.rows, options.size, {}, {}};
     const std::vector<RigidTransform> props = turned_props(turn.frames);
-    const Result<Scene> scene = load_scene(pack_file, props);
+    const Result<Scene> scene = load_scene(pack_file, props, options.projected_width);
     if (!scene) {
         return tl::unexpected<Error>(scene.error());
     }
@@ -137,7 +144,7 @@ Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file, const
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    VisitorScene visitor = visitor_scene(*scene->settings);
+    VisitorScene visitor = visitor_scene(*scene->settings, (*renderer)->projector());
     const VisitorCamera camera = camera_for(visitor, props, turn.size);
     turn.sheet = Image8(turn.columns * turn.size.x, turn.rows * turn.size.y);
     turn.marks.resize(scene->pack->hotspots.size());

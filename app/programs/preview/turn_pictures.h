@@ -39,6 +39,7 @@ struct TurnPictures {
 struct TurnOptions {
     int columns = 6, rows = 6; ///< a step is 360 degrees by their product
     glm::ivec2 size{600, 420};
+    int projected_width = 0; ///< of the projector's picture; 0: its own
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };
 
