@@ -24,9 +24,9 @@ bool begins_as_page(const std::filesystem::path& file) {
     return begin == page_begin;
 }
 
-/// Half of the pictures, and smaller ones: for a page that is made again and again.
+/// A third of the pictures, and smaller ones: for a page that is made again and again.
 TurnOptions turn_options(bool watched) {
-    return watched ? TurnOptions{6, 3, {400, 280}, 960} : TurnOptions{};
+    return watched ? TurnOptions{6, 2, {400, 280}, 960} : TurnOptions{};
 }
 
 } // namespace
@@ -35,10 +35,13 @@ Result<void> check_preview(const BakeRequest& request) {
     if (request.preview.empty()) {
         return {};
     }
-    std::vector<std::filesystem::path> inputs = request.inputs;
-    inputs.push_back(request.output);
-    if (Result<void> safe = check_output_is_no_input(request.preview, inputs); !safe) {
+    if (Result<void> safe = check_output_is_no_input(request.preview, request.inputs); !safe) {
         return safe;
+    }
+    if (std::filesystem::absolute(request.preview).lexically_normal() ==
+        std::filesystem::absolute(request.output).lexically_normal()) {
+        return bad_input(fmt::format("{}: the pack and its preview have the same name; choose two",
+                                     request.output.string()));
     }
     if (Result<void> place = check_output_place(request.preview, room_for_page); !place) {
         return place;
