@@ -10,8 +10,8 @@
 #pragma once
 
 #include "assets_baked/texts/level_speech.h"
-#include "assets_baked/texts/run_program.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/base/run_program.h"
 
 #include <optional>
 #include <string>

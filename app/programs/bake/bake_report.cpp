@@ -141,7 +141,35 @@ std::vector<std::string> texts_of(const BakeResult& result, SourceNote::Kind kin
     return texts;
 }
 
+std::string page_text(const BakeResult& result) {
+    return result.page.empty()
+               ? std::string()
+               : fmt::format("  {:<8}{}, {}\n", "page", result.page.string(), in_units(result.page_bytes));
+}
+
 } // namespace
+
+PreviewFacts preview_facts(const BakeResult& result) {
+    PreviewFacts facts;
+    facts.pack_name = result.file.filename().string();
+    facts.pack_bytes = result.file_bytes;
+    facts.seconds = result.seconds;
+    facts.size_m = size_m(result);
+    facts.stands = standing_text(result);
+    facts.program = "frustumscreen-bake " FRUSTUMSCREEN_VERSION;
+    const double mm = metres_per_box(result) * mm_per_m;
+    for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
+        const PackLevel& level = result.pack.levels[k];
+        facts.levels.push_back({level.technique == LevelTechnique::Relief ? "relief" : "mesh",
+                                level.indices.size() / 3, bytes_of(result, k), level.error.mean_box * mm,
+                                level.error.p95_box * mm, level.error.max_box * mm,
+                                static_cast<double>(level.error.colour_rmse)});
+    }
+    facts.lost = texts_of(result, SourceNote::Kind::Lost);
+    facts.silent = result.silent;
+    facts.guessed = texts_of(result, SourceNote::Kind::Guessed);
+    return facts;
+}
 
 std::string report_text(const BakeResult& result) {
     const glm::dvec3 size = size_m(result) * mm_per_m;
@@ -154,7 +182,7 @@ std::string report_text(const BakeResult& result) {
                        result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
            speech_text(result) + (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
-           notes_text(result, SourceNote::Kind::Guessed, "guessed");
+           notes_text(result, SourceNote::Kind::Guessed, "guessed") + page_text(result);
 }
 
 Json report_json(const BakeResult& result) {
@@ -171,22 +199,26 @@ Json report_json(const BakeResult& result) {
                           {"max_mm", level.error.max_box * mm},
                           {"colour_rmse", level.error.colour_rmse}});
     }
-    return {{"file", result.file.string()},
-            {"bytes", result.file_bytes},
-            {"title", result.pack.title},
-            {"seconds", result.seconds},
-            {"prop", result.pack.prop_kind},
-            {"size_m", {size.x, size.y, size.z}},
-            {"up", signed_axis(result.up)},
-            {"front", front_of(result.up)},
-            {"turn_deg", result.turn_deg},
-            {"scale", result.pack.scale},
-            {"levels", levels},
-            {"default_level", result.pack.default_level},
-            {"spoken", spoken_in(result.pack)},
-            {"silent", result.silent},
-            {"lost", texts_of(result, SourceNote::Kind::Lost)},
-            {"guessed", texts_of(result, SourceNote::Kind::Guessed)}};
+    Json report = {{"file", result.file.string()},
+                   {"bytes", result.file_bytes},
+                   {"title", result.pack.title},
+                   {"seconds", result.seconds},
+                   {"prop", result.pack.prop_kind},
+                   {"size_m", {size.x, size.y, size.z}},
+                   {"up", signed_axis(result.up)},
+                   {"front", front_of(result.up)},
+                   {"turn_deg", result.turn_deg},
+                   {"scale", result.pack.scale},
+                   {"levels", levels},
+                   {"default_level", result.pack.default_level},
+                   {"spoken", spoken_in(result.pack)},
+                   {"silent", result.silent},
+                   {"lost", texts_of(result, SourceNote::Kind::Lost)},
+                   {"guessed", texts_of(result, SourceNote::Kind::Guessed)}};
+    if (!result.page.empty()) {
+        report["page"] = result.page.string();
+    }
+    return report;
 }
 
 } // namespace frustumscreen

@@ -6,6 +6,7 @@
 
 #include "app/pack/pack.h"
 #include "app/pack/pack_contents.h"
+#include "app/programs/preview/preview_page.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/source_mesh.h"
 
@@ -31,13 +32,17 @@ struct BakeResult {
     std::vector<SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions that nobody hears, and why
     double seconds = 0.0;
+    std::filesystem::path page; ///< of the preview; empty: none
+    std::uint64_t page_bytes = 0;
 };
 
+/// What a page says of it.
+[[nodiscard]] PreviewFacts preview_facts(const BakeResult& result);
 /// Ends with a line break.
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: []}
+/// guessed: [], page}; `page` only where there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen

@@ -118,6 +118,8 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     BakeRequest request;
     request.scan = file->scan;
     request.output = arguments.output;
+    request.preview = arguments.preview;
+    request.watched = arguments.watched;
     request.inputs = {file->scan};
     const bool is_folder = file->scan != arguments.input;
     if (is_folder) {

@@ -20,6 +20,8 @@ namespace frustumscreen {
 struct BakeArguments {
     std::filesystem::path input; ///< a scan, or a folder
     std::filesystem::path output;
+    std::filesystem::path preview;    ///< page to write; empty: none
+    bool watched = false;             ///< --watch asks for it: a coarse page, which loads itself again
     std::filesystem::path new_folder; ///< --new: start a folder from the scan, bake nothing
     bool force = false;               ///< replace an output that is no pack
     bool strict = false;              ///< what is lost is an error
@@ -42,6 +44,8 @@ struct BakeArguments {
 struct BakeRequest {
     std::filesystem::path scan;
     std::filesystem::path output;
+    std::filesystem::path preview;             ///< as above
+    bool watched = false;                      ///< as above
     std::vector<std::filesystem::path> inputs; ///< what must not be replaced, as far as it is known now
     bool force = false;
     bool strict = false;

@@ -1,4 +1,4 @@
-#include "assets_baked/texts/run_program.h"
+#include "firmware_host/base/run_program.h"
 
 #include "firmware_host/base/printable.h"
 
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -87,14 +88,25 @@ private:
     std::optional<int> status_;
 };
 
+/// What the program is started with.
+struct Start {
+    char* const* arguments;
+    std::array<int, 3> streams; ///< its standard input, output and error
+    std::uint64_t memory_bytes;
+};
+
 /// Becomes the program; reports an error number if it cannot. Only calls that are safe after a fork among threads.
-[[noreturn]] void become(char* const* arguments, const std::array<int, 3>& streams, int report) {
+[[noreturn]] void become(const Start& how, int report) {
+    if (how.memory_bytes > 0) {
+        const rlimit limit{how.memory_bytes, how.memory_bytes};
+        ::setrlimit(RLIMIT_DATA, &limit);
+    }
     int number = 0;
-    for (const int stream : streams) {
+    for (const int stream : how.streams) {
         stream == number ? ::fcntl(number, F_SETFD, 0) : ::dup2(stream, number);
         ++number;
     }
-    ::execvp(arguments[0], arguments);
+    ::execvp(how.arguments[0], how.arguments);
     const int error = errno;
     [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
     ::_exit(127);
@@ -113,8 +125,11 @@ private:
 
 /// A process between us and the program, in a group of its own with all that the program starts. When we end, however that
 /// happens, the kernel tells it, and it ends the group.
-[[noreturn]] void guard(char* const* arguments, const std::array<int, 3>& streams, int report, pid_t us) {
+[[noreturn]] void guard(const Start& how, int report, pid_t us) {
     ::setpgid(0, 0);
+    sigset_t none; // our caller may wait for signals itself
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
     ::signal(SIGTERM, [](int) { ::kill(0, SIGKILL); });
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != us) {
@@ -122,7 +137,7 @@ private:
     }
     const pid_t program = ::fork();
     if (program == 0) {
-        become(arguments, streams, report);
+        become(how, report);
     }
     if (program < 0) {
         const int error = errno;
@@ -147,8 +162,9 @@ Pipe open_pipe() {
     return ::pipe2(ends.data(), O_CLOEXEC) == 0 ? Pipe{Descriptor(ends[0]), Descriptor(ends[1])} : Pipe{};
 }
 
-/// The process; or an error number. `streams`: its standard input, output and error. It ends with the thread that calls this.
-tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams) {
+/// The process; or an error number. It ends with the thread that calls this.
+tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams,
+                               std::uint64_t memory_bytes) {
     std::vector<std::string> words = command;
     std::vector<char*> arguments;
     for (std::string& word : words) {
@@ -159,7 +175,7 @@ tl::expected<pid_t, int> start(const std::vector<std::string>& command, const st
     const pid_t us = ::getpid();
     const pid_t process = report.in.number() < 0 ? -1 : ::fork();
     if (process == 0) {
-        guard(arguments.data(), streams, report.in.number(), us);
+        guard({arguments.data(), streams, memory_bytes}, report.in.number(), us);
     }
     if (process < 0) {
         return tl::unexpected<int>(errno);
@@ -174,14 +190,6 @@ tl::expected<pid_t, int> start(const std::vector<std::string>& command, const st
     return process;
 }
 
-/// What a program writes.
-struct Heard {
-    Bytes output;
-    std::string complaint; ///< the beginning of what it writes to standard error; the rest is passed over
-};
-
-enum class Ended { Whole, TooLate, TooMuch };
-
 /// Reads what there is; what has ended is closed.
 std::span<const std::byte> read_some(Descriptor& from, std::span<std::byte> block) {
     const ssize_t count = ::read(from.number(), block.data(), block.size());
@@ -193,79 +201,102 @@ std::span<const std::byte> read_some(Descriptor& from, std::span<std::byte> bloc
 }
 
 /// Follows a program until it has ended and said all.
-Ended listen(Running& running, Descriptor& output, Descriptor& complaints, const ProgramLimits& limits,
-             Heard& heard) {
-    constexpr std::size_t most_complaint_bytes = 200;
-    constexpr int nap_ms = 5; // the end of a program wakes nobody
+ProgramEnd::How listen(Running& running, Descriptor& output, Descriptor& complaints,
+                       const ProgramLimits& limits, ProgramEnd& heard) {
+    constexpr int nap_ms = 5;             // the end of a program wakes nobody
+    constexpr std::int64_t look_ms = 100; // nor does who gives up
     const Clock::time_point deadline = Clock::now() + limits.time;
     std::array<std::byte, 65536> block{};
     for (;;) {
-        const auto left =
+        const std::int64_t left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
         if (left <= 0) {
-            return Ended::TooLate;
+            return ProgramEnd::How::TooLate;
+        }
+        if (limits.given_up && limits.given_up()) {
+            return ProgramEnd::How::GivenUp;
         }
         const bool has_said_all = output.number() < 0;
         const bool has_ended = has_said_all && running.status();
         std::array<pollfd, 2> waited{{{output.number(), POLLIN, 0}, {complaints.number(), POLLIN, 0}}};
-        ::poll(waited.data(), waited.size(), has_ended ? 0 : has_said_all ? nap_ms : static_cast<int>(left));
+        const int wait_ms = static_cast<int>(limits.given_up ? std::min(left, look_ms) : left);
+        ::poll(waited.data(), waited.size(), has_ended ? 0 : has_said_all ? nap_ms : wait_ms);
         if (waited[0].revents != 0) {
             const std::span<const std::byte> read = read_some(output, block);
             if (heard.output.size() + read.size() > limits.output_bytes) {
-                return Ended::TooMuch;
+                return ProgramEnd::How::TooMuch;
             }
             heard.output.insert(heard.output.end(), read.begin(), read.end());
         }
         if (waited[1].revents != 0) {
             heard.complaint += as_text(read_some(complaints, block));
-            heard.complaint.resize(std::min(heard.complaint.size(), most_complaint_bytes));
+            heard.complaint.resize(std::min(heard.complaint.size(), limits.complaint_bytes));
         }
-        if (has_ended && (waited[1].revents == 0 || heard.complaint.size() == most_complaint_bytes)) {
-            return Ended::Whole;
+        if (has_ended && (waited[1].revents == 0 || heard.complaint.size() == limits.complaint_bytes)) {
+            return ProgramEnd::How::ByItself;
         }
     }
 }
 
+std::string name_of(const std::vector<std::string>& command) {
+    return command.empty() ? std::string() : printable(command.front());
+}
+
 } // namespace
 
-Result<Bytes> run_program(const std::vector<std::string>& command, std::string_view input,
-                          const ProgramLimits& limits) {
-    const std::string name = command.empty() ? std::string() : printable(command.front());
+Result<ProgramEnd> follow_program(const std::vector<std::string>& command, std::string_view input,
+                                  const ProgramLimits& limits) {
     const Descriptor given = memory_file(input);
     Pipe output = open_pipe();
     Pipe complaints = open_pipe();
     if (command.empty() || given.number() < 0 || output.in.number() < 0 || complaints.in.number() < 0) {
         return fail(ErrorKind::Internal,
-                    fmt::format("{}: cannot be started: {}", name, std::strerror(errno)));
+                    fmt::format("{}: cannot be started: {}", name_of(command), std::strerror(errno)));
     }
-    const auto process = start(command, {given.number(), output.in.number(), complaints.in.number()});
+    const auto process =
+        start(command, {given.number(), output.in.number(), complaints.in.number()}, limits.memory_bytes);
     if (!process) {
         return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: cannot be started: {}; install it, or name another program", name,
-                                std::strerror(process.error())));
+                    fmt::format("{}: cannot be started: {}; install it, or name another program",
+                                name_of(command), std::strerror(process.error())));
     }
     output.in = Descriptor(); // else the pipes would never end
     complaints.in = Descriptor();
     Running running(*process);
-    Heard heard;
-    const Ended ended = listen(running, output.out, complaints.out, limits, heard);
-    if (ended == Ended::TooMuch) {
+    ProgramEnd end;
+    end.how = listen(running, output.out, complaints.out, limits, end);
+    if (end.how == ProgramEnd::How::ByItself) {
+        const int status = running.status().value_or(0);
+        end.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+    return end;
+}
+
+Result<Bytes> run_program(const std::vector<std::string>& command, std::string_view input,
+                          const ProgramLimits& limits) {
+    Result<ProgramEnd> end = follow_program(command, input, limits);
+    if (!end) {
+        return tl::unexpected<Error>(end.error());
+    }
+    const std::string name = name_of(command);
+    if (end->how == ProgramEnd::How::TooMuch) {
         return bad_input(fmt::format("{}: writes more than {} bytes for one text; it was ended", name,
                                      limits.output_bytes));
     }
-    if (ended == Ended::TooLate) {
+    if (end->how == ProgramEnd::How::TooLate) {
         return bad_input(fmt::format("{}: takes longer than {:g} s for one text; it was ended", name,
                                      std::chrono::duration<double>(limits.time).count()));
     }
-    const int status = running.status().value_or(0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        const std::string why =
-            printable(std::string_view(heard.complaint).substr(0, heard.complaint.find('\n')), 160);
-        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, WIFEXITED(status) ? "status" : "signal",
-                                     WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
-                                     why.empty() ? "" : ": ", why));
+    if (end->how == ProgramEnd::How::GivenUp) {
+        return bad_input(fmt::format("{}: it was ended, as nobody waits for it any more", name));
     }
-    return std::move(heard.output);
+    if (end->status != 0) {
+        const std::string why =
+            printable(std::string_view(end->complaint).substr(0, end->complaint.find('\n')), 160);
+        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, end->status > 0 ? "status" : "signal",
+                                     std::abs(end->status), why.empty() ? "" : ": ", why));
+    }
+    return std::move(end->output);
 }
 
 } // namespace frustumscreen

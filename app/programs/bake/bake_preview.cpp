@@ -1,0 +1,90 @@
+#include "app/programs/bake/bake_preview.h"
+
+#include "app/pack/pack_file.h"
+#include "app/programs/common/progress_line.h"
+#include "app/programs/preview/preview_page.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/display/surfaceless_display.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t room_for_page = 32'000'000;
+constexpr std::string_view page_begin = "<!doctype html>";
+
+bool begins_as_page(const std::filesystem::path& file) {
+    std::string begin(page_begin.size(), ' ');
+    std::ifstream(file).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return begin == page_begin;
+}
+
+/// A third of the pictures, and smaller ones: for a page that is made again and again.
+TurnOptions turn_options(bool watched) {
+    return watched ? TurnOptions{6, 2, {400, 280}, 960} : TurnOptions{};
+}
+
+} // namespace
+
+Result<void> check_preview(const BakeRequest& request) {
+    if (request.preview.empty()) {
+        return {};
+    }
+    if (Result<void> safe = check_output_is_no_input(request.preview, request.inputs); !safe) {
+        return safe;
+    }
+    if (std::filesystem::absolute(request.preview).lexically_normal() ==
+        std::filesystem::absolute(request.output).lexically_normal()) {
+        return bad_input(fmt::format("{}: the pack and its preview have the same name; choose two",
+                                     request.output.string()));
+    }
+    if (Result<void> place = check_output_place(request.preview, room_for_page); !place) {
+        return place;
+    }
+    std::error_code ignored;
+    if (!request.force && std::filesystem::exists(request.preview, ignored) &&
+        !begins_as_page(request.preview)) {
+        return bad_input(fmt::format("{}: this file is there and is not a page; choose another name for the "
+                                     "preview, or add --force to replace it",
+                                     request.preview.string()));
+    }
+    if (const auto drawn = SurfacelessDisplay::create(16, 16); !drawn) {
+        return bad_input(
+            fmt::format("{}: the preview cannot be drawn on this computer: {}; bake without --preview "
+                        "here, and draw it on another",
+                        request.preview.string(), drawn.error().message));
+    }
+    return {};
+}
+
+Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult& result) {
+    if (request.preview.empty()) {
+        return 0;
+    }
+    ProgressLine progress("drawing the preview: ");
+    TurnOptions options = turn_options(request.watched);
+    options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
+    Result<TurnPictures> turn = turn_pictures(result.file, options);
+    if (!turn) {
+        return tl::unexpected<Error>(turn.error());
+    }
+    Result<std::vector<ProjectedLanguage>> languages =
+        projected_texts(result.file, result.pack, place(result.pack, result.prop.shape).metres_per_box);
+    if (!languages) {
+        return tl::unexpected<Error>(languages.error());
+    }
+    const PreviewMedia media{*std::move(turn), result.pack.table_picture, *std::move(languages)};
+    const std::string page = preview_page(result.pack, preview_facts(result), media,
+                                          request.watched ? PageKind::Reloading : PageKind::Final);
+    if (const Result<void> written = write_file(request.preview, as_bytes(page)); !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    return page.size();
+}
+
+} // namespace frustumscreen

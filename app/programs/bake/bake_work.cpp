@@ -1,0 +1,193 @@
+#include "app/programs/bake/bake_work.h"
+
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_magic.h"
+#include "app/pack/sha256.h"
+#include "app/programs/bake/artifact_words.h"
+#include "app/programs/bake/check_hotspots.h"
+#include "app/programs/common/progress_line.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/best_turn.h"
+#include "assets_baked/bake/load_mesh.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+Result<void> describe(Pack& pack, const BakeRequest& request) {
+    pack.id = request.id;
+    pack.title = request.captions.front().title;
+    pack.captions = request.captions;
+    for (const PackCaption& caption : pack.captions) {
+        pack.languages.push_back(caption.language);
+    }
+    const Result<Bytes> source = read_file(request.scan);
+    if (!source) {
+        return tl::unexpected<Error>(source.error());
+    }
+    pack.provenance.source_name = request.scan.filename().string();
+    pack.provenance.source_sha256 = sha256_hex(*source);
+    pack.provenance.licence = request.licence;
+    return {};
+}
+
+/// Without colours an unlit mesh would be one flat area.
+bool has_colours(const SourceMesh& mesh) {
+    const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
+        return each.base_colour == mesh.materials.front().base_colour;
+    });
+    return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
+/// With --strict what is lost is an error; otherwise it is said, and said again in the report.
+Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& request) {
+    std::vector<std::string> lost;
+    for (const SourceNote& note : notes) {
+        if (note.kind == SourceNote::Kind::Lost) {
+            lost.push_back(note.text);
+        }
+    }
+    if (request.strict && !lost.empty()) {
+        return bad_input(fmt::format("{}: this would be lost, and --strict forbids it: {}",
+                                     request.scan.string(), fmt::join(lost, "; ")));
+    }
+    for (const std::string& text : lost) {
+        say_line("frustumscreen-bake", fmt::format("{}: lost: {}", request.scan.string(), text));
+    }
+    return {};
+}
+
+/// Reads the file; its notes say what is lost of it.
+Result<SourceMesh> load(const BakeRequest& request) {
+    Result<SourceMesh> mesh = load_mesh(request.scan, {request.texture});
+    if (!mesh) {
+        return mesh;
+    }
+    if (const Result<void> safe = check_output_is_no_input(request.output, mesh->side_files); !safe) {
+        return tl::unexpected<Error>(safe.error());
+    }
+    if (request.options.unlit && !has_colours(*mesh)) {
+        mesh->notes.push_back(
+            {SourceNote::Kind::Lost,
+             "the relief: the file has no colours, and --unlit makes a flat picture of it; without "
+             "--unlit it is lit as in a museum"});
+    }
+    return mesh;
+}
+
+/// What takes seconds comes before what takes minutes, so that what is wrong with it is said at once.
+Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOptions& options,
+                                    std::vector<SourceNote>& notes) {
+    options.progress("texts and speech", 0.0);
+    Result<ArtifactWords> words = words_of(request);
+    if (!words) {
+        return words;
+    }
+    for (const std::string& lost : words->lost) {
+        notes.push_back({SourceNote::Kind::Lost, lost});
+    }
+    if (const Result<void> told = tell(notes, request); !told) {
+        return tl::unexpected<Error>(told.error());
+    }
+    return words;
+}
+
+Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
+    const auto start = std::chrono::steady_clock::now();
+    const Result<SourceMesh> mesh = load(request);
+    if (!mesh) {
+        return tl::unexpected<Error>(mesh.error());
+    }
+    BakeResult result;
+    result.file = request.output;
+    result.prop = options.prop;
+    result.notes = mesh->notes;
+    result.up = options.up.empty() ? std::string(1, mesh->default_up) : options.up;
+    result.up_given = !options.up.empty();
+    result.turn_given = request.turn_deg.has_value();
+    options.turn_deg = result.turn_deg =
+        request.turn_deg ? *request.turn_deg
+                         : best_turn_deg(*mesh, result.up, options.lift, options.prop.shape);
+    if (const Result<void> checked = check_hotspots(*mesh, options); !checked) {
+        return tl::unexpected<Error>(checked.error());
+    }
+    Result<ArtifactWords> words = set_and_speak(request, options, result.notes);
+    if (!words) {
+        return tl::unexpected<Error>(words.error());
+    }
+    result.silent = std::move(words->silent);
+    Result<Pack> pack = bake(*mesh, options);
+    if (!pack) {
+        return at(request.scan.string(), pack.error());
+    }
+    if (const Result<void> described = describe(*pack, request); !described) {
+        return tl::unexpected<Error>(described.error());
+    }
+    put_sounds(*pack, words->spoken);
+    put_set_texts(*pack, words->set);
+    result.pack = *std::move(pack);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+/// Checks before the work that no scan and no unknown file is overwritten, and that the pack can be written.
+Result<void> check_output(const BakeRequest& request) {
+    if (Result<void> safe = check_output_is_no_input(request.output, request.inputs); !safe) {
+        return safe;
+    }
+    if (Result<void> place = check_output_place(request.output, room_for_pack(request.options.size));
+        !place) {
+        return place;
+    }
+    std::error_code ignored;
+    if (!request.force && std::filesystem::exists(request.output, ignored) &&
+        !begins_as_pack(request.output)) {
+        return bad_input(fmt::format("{}: this file is there and is not a pack; choose another name for the "
+                                     "output, or add --force to replace it",
+                                     request.output.string()));
+    }
+    return {};
+}
+
+} // namespace
+
+Result<BakeResult> bake_pack(const BakeRequest& request) {
+    if (Result<void> checked = check_output(request); !checked) {
+        return tl::unexpected<Error>(checked.error());
+    }
+    ProgressLine progress("baking: ");
+    BakeOptions options = request.options;
+    options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
+    Result<BakeResult> result = bake_file(request, std::move(options));
+    if (!result) {
+        return result;
+    }
+    const Result<Bytes> bytes = write_pack(result->pack);
+    if (!bytes) {
+        return at(request.output.string(), bytes.error());
+    }
+    Result<std::vector<PackPart>> parts = list_pack_parts(*bytes);
+    if (!parts) {
+        return at(request.output.string(), parts.error());
+    }
+    result->parts = *std::move(parts);
+    result->file_bytes = bytes->size();
+    if (const Result<void> written = write_file(request.output, *bytes); !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,224 @@
+#include "app/programs/bake/batch_command.h"
+
+#include "app/programs/bake/bake_options.h"
+#include "app/programs/batch/batch_report.h"
+#include "app/programs/batch/content_hash.h"
+#include "app/programs/batch/run_batch.h"
+#include "app/programs/common/progress_line.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+#include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/time.h"
+#include "firmware_host/base/words_of_time.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr const char* program = "frustumscreen-bake";
+constexpr double bytes_per_mb = 1e6;
+constexpr std::uintmax_t room_for_reports = 1'000'000;
+constexpr std::size_t most_sentences = 20; ///< of failures on standard error; all are in the report
+
+struct Arguments {
+    std::filesystem::path folder;
+    std::filesystem::path output;
+    std::size_t jobs = 1;
+    std::string shard; ///< empty: all
+    double time_limit_s = 3600.0;
+    double memory_limit_mb = 0.0; ///< 0: none
+    bool pages = false;
+    bool report_only = false;
+    bool json = false;
+    BakeArguments bake;
+};
+
+/// Makes the folder of the packs, and looks whether it can be written.
+Result<void> check_output_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        return bad_input(fmt::format("{}: cannot be made: {}; choose another folder for the packs",
+                                     folder.string(), error.message()));
+    }
+    return check_output_place(folder / "report.csv", room_for_reports);
+}
+
+/// Another build of the program may bake other packs.
+Result<std::string> program_key() {
+    Result<std::string> hash = hash_of_file("/proc/self/exe");
+    return hash ? Result<std::string>("frustumscreen-bake " FRUSTUMSCREEN_VERSION " " + *hash) : hash;
+}
+
+Result<BatchPlan> plan_of(const Arguments& arguments, std::vector<BatchObject> objects) {
+    Result<std::string> key = program_key();
+    if (!key) {
+        return tl::unexpected<Error>(key.error());
+    }
+    BatchPlan plan;
+    plan.objects = std::move(objects);
+    plan.output = arguments.output;
+    plan.program = {"/proc/self/exe"};
+    plan.program_key = *std::move(key);
+    plan.bake_options = bake_options_of(arguments.bake);
+    plan.pages = arguments.pages;
+    plan.bakes = !arguments.report_only;
+    plan.jobs = arguments.jobs;
+    plan.limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * arguments.time_limit_s));
+    plan.limits.memory_bytes = static_cast<std::uint64_t>(bytes_per_mb * arguments.memory_limit_mb);
+    plan.limits.complaint_bytes = std::size_t{1} << 20U;
+    return plan;
+}
+
+/// report.html and report.csv, or those of a shard.
+std::filesystem::path report_file(const Arguments& arguments, const std::optional<Shard>& shard,
+                                  std::string_view ending) {
+    return arguments.output / (shard ? fmt::format("report.{}-of-{}.{}", shard->number, shard->of, ending)
+                                     : fmt::format("report.{}", ending));
+}
+
+Result<void> write_reports(const Arguments& arguments, const std::optional<Shard>& shard,
+                           const std::vector<BatchRow>& rows, const Collection& collection, double seconds) {
+    const std::string title =
+        shard ? fmt::format("{}, share {} of {}", arguments.folder.string(), shard->number, shard->of)
+              : arguments.folder.string();
+    if (Result<void> csv = write_file(report_file(arguments, shard, "csv"), as_bytes(report_csv(rows)));
+        !csv) {
+        return csv;
+    }
+    return write_file(report_file(arguments, shard, "html"),
+                      as_bytes(report_page(rows, title, seconds, collection.passed_over)));
+}
+
+/// Failures are said as they come; all the rest stands in the report.
+std::vector<BatchRow> run(const BatchPlan& plan) {
+    ProgressLine progress("baking: ");
+    std::size_t done = 0;
+    std::size_t told = 0;
+    return run_batch(plan, [&](const BatchRow& row) {
+        progress.show(++done, plan.objects.size());
+        if (!row.sentence.empty() && told < most_sentences) {
+            progress.clear();
+            ++told;
+            say_line(program, fmt::format("{}: {}", row.object, row.sentence));
+        }
+    });
+}
+
+void print_end(const Arguments& arguments, const std::vector<BatchRow>& rows,
+               const std::filesystem::path& report, double seconds) {
+    if (!arguments.json) {
+        fmt::print("{}, in {}; {} says more\n", summary(rows), words_of_time(seconds), report.string());
+        return;
+    }
+    nlohmann::ordered_json json = {
+        {"objects", rows.size()}, {"seconds", seconds}, {"report", report.string()}};
+    for (const BatchStatus status :
+         {BatchStatus::Baked, BatchStatus::Unchanged, BatchStatus::Failed, BatchStatus::Missing}) {
+        json[std::string(name_of(status))] = count_of(rows, status);
+    }
+    fmt::print("{}\n", json.dump(2));
+}
+
+/// Whether all objects have a pack.
+Result<bool> work(const Arguments& arguments) {
+    const MonotonicTime start = monotonic_now();
+    std::optional<Shard> shard;
+    if (!arguments.shard.empty()) {
+        const Result<Shard> parsed = parse_shard(arguments.shard);
+        if (!parsed) {
+            return tl::unexpected<Error>(parsed.error());
+        }
+        shard = *parsed;
+    }
+    const Result<Collection> collection = list_collection(arguments.folder, arguments.output);
+    if (!collection) {
+        return tl::unexpected<Error>(collection.error());
+    }
+    if (collection->objects.empty()) {
+        return bad_input(
+            fmt::format("{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
+                        "--new FOLDER SCAN makes such a folder",
+                        arguments.folder.string()));
+    }
+    if (const Result<void> folder = check_output_folder(arguments.output); !folder) {
+        return tl::unexpected<Error>(folder.error());
+    }
+    const Result<BatchPlan> plan = plan_of(arguments, share_of(collection->objects, shard.value_or(Shard())));
+    if (!plan) {
+        return tl::unexpected<Error>(plan.error());
+    }
+    const std::vector<BatchRow> rows = run(*plan);
+    const double seconds = to_seconds(monotonic_now() - start);
+    if (const Result<void> written = write_reports(arguments, shard, rows, *collection, seconds); !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    print_end(arguments, rows, report_file(arguments, shard, "html"), seconds);
+    return count_of(rows, BatchStatus::Failed) + count_of(rows, BatchStatus::Missing) == 0;
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    app.add_option("--batch", arguments.folder,
+                   "DIR whose subfolders have an artifact.toml each; scans may lie there too")
+        ->required();
+    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report")
+        ->required();
+    app.add_option("-j,--jobs", arguments.jobs, "bakes at a time, 1 to 256; each uses all cores")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    app.add_option("--shard", arguments.shard,
+                   "i/n: every n-th object, from the i-th on, for one of n machines");
+    app.add_option("--time-limit", arguments.time_limit_s, "seconds for one bake")
+        ->check(CLI::Range(1.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--memory-limit", arguments.memory_limit_mb, "megabytes for one bake; 0: no limit")
+        ->check(CLI::Range(0.0, 1e8))
+        ->capture_default_str();
+    app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");
+    app.add_flag("--report-only", arguments.report_only,
+                 "bakes nothing: reports of what is there, such as of all shards together");
+    app.add_flag("--json", arguments.json, "the counts for programs");
+    add_bake_options(app, arguments.bake);
+}
+
+} // namespace
+
+bool asks_for_batch(int argc, const char* const* argv) {
+    return std::any_of(argv, argv + argc, [](std::string_view argument) {
+        return argument == "--batch" || argument.starts_with("--batch=");
+    });
+}
+
+int batch_command(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("Bakes every object of a folder into a pack. What is done already and has not changed is "
+                 "left; what fails stops "
+                 "nothing else. A run that was ended goes on where it was.",
+                 program);
+    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    add_options(app, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    const Result<bool> done = work(arguments);
+    if (!done) {
+        fmt::print(stderr, "{}: {}\n", program, done.error().message);
+        return done.error().kind == ErrorKind::BadConfiguration ? 2 : 1;
+    }
+    return *done ? 0 : 1;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,114 @@
+#include "app/programs/batch/collection.h"
+
+#include "assets_baked/folder/artifact_file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+namespace frustumscreen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 5> scan_endings{".glb", ".gltf", ".obj", ".ply", ".stl"};
+constexpr std::size_t most_shards = 100'000;
+
+bool is_scan(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(scan_endings.begin(), scan_endings.end(), ending) != scan_endings.end();
+}
+
+void add(const fs::directory_entry& entry, Collection& collection) {
+    std::error_code none;
+    const fs::path name = entry.path().filename();
+    if (entry.is_directory(none)) {
+        if (fs::exists(entry.path() / artifact_file_name, none)) {
+            collection.objects.push_back({name.string(), entry.path(), {}});
+        } else {
+            collection.passed_over.push_back(name.string());
+        }
+    } else if (entry.is_regular_file(none) && is_scan(name)) {
+        collection.objects.push_back({name.stem().string(), entry.path(), {}});
+    }
+}
+
+/// Two packs of one name would replace each other.
+void refuse_twins(std::vector<BatchObject>& objects) {
+    for (std::size_t k = 1; k < objects.size(); ++k) {
+        const BatchObject& first = objects[k - 1];
+        if (objects[k].name == first.name) {
+            objects[k].fault =
+                fmt::format("{} and {} would have the same pack, {}.fspack; rename one of them",
+                            printable(first.input.filename().string()),
+                            printable(objects[k].input.filename().string()), printable(first.name));
+        }
+    }
+}
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+    std::size_t value = 0;
+    const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), value);
+    return read.ec == std::errc() && read.ptr == text.data() + text.size() ? std::optional(value)
+                                                                           : std::nullopt;
+}
+
+} // namespace
+
+Result<Collection> list_collection(const fs::path& folder, const fs::path& output) {
+    Collection collection;
+    std::error_code error;
+    fs::directory_iterator entries(folder, error);
+    for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+        std::error_code none;
+        const bool is_hidden = entries->path().filename().string().starts_with('.');
+        if (!is_hidden && !fs::equivalent(entries->path(), output, none)) {
+            add(*entries, collection);
+        }
+    }
+    if (error) {
+        return bad_input(
+            fmt::format("{}: cannot be read as a folder of objects: {}; name the folder in which they "
+                        "lie",
+                        folder.string(), error.message()));
+    }
+    std::sort(collection.objects.begin(), collection.objects.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.name, a.input.string()) < std::pair(b.name, b.input.string());
+    });
+    std::sort(collection.passed_over.begin(), collection.passed_over.end());
+    refuse_twins(collection.objects);
+    return collection;
+}
+
+Result<Shard> parse_shard(std::string_view text) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const auto number = whole_number(text.substr(0, slash));
+    const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
+    if (!number || !of || *number < 1 || *number > *of || *of > most_shards) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "--shard '{}': allowed are 1/N to N/N, such as 3/8 for the third of eight, N at most {}",
+                printable(text, 40), most_shards));
+    }
+    return Shard{*number, *of};
+}
+
+std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Shard& shard) {
+    std::vector<BatchObject> share;
+    for (std::size_t k = shard.number - 1; k < objects.size(); k += shard.of) {
+        share.push_back(objects[k]);
+    }
+    return share;
+}
+
+} // namespace frustumscreen

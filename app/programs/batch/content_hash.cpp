@@ -1,0 +1,102 @@
+#include "app/programs/batch/content_hash.h"
+
+#include "app/pack/sha256.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <sodium.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedFile {
+    std::string name; ///< in the folder
+    fs::path path;
+};
+
+/// By name, byte by byte.
+Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
+    std::vector<NamedFile> files;
+    std::error_code error;
+    fs::recursive_directory_iterator entries(folder, error);
+    for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+        std::error_code none;
+        if (entries->path().filename().string().starts_with('.')) {
+            entries.disable_recursion_pending();
+        } else if (entries->is_regular_file(none)) {
+            files.push_back({entries->path().lexically_relative(folder).string(), entries->path()});
+        }
+    }
+    if (error) {
+        return bad_input(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+    }
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    return files;
+}
+
+} // namespace
+
+Result<std::string> hash_of_file(const fs::path& file) {
+    crypto_hash_sha256_state state;
+    crypto_hash_sha256_init(&state);
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<char> block(1U << 20U);
+    while (stream) {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(block.data()),
+                                  static_cast<unsigned long long>(stream.gcount()));
+    }
+    if (!stream.eof()) {
+        return bad_input(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+    }
+    std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
+    crypto_hash_sha256_final(&state, hash.data());
+    std::string hex;
+    for (const unsigned char byte : hash) {
+        hex += fmt::format("{:02x}", byte);
+    }
+    return hex;
+}
+
+std::string hash_of_texts(std::span<const std::string> texts) {
+    std::string all;
+    for (const std::string& text : texts) {
+        all += fmt::format("{}:{},", text.size(), text);
+    }
+    return sha256_hex(as_bytes(all));
+}
+
+Result<std::string> hash_of_object(const fs::path& input) {
+    std::error_code none;
+    if (!fs::is_directory(input, none)) {
+        return hash_of_file(input);
+    }
+    const Result<std::vector<NamedFile>> files = files_of(input);
+    if (!files) {
+        return tl::unexpected<Error>(files.error());
+    }
+    std::vector<std::string> texts;
+    for (const NamedFile& file : *files) {
+        Result<std::string> hash = hash_of_file(file.path);
+        if (!hash) {
+            return hash;
+        }
+        texts.push_back(file.name);
+        texts.push_back(*std::move(hash));
+    }
+    return hash_of_texts(texts);
+}
+
+} // namespace frustumscreen

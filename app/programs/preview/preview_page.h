@@ -1,0 +1,57 @@
+/// A pack as one HTML page: how it looks, what it says, how exact it is, and what was lost on the way. It is for the curator who
+/// made the pack.
+///
+/// The page needs nothing else: pictures, sounds, style and script are in it, and its content security policy forbids it to load
+/// anything. All texts of the pack are escaped. Without scripts the artifact turns by itself.
+///
+/// Threads  pure; any.
+/// Errors   none.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "app/programs/preview/text_pictures.h"
+#include "app/programs/preview/turn_pictures.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// One level of detail, on the usual prop.
+struct PreviewLevel {
+    std::string kind; ///< "relief" or "mesh"
+    std::uint64_t triangles = 0;
+    std::uint64_t bytes = 0;
+    double mean_mm = 0.0, p95_mm = 0.0, largest_mm = 0.0;
+    double colour_rmse = 0.0; ///< 8-bit codes
+};
+
+/// What the bake found, in words where it is for reading.
+struct PreviewFacts {
+    std::string pack_name; ///< the file's, without folders
+    std::uint64_t pack_bytes = 0;
+    double seconds = 0.0;
+    glm::dvec3 size_m{0.0};
+    std::string stands;
+    std::string program; ///< name and version
+    std::vector<PreviewLevel> levels;
+    std::vector<std::string> lost, silent, guessed; ///< a sentence each
+};
+
+struct PreviewMedia {
+    TurnPictures turn;
+    Image8 table_picture; ///< empty: none
+    std::vector<ProjectedLanguage> languages;
+};
+
+/// A page that is still being worked on loads itself again every two seconds.
+enum class PageKind : std::uint8_t { Final, Reloading };
+
+[[nodiscard]] std::string preview_page(const PackDescription& pack, const PreviewFacts& facts,
+                                       const PreviewMedia& media, PageKind kind = PageKind::Final);
+
+/// A reloading page as it is once nobody works on it any more.
+[[nodiscard]] std::string without_reloading(std::string page);
+
+} // namespace frustumscreen

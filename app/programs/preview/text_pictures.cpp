@@ -1,0 +1,97 @@
+#include "app/programs/preview/text_pictures.h"
+
+#include "app/image/image.h"
+#include "app/pack/pack_texts.h"
+#include "app/pack/text_portions.h"
+#include "app/settings/settings.h"
+#include "app/show/artifact_texts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr auto never = [] { return false; };
+
+/// A kiosk's own, unless its settings have another type size.
+TextStyle usual_style() {
+    return {ExhibitSettings{}.caption_height_m, 2400.0};
+}
+
+/// White on black, as the projector shows it.
+ProjectedText projected(std::string text, const Image<std::uint8_t>& coverage) {
+    if (coverage.texels.empty()) {
+        return {std::move(text), {}, {}};
+    }
+    Image8 picture(coverage.width, coverage.height);
+    std::transform(coverage.texels.begin(), coverage.texels.end(), picture.texels.begin(),
+                   [](std::uint8_t light) {
+                       const std::uint8_t code = srgb8_from_linear(light / 255.0);
+                       return glm::u8vec4(code, code, code, 255);
+                   });
+    return {std::move(text), encode_webp(picture), {picture.width, picture.height}};
+}
+
+/// In the language itself; empty where there is none.
+std::string label_in(const PackHotspot& hotspot, const std::string& language) {
+    const auto found = std::find_if(hotspot.labels.begin(), hotspot.labels.end(),
+                                    [&](const PackLabel& label) { return label.language == language; });
+    return found != hotspot.labels.end() ? found->text : std::string();
+}
+
+Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTexts& texts,
+                                      std::size_t language) {
+    ProjectedLanguage made;
+    made.caption = source.pack.captions[source.captions[language]];
+    const Result<TextPictures> captions =
+        draw_texts(source, texts, TextPart::Caption, language, usual_style(), never);
+    const Result<TextPictures> telling =
+        captions ? draw_texts(source, texts, TextPart::Telling, language, usual_style(), never) : captions;
+    if (!telling) {
+        return tl::unexpected<Error>(telling.error());
+    }
+    made.title = projected(made.caption.title, captions->front());
+    const std::size_t portions = texts.entry.descriptions[language].sizes_m.size();
+    const std::vector<std::string> told = portions_of(made.caption.description);
+    for (std::size_t k = 0; k < portions; ++k) {
+        made.portions.push_back(projected(told[k], (*telling)[portion_picture(k, 0)]));
+    }
+    for (std::size_t k = 0; k < source.pack.hotspots.size(); ++k) {
+        made.labels.push_back(projected(label_in(source.pack.hotspots[k], made.caption.language),
+                                        (*telling)[label_picture(texts.entry, language, k)]));
+    }
+    Result<Bytes> sound = load_sound(source.file, made.caption.language, "description");
+    if (!sound) {
+        return tl::unexpected<Error>(sound.error());
+    }
+    made.sound = *std::move(sound);
+    return made;
+}
+
+} // namespace
+
+Result<std::vector<ProjectedLanguage>> projected_texts(const std::filesystem::path& pack_file,
+                                                       const PackDescription& pack, double metres_per_box) {
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < pack.captions.size(); ++k) {
+        all.push_back(k);
+    }
+    const TextSource source{pack_file, pack, all};
+    const Result<ArtifactTexts> texts = lay_out_texts(source, metres_per_box, usual_style(), true);
+    if (!texts) {
+        return tl::unexpected<Error>(texts.error());
+    }
+    std::vector<ProjectedLanguage> languages;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Result<ProjectedLanguage> language = language_of(source, *texts, k);
+        if (!language) {
+            return tl::unexpected<Error>(language.error());
+        }
+        languages.push_back(*std::move(language));
+    }
+    return languages;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,40 @@
+/// An artifact's texts and sounds as the kiosk shows and plays them, for the preview's page.
+///
+/// Pictures are of the widest caption, at the usual type size, white on black; lossless WebP.
+///
+/// Errors   as load_set_texts; no typeface where one is needed. Messages begin with the file's name.
+/// Threads  one caller.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+#include <glm/glm.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// A text and how it looks on the table.
+struct ProjectedText {
+    std::string text;
+    Bytes picture;      ///< none: the bake could not set it
+    glm::ivec2 size{0}; ///< pixels
+};
+
+struct ProjectedLanguage {
+    PackCaption caption;
+    ProjectedText title;                 ///< the title over the short text
+    std::vector<ProjectedText> portions; ///< of the description
+    std::vector<ProjectedText> labels;   ///< of the hotspots, in their order
+    Bytes sound;                         ///< the description, Ogg Opus; none: it is silent
+};
+
+/// One for each caption of the pack.
+[[nodiscard]] Result<std::vector<ProjectedLanguage>>
+projected_texts(const std::filesystem::path& pack_file, const PackDescription& pack, double metres_per_box);
+
+} // namespace frustumscreen

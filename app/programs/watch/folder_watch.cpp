@@ -1,0 +1,107 @@
+#include "app/programs/watch/folder_watch.h"
+
+#include <fmt/format.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uint32_t changes =
+    IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF;
+
+/// A new file counts once it is written and closed; a new folder counts at once.
+bool counts(const inotify_event& event, std::string_view name) {
+    const bool is_only_begun = (event.mask & IN_CREATE) != 0 && (event.mask & IN_ISDIR) == 0;
+    return !name.empty() && !is_only_begun && !is_passing_name(name);
+}
+
+} // namespace
+
+bool is_passing_name(std::string_view name) {
+    const std::size_t part = name.rfind(".part");
+    const bool is_partial = part != std::string_view::npos &&
+                            std::all_of(name.begin() + static_cast<std::ptrdiff_t>(part) + 5, name.end(),
+                                        [](char c) { return c >= '0' && c <= '9'; });
+    return name.starts_with('.') || name.starts_with('#') || name.ends_with('~') || name.ends_with(".swp") ||
+           name.ends_with(".tmp") || name == "4913" || is_partial; // vim tries whether it may write by 4913
+}
+
+Result<FolderWatch> FolderWatch::open(const std::filesystem::path& folder) {
+    FolderWatch watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC), folder);
+    if (watch.descriptor_ < 0) {
+        return fail(ErrorKind::Internal,
+                    fmt::format("{}: cannot be watched: {}; end other programs that watch "
+                                "folders",
+                                folder.string(), std::strerror(errno)));
+    }
+    if (Result<void> added = watch.add(folder); !added) {
+        return tl::unexpected<Error>(added.error());
+    }
+    return watch;
+}
+
+FolderWatch::~FolderWatch() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+FolderWatch::FolderWatch(FolderWatch&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), folder_(std::move(other.folder_)),
+      watched_(std::move(other.watched_)) {}
+
+Result<void> FolderWatch::add(const std::filesystem::path& folder) {
+    const int number = ::inotify_add_watch(descriptor_, folder.c_str(), changes | IN_ONLYDIR);
+    if (number < 0) {
+        return bad_input(fmt::format("{}: cannot be watched: {}", folder.string(), std::strerror(errno)));
+    }
+    watched_[number] = folder;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        if (entry.is_directory(none) && !entry.is_symlink(none) &&
+            !is_passing_name(entry.path().filename().string())) {
+            (void)add(entry.path()); // it may be gone already; then that is told as a change
+        }
+    }
+    return {};
+}
+
+Result<bool> FolderWatch::take() {
+    bool changed = false;
+    alignas(inotify_event) std::array<char, 16384> block{};
+    for (ssize_t size = 0; (size = ::read(descriptor_, block.data(), block.size())) > 0;) {
+        for (std::size_t at = 0; at < static_cast<std::size_t>(size);) {
+            const auto& event = *reinterpret_cast<const inotify_event*>(block.data() + at);
+            const std::string_view name(event.len > 0 ? block.data() + at + sizeof(event) : "");
+            at += sizeof(event) + event.len;
+            const auto place = watched_.find(event.wd);
+            const bool is_itself = (event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0;
+            if (is_itself && place != watched_.end() && place->second == folder_) {
+                return bad_input(
+                    fmt::format("{}: this folder is gone; it was watched until now", folder_.string()));
+            }
+            const bool is_new_folder =
+                (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0 && (event.mask & IN_ISDIR) != 0;
+            if (is_new_folder && place != watched_.end() && !is_passing_name(name)) {
+                (void)add(place->second / name);
+            }
+            if ((event.mask & IN_IGNORED) != 0) {
+                watched_.erase(event.wd);
+            }
+            changed = changed || counts(event, name) || (event.mask & IN_Q_OVERFLOW) != 0;
+        }
+    }
+    return changed;
+}
+
+} // namespace frustumscreen

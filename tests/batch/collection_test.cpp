@@ -1,0 +1,106 @@
+// Which objects a folder holds, which share of them a machine takes, and by what they are known again.
+#include "app/programs/batch/collection.h"
+#include "app/programs/batch/content_hash.h"
+#include "tests/programs/program_folder.h"
+
+#include <set>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CollectionFolder : public ProgramFolder {
+protected:
+    void put(const std::string& file, const std::string& content = "x") const {
+        fs::create_directories((folder / file).parent_path());
+        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
+    }
+};
+
+std::vector<std::string> names_of(const std::vector<BatchObject>& objects) {
+    std::vector<std::string> names;
+    for (const BatchObject& object : objects) {
+        names.push_back(object.name);
+    }
+    return names;
+}
+
+TEST_F(CollectionFolder, FoldersWithAnArtifactFileAndScansAreObjects) {
+    put("vase/artifact.toml");
+    put("Bowl/artifact.toml");
+    put("letters/notes.txt");
+    put(".hidden/artifact.toml");
+    put("packs/artifact.toml");
+    put("cup.STL");
+    put("cup.txt");
+    put("vase.glb");
+    const Result<Collection> collection = list_collection(folder, folder / "packs");
+    ASSERT_TRUE(collection) << collection.error().message;
+    EXPECT_EQ(names_of(collection->objects), (std::vector<std::string>{"Bowl", "cup", "vase", "vase"}));
+    EXPECT_EQ(collection->passed_over, std::vector<std::string>{"letters"});
+    EXPECT_EQ(collection->objects[2].fault, "");
+    EXPECT_EQ(collection->objects[3].fault,
+              "vase and vase.glb would have the same pack, vase.fspack; rename one of them");
+    EXPECT_FALSE(list_collection(folder / "nowhere", folder));
+}
+
+TEST(Shards, TogetherHaveEachObjectOnce) {
+    std::vector<BatchObject> objects;
+    for (int k = 0; k < 23; ++k) {
+        objects.push_back({std::to_string(k), {}, {}});
+    }
+    for (const std::size_t of : {1, 2, 7, 23, 40}) {
+        std::multiset<std::string> all;
+        for (std::size_t number = 1; number <= of; ++number) {
+            for (const std::string& name : names_of(share_of(objects, {number, of}))) {
+                all.insert(name);
+            }
+        }
+        EXPECT_EQ(all.size(), objects.size()) << of;
+        EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), objects.size()) << of;
+    }
+}
+
+TEST(Shards, AreWrittenAsANumberOfANumber) {
+    const Result<Shard> shard = parse_shard("3/8");
+    ASSERT_TRUE(shard);
+    EXPECT_EQ(shard->number, 3U);
+    EXPECT_EQ(shard->of, 8U);
+    for (const char* wrong :
+         {"", "3", "/", "0/8", "9/8", "3/", "/8", "3/8/1", "-1/8", "3 /8", "1e1/20", "1/100001", "x/y"}) {
+        const Result<Shard> refused = parse_shard(wrong);
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_NE(refused.error().message.find("allowed are 1/N to N/N"), std::string::npos);
+    }
+}
+
+TEST_F(CollectionFolder, AFileHasTheHashThatSha256sumSays) {
+    put("scan.stl", std::string(3'000'000, 'a') + "end");
+    ASSERT_EQ(std::system(fmt::format("cd '{}' && sha256sum scan.stl >sum.txt", folder.string()).c_str()), 0);
+    const Result<std::string> hash = hash_of_object(folder / "scan.stl");
+    ASSERT_TRUE(hash) << hash.error().message;
+    EXPECT_EQ(*hash, text("sum.txt").substr(0, 64));
+    EXPECT_FALSE(hash_of_file(folder / "nowhere"));
+    EXPECT_FALSE(hash_of_file(folder)) << "a folder is no file";
+}
+
+TEST_F(CollectionFolder, AFolderIsKnownByNamesAndBytesAlone) {
+    put("vase/artifact.toml", "one");
+    put("vase/recordings/en/description.wav", "two");
+    const std::string before = *hash_of_object(folder / "vase");
+    put("vase/.artifact.toml.swp", "an editor's");
+    fs::last_write_time(folder / "vase/artifact.toml",
+                        fs::file_time_type::clock::now() + std::chrono::hours(1));
+    EXPECT_EQ(*hash_of_object(folder / "vase"), before) << "hidden files and times do not count";
+    fs::rename(folder / "vase/recordings/en", folder / "vase/recordings/de");
+    EXPECT_NE(*hash_of_object(folder / "vase"), before);
+    fs::rename(folder / "vase/recordings/de", folder / "vase/recordings/en");
+    EXPECT_EQ(*hash_of_object(folder / "vase"), before);
+    put("vase/artifact.toml", "on");
+    put("vase/recordings/en/description.wav", "etwo");
+    EXPECT_NE(*hash_of_object(folder / "vase"), before) << "the same bytes, cut elsewhere";
+}
+
+} // namespace
+} // namespace frustumscreen

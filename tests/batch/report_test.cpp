@@ -1,0 +1,66 @@
+// The report as programs and browsers read it: Python's csv and html.parser look at names that need every escape.
+#include "app/programs/batch/batch_report.h"
+#include "tests/programs/program_folder.h"
+
+namespace frustumscreen {
+namespace {
+
+class Report : public ProgramFolder {
+protected:
+    /// What the Python program prints.
+    std::string python(const std::string& program) const {
+        EXPECT_TRUE(write_file(folder / "look.py", as_bytes(program)));
+        EXPECT_EQ(std::system(fmt::format("cd '{}' && python3 look.py >out.txt", folder.string()).c_str()),
+                  0);
+        return text("out.txt");
+    }
+};
+
+const std::vector<BatchRow> rows = [] {
+    std::vector<BatchRow> made(3);
+    made[0] = {"a, \"b\"\nc", BatchStatus::Baked, 1.25, "", "=Jug & <b>", 2, 1'500'000, 0.5, 1.0, 2.0, 1, 0,
+               true};
+    made[1].object = "bad";
+    made[1].status = BatchStatus::Failed;
+    made[1].sentence = "x: <script>alert(1)</script>, \"no\"";
+    made[2] = {"plain", BatchStatus::Unchanged, 3.0, "", "T", 1, 10, 0, 0, 0, 0, 0, false};
+    return made;
+}();
+
+TEST_F(Report, CsvIsReadAsItWasMeant) {
+    ASSERT_TRUE(write_file(folder / "report.csv", as_bytes(report_csv(rows))));
+    EXPECT_EQ(
+        python(
+            "import csv\n"
+            "for row in csv.DictReader(open('report.csv', newline='')):\n"
+            "    assert None not in row and None not in row.values()\n"
+            "    print([row[k] for k in ('object', 'status', 'seconds', 'sentence', 'bytes', 'title')])\n"),
+        "['a, \"b\"\\nc', 'baked', '1.2', '', '1500000', '=Jug & <b>']\n"
+        "['bad', 'failed', '0.0', 'x: <script>alert(1)</script>, \"no\"', '', '']\n"
+        "['plain', 'unchanged', '3.0', '', '10', 'T']\n");
+}
+
+TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
+    const std::vector<std::string> over{"old <stuff>"};
+    ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "Coll & <i>", 61.0, over))));
+    EXPECT_EQ(python("from html.parser import HTMLParser\n"
+                     "class Look(HTMLParser):\n"
+                     "    def handle_starttag(self, tag, attributes):\n"
+                     "        assert tag not in ('script', 'b', 'i', 'stuff', 'img', 'link'), tag\n"
+                     "        for name, value in attributes:\n"
+                     "            if name == 'href': print('href', value)\n"
+                     "    def handle_data(self, data):\n"
+                     "        if any(c in data for c in '<&') and '{' not in data: print(data.strip())\n"
+                     "Look().feed(open('report.html').read())\n"),
+              "Coll & <i>\nColl & <i>\nPassed over, without an artifact.toml: old <stuff>\n"
+              "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\n=Jug & <b>\n")
+        << "what failed comes first";
+}
+
+TEST(Summary, SaysHowManyOfEach) {
+    EXPECT_EQ(summary(rows), "3 objects: 1 baked, 1 unchanged, 1 failed");
+    EXPECT_EQ(summary(std::span(rows).first(1)), "1 object: 1 baked");
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,145 @@
+// Many bakes, each a process of its own: a shell script in place of the program, so that it fails in every way there is.
+#include "app/programs/batch/run_batch.h"
+#include "tests/programs/program_folder.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+/// Writes a pack as the program does, and what is wrong with the object named in its input.
+constexpr const char* script = R"(
+for word; do case "$word" in --output=*) out=${word#--output=} ;; esac; done
+echo "$1" >>"$COUNT"
+case "$1" in
+*bad) echo "frustumscreen-bake: said before" >&2; echo "frustumscreen-bake: $1: has no triangles" >&2; exit 1 ;;
+*slow) sleep 1000 ;;
+*crash) kill -SEGV $$ ;;
+*greedy) exec python3 -c 'a = bytearray(1 << 30)' ;;
+*mute) exit 1 ;;
+*liar) echo no JSON; : >"$out"; exit 0 ;;
+esac
+cat "$1" >"$out.part" && mv "$out.part" "$out"
+cat <<'END'
+{"title": "T", "bytes": 5, "levels": [{"mean_mm": 1, "p95_mm": 2, "colour_rmse": 3}], "default_level": 0, "lost": ["x"], "silent": []}
+END
+)";
+
+class Batch : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        ASSERT_TRUE(write_file(folder / "bake.sh", as_bytes(script)));
+        plan.output = folder / "out";
+        fs::create_directories(plan.output);
+        plan.program = {"env", "COUNT=" + (folder / "count").string(), "sh", (folder / "bake.sh").string()};
+        plan.limits.complaint_bytes = 1000;
+        plan.jobs = 2;
+    }
+    void add(const std::string& name, const std::string& content = "scan") {
+        ASSERT_TRUE(write_file(folder / name, as_bytes(content)));
+        plan.objects.push_back({name, folder / name, {}});
+    }
+    std::vector<BatchRow> run_all() const {
+        return run_batch(plan, [](const BatchRow&) {});
+    }
+    /// How often the script was started.
+    std::size_t bakes() const {
+        const std::string all = text("count");
+        return static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));
+    }
+
+    BatchPlan plan;
+};
+
+TEST_F(Batch, WhatFailsStopsNothingElse) {
+    for (const char* name : {"good", "bad", "crash", "mute", "liar", "other"}) {
+        add(name);
+    }
+    add("twin");
+    plan.objects.back().fault = "it has a twin";
+    const std::vector<BatchRow> rows = run_all();
+    ASSERT_EQ(rows.size(), 7U);
+    EXPECT_EQ(rows[0].status, BatchStatus::Baked) << rows[0].sentence;
+    EXPECT_EQ(rows[0].title, "T");
+    EXPECT_EQ(rows[0].lost, 1U);
+    EXPECT_EQ(rows[1].sentence, (folder / "bad").string() + ": has no triangles") << "the last line alone";
+    EXPECT_NE(rows[2].sentence.find("ended by signal 11"), std::string::npos) << rows[2].sentence;
+    EXPECT_EQ(rows[3].sentence, "the bake ended with status 1");
+    EXPECT_EQ(rows[4].status, BatchStatus::Failed) << "a bake without a report";
+    EXPECT_EQ(rows[5].status, BatchStatus::Baked) << "it comes after all these";
+    EXPECT_EQ(rows[6].sentence, "it has a twin");
+    EXPECT_EQ(bakes(), 6U);
+}
+
+TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
+    add("a");
+    add("b");
+    add("bad");
+    (void)run_all();
+    EXPECT_EQ(bakes(), 3U);
+    std::vector<BatchRow> rows = run_all();
+    EXPECT_EQ(bakes(), 4U) << "what failed is tried again";
+    EXPECT_EQ(rows[0].status, BatchStatus::Unchanged);
+    EXPECT_EQ(rows[0].title, "T") << "the report has it all the same";
+    ASSERT_TRUE(write_file(folder / "b", as_bytes("another scan")));
+    rows = run_all();
+    EXPECT_EQ(rows[1].status, BatchStatus::Baked);
+    EXPECT_EQ(text("out/b.fspack"), "another scan");
+    EXPECT_EQ(bakes(), 6U);
+    ASSERT_TRUE(write_file(folder / "out/a.fspack", as_bytes("somebody wrote here")));
+    EXPECT_EQ(run_all()[0].status, BatchStatus::Baked) << "a pack that is not the stamp's";
+    plan.bake_options = {"--unlit"};
+    EXPECT_EQ(run_all()[0].status, BatchStatus::Baked);
+    plan.program_key = "a newer program";
+    EXPECT_EQ(run_all()[0].status, BatchStatus::Baked);
+    ASSERT_TRUE(write_file(folder / "out/a.stamp", as_bytes("{\"format\": 3}")));
+    EXPECT_EQ(run_all()[0].status, BatchStatus::Baked) << "a stamp that is none";
+    EXPECT_EQ(run_all()[0].status, BatchStatus::Unchanged);
+}
+
+TEST_F(Batch, AFailureSaysThatAnOlderPackIsStillThere) {
+    add("bad");
+    ASSERT_TRUE(write_file(folder / "out/bad.fspack", as_bytes("of last year")));
+    EXPECT_NE(run_all()[0].sentence.find("(the pack of before is still there)"), std::string::npos);
+    EXPECT_EQ(text("out/bad.fspack"), "of last year");
+}
+
+TEST_F(Batch, TimeAndMemoryAreLimited) {
+    add("slow");
+    plan.limits.time = 300ms;
+    EXPECT_EQ(run_all()[0].sentence,
+              "the bake took longer than 0.3 s and was ended; allow more time, or use a smaller scan");
+    plan.objects.clear();
+    add("greedy");
+    add("good");
+    plan.limits.time = 60s;
+    plan.limits.memory_bytes = std::uint64_t{200} << 20U;
+    const std::vector<BatchRow> rows = run_all();
+    EXPECT_EQ(rows[0].sentence, "MemoryError") << "what Python says of it";
+    EXPECT_EQ(rows[1].status, BatchStatus::Baked) << rows[1].sentence;
+}
+
+TEST_F(Batch, AReportAloneBakesNothing) {
+    add("a");
+    add("bad");
+    plan.bakes = false;
+    std::vector<BatchRow> rows = run_all();
+    EXPECT_EQ(rows[0].status, BatchStatus::Missing);
+    plan.bakes = true;
+    (void)run_all();
+    plan.bakes = false;
+    add("late");
+    rows = run_all();
+    EXPECT_EQ(bakes(), 2U);
+    EXPECT_EQ(rows[0].status, BatchStatus::Unchanged);
+    EXPECT_EQ(rows[1].status, BatchStatus::Failed);
+    EXPECT_NE(rows[1].sentence.find("has no triangles"), std::string::npos) << "why it failed is kept";
+    EXPECT_EQ(rows[2].status, BatchStatus::Missing);
+}
+
+} // namespace
+} // namespace frustumscreen

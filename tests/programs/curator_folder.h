@@ -1,0 +1,59 @@
+// Folders of artifacts for tests of the curators' commands: a tetrahedron with a spoken text.
+#pragma once
+
+#include "tests/programs/program_folder.h"
+#include "tests/texts/wav_bytes.h"
+
+#include <signal.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace frustumscreen {
+
+class CuratorFolder : public ProgramFolder {
+protected:
+    void put(const std::string& file, const std::string& content) const {
+        std::filesystem::create_directories((folder / file).parent_path());
+        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
+    }
+    /// A folder that bakes in a second.
+    void put_jug(const std::string& name, const std::string& more = "") const {
+        put(name + "/jug.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+        put(name + "/artifact.toml", "scan = \"jug.obj\"\nsize = 16\n" + more);
+    }
+    void put_recording(const std::string& file) const {
+        std::filesystem::create_directories((folder / file).parent_path());
+        ASSERT_TRUE(write_file(folder / file, testing::wav16(testing::sine(0.5, 0.3))));
+    }
+    /// Looks again and again until it holds, or a minute is over.
+    template <typename Holds> [[nodiscard]] static bool comes(const Holds& holds) {
+        for (int look = 0; look < 1200; ++look) {
+            if (holds()) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        return false;
+    }
+    /// Starts a program of ours in the background, which writes into log.txt; its process.
+    [[nodiscard]] pid_t start(const std::string& command) const {
+        const int status =
+            std::system(fmt::format("cd '{}' && {{ '{}'/{} >log.txt 2>&1 & echo $! >pid.txt; }}",
+                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
+                            .c_str());
+        return status == 0 ? static_cast<pid_t>(std::stol(text("pid.txt"))) : 0;
+    }
+    [[nodiscard]] static bool runs(pid_t process) { return ::kill(process, 0) == 0; }
+    [[nodiscard]] std::size_t count(const std::string& file, const std::string& part) const {
+        const std::string all = text(file);
+        std::size_t found = 0;
+        for (std::size_t at = all.find(part); at != std::string::npos; at = all.find(part, at + 1)) {
+            ++found;
+        }
+        return found;
+    }
+};
+
+} // namespace frustumscreen
