@@ -58,7 +58,7 @@ public:
         top_ = ring && !beside ? ring_px + px_of(between_lines_em) : 0;
         const std::size_t first = pieces_.size();
         for (const std::string_view key : keys) {
-            add(word(key, width_em_, caption_title_em), indent,
+            add(word(key, width_em_, width_em_ > narrowest_em ? caption_title_em : 1.0), indent,
                 top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0), 1.0);
         }
         if (beside) { // in the middle of one another

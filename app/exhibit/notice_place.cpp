@@ -10,6 +10,13 @@
 
 namespace frustumscreen {
 
+namespace {
+
+constexpr double beside_caption_m =
+    0.015; ///< more than between others: nobody reads on from one to the other
+
+} // namespace
+
 std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
     const NoticeShape& shape = notice.picture->shapes[notice.shape];
     if (!shape.ring_m) {
@@ -36,7 +43,9 @@ void NoticePlace::look(MonotonicTime now, const NoticeSurroundings& surroundings
         count += fit;
     };
     if (surroundings.caption && beside_ != Beside::AllButCaption) {
-        add(std::span(&*surroundings.caption, 1));
+        TableRectangle caption = *surroundings.caption;
+        caption.size_m += 2.0 * beside_caption_m;
+        add(std::span(&caption, 1));
     }
     add(surroundings.obstacles);
     if (beside_ == Beside::All) {

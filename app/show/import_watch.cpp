@@ -68,8 +68,8 @@ void ImportWatch::look() {
     Result<ImportReport> report =
         bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
     if (!report) {
-        const std::string line =
-            fmt::format("{}: {}; nothing is told of it on the table", file_.string(), report.error().message);
+        const std::string line = fmt::format("{}{}; nothing is told of it on the table",
+                                             bytes ? file_.string() + ": " : "", report.error().message);
         if (line != said_) {
             say_line("frustumscreen", line);
             said_ = line;

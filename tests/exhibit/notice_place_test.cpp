@@ -60,14 +60,17 @@ double light_between(const Image<std::uint8_t>& image, double first, double end)
 TEST(NoticeImage, every_shape_has_all_letters) {
     for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
         const NoticePicture picture = draw(copying, direction);
-        ASSERT_EQ(picture.shapes.size(), 3U);
+        ASSERT_EQ(picture.shapes.size(), 4U);
         for (const NoticeShape& shape : picture.shapes) {
-            EXPECT_NEAR(squares_in(shape.image.coverage), 14.0, 0.3);
+            // In the narrowest shape sentences are no larger than lines.
+            const double em = &shape == &picture.shapes.back() ? 1.0 : caption_title_em;
+            EXPECT_NEAR(squares_in(shape.image.coverage), 14.0 * em * em, 0.055 * 14.0 * em * em);
             ASSERT_TRUE(shape.ring_m);
         }
         // Letters, then the words in lines: 24 pt, as captions.
-        EXPECT_LT(picture.sizes_m[2].x, picture.sizes_m[1].x);
-        EXPECT_NEAR(picture.sizes_m[0].x, 13.5 * least_caption_em_m + 0.032 + least_caption_em_m, 0.006);
+        EXPECT_LT(picture.sizes_m[3].x, picture.sizes_m[0].x);
+        EXPECT_NEAR(picture.sizes_m[0].x, (14.0 * caption_title_em + 1.0) * least_caption_em_m + 0.032,
+                    0.004);
     }
 }
 
@@ -121,8 +124,9 @@ TEST(NoticeImage, a_long_name_is_cut_off) {
     text.lines[0].label = std::string(900, 'W');
     const NoticePicture picture = draw(text);
     EXPECT_LE(picture.sizes_m[0].x, 36.5 * least_caption_em_m);
-    EXPECT_LE(picture.sizes_m[1].x, 18.5 * least_caption_em_m);
-    EXPECT_LE(picture.sizes_m[2].x, 9.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[1].x, 25.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[2].x, 18.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[3].x, 9.5 * least_caption_em_m);
 }
 
 namespace {
@@ -135,7 +139,7 @@ SharedNotice notice_of(std::vector<glm::dvec2> sizes_m) {
 }
 
 struct Table {
-    PropShape prop = make_frustum({});
+    PropShape prop = make_frustum(shipped_frustum);
     RigidTransform pose;
     int quarter_turns = 0;
     std::vector<TableRectangle> obstacles, kept;

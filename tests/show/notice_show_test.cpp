@@ -176,7 +176,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
             }
         }
         EXPECT_GT(full + empty, 300);
-        EXPECT_NEAR(1.0 * full / (full + empty), done / 1000.0, 0.07) << done;
+        EXPECT_NEAR(1.0 * full / (full + empty), static_cast<double>(done) / 1000.0, 0.07) << done;
         EXPECT_GT(lit(light), full + 100) << "and letters beside it";
     }
 }
