@@ -83,6 +83,9 @@ TEST_F(BakeBatch, ShardsAreOneRunTogether) {
 }
 
 TEST_F(BakeBatch, SlurmBakesTheSharesAsAJobArray) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the address sanitizer needs more memory than a task is allowed";
+#endif
     for (const char* program : {"slurmctld", "slurmd", "munged", "sbatch"}) {
         if (std::system(fmt::format("PATH=$PATH:/usr/sbin command -v {} >/dev/null", program).c_str()) != 0) {
             GTEST_SKIP() << program << " is not installed (Debian's slurm-wlm)";
@@ -126,6 +129,9 @@ TEST_F(BakeBatch, WhatIsWrongWithTheWholeIsSaidInOneLine) {
     said("--batch none -o packs", 1, "none: there is no folder with an artifact.toml and no scan in it");
     EXPECT_EQ(run("frustumscreen-bake --batch objects"), 2) << "no place for the packs";
     EXPECT_EQ(run("frustumscreen-bake --batch objects -o packs -j 0"), 2);
+    EXPECT_EQ(run("frustumscreen-bake --batch objects -o packs --memory-limit 100"), 2);
+    EXPECT_EQ(count("err.txt", "allowed are 500 megabytes and more, or 0 for no limit"), 1U)
+        << text("err.txt");
 }
 
 } // namespace
