@@ -126,6 +126,9 @@ TEST_F(BakeBatch, WhatIsWrongWithTheWholeIsSaidInOneLine) {
     put("none/notes.txt", "nothing to bake here");
     said("--batch none -o packs", 1, "none: there is no folder with an artifact.toml and no scan in it");
     EXPECT_EQ(run("frustumscreen-bake --batch objects"), 2) << "no place for the packs";
+    EXPECT_EQ(run("frustumscreen-bake --batch -o packs"), 2);
+    EXPECT_EQ(run("frustumscreen-bake --batch --help"), 0);
+    EXPECT_EQ(count("out.txt", "--memory-limit"), 1U) << text("out.txt");
     EXPECT_EQ(run("frustumscreen-bake --batch objects -o packs -j 0"), 2);
     EXPECT_EQ(run("frustumscreen-bake --batch objects -o packs --memory-limit 100"), 2);
     EXPECT_EQ(count("err.txt", "allowed are 500 megabytes and more, or 0 for no limit"), 1U)

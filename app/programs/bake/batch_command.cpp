@@ -186,9 +186,8 @@ CLI::Validator is_memory_limit() {
 void add_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--batch", arguments.folder,
                    "DIR whose subfolders have an artifact.toml each; scans may lie there too")
-        ->required();
-    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report")
-        ->required();
+        ->expected(0, 1);
+    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report");
     app.add_option("-j,--jobs", arguments.jobs, "bakes at a time, 1 to 256; each uses all cores")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -226,6 +225,10 @@ int batch_command(int argc, char** argv) {
     add_options(app, arguments);
     try {
         app.parse(argc, argv);
+        if (arguments.folder.empty() || arguments.output.empty()) {
+            throw CLI::ValidationError(
+                "--batch needs the folder DIR of the objects behind it, and -o that of the packs");
+        }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
