@@ -114,7 +114,7 @@ public:
     /// Refuses `key` if one of `others` stands beside it.
     void one_way(std::string_view key, std::initializer_list<std::string_view> others,
                  std::string_view words);
-    /// Refuses keys that nobody asked for. Call once, last.
+    /// Refuses keys that nobody asked for. Call it when all were.
     void finish();
 
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.

@@ -31,7 +31,7 @@ packs=$2
 shift 2
 limits=()
 if [[ ${SLURM_MEM_PER_NODE:-0} != 0 ]]; then
-    limits=(--memory-limit "$SLURM_MEM_PER_NODE") # a bake that needs more fails alone, and not the whole task
+    limits=(--memory-limit "$SLURM_MEM_PER_NODE") # a bake that needs more fails alone
 fi
 exec "${FRUSTUMSCREEN_BAKE:-frustumscreen-bake}" --batch "$objects" -o "$packs" \
     --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" "${limits[@]}" "$@"

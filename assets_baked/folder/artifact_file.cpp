@@ -111,13 +111,6 @@ bool read_language(TableReader& table, std::string_view key, std::string& langua
 void read_caption(TableReader& table, PackCaption& caption, std::set<std::string>& languages,
                   ArtifactFile& file) {
     table.any_text("language", caption.language);
-    if (caption.language.empty()) {
-        table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
-    } else if (read_language(table, "language", caption.language) &&
-               !languages.insert(caption.language).second) {
-        table.refuse("language",
-                     fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
-    }
     read_text(table, "title", caption.title);
     read_text(table, "period", caption.period);
     read_text(table, "place", caption.place);
@@ -127,6 +120,14 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     read_text(table, "description", caption.description, TextShape::Lines);
     std::filesystem::path recording;
     read_path(table, "recording", recording);
+    table.finish(); // a misspelt key is said before one that is missing for it
+    if (caption.language.empty()) {
+        table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
+    } else if (read_language(table, "language", caption.language) &&
+               !languages.insert(caption.language).second) {
+        table.refuse("language",
+                     fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
+    }
     if (!recording.empty()) {
         table.require(!caption.description.empty(), "recording",
                       "has no description beside it; write its words there, for who does not hear them");
@@ -136,10 +137,11 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
 
 void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.vector("point", hotspot.point_file, coordinate);
-    table.require(table.has("point"), "point", "is missing; write it as [x, y, z] in the scan's coordinates");
-    hotspot.place = table.place("point");
     std::vector<std::pair<std::string, std::string>> labels;
     table.named_texts("labels", labels, pack_format::most_languages);
+    table.finish(); // as for a text
+    table.require(table.has("point"), "point", "is missing; write it as [x, y, z] in the scan's coordinates");
+    hotspot.place = table.place("point");
     table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
     for (auto& [language, text] : labels) {
         if (!read_language(table, "labels", language)) {
@@ -159,7 +161,6 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
 
 void read_all(TableReader& table, ArtifactFile& file) {
     read_path(table, "scan", file.scan);
-    table.require(!file.scan.empty(), "scan", "is missing; name the file of the scan in this folder");
     read_path(table, "texture", file.texture);
     table.any_text("id", file.id);
     table.require(file.id.empty() || is_artifact_id(file.id), "id",
@@ -189,6 +190,21 @@ void refuse_single_tables(const toml::table& root, ReadState& state) {
                 static_cast<std::uint32_t>(node->source().begin.line),
                 fmt::format("[{}] has one bracket too few on each side; write [[{}]], once for each {}", key,
                             key, each));
+        }
+    }
+}
+
+/// [[text]] for [[texts]]: a text has a key of that name, but not one that holds tables.
+void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
+    for (const auto& [key, node] : root) {
+        const std::string_view name = key.str().substr(0, 60);
+        for (const std::string_view known : {"texts", "hotspots"}) {
+            const std::size_t apart = letters_apart(name, known);
+            if (node.is_array_of_tables() && apart > 0 && 3 * apart <= known.size()) {
+                state.refuse(static_cast<std::uint32_t>(key.source().begin.line),
+                             fmt::format("[[{}]] is not known; the nearest one is [[{}]]",
+                                         printable(name, 60), known));
+            }
         }
     }
 }
@@ -284,9 +300,11 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         ArtifactFile read;
         TableReader keys(state, &root, "");
         refuse_single_tables(root, state);
+        refuse_misspelt_tables(root, state);
         read_all(keys, read);
         refuse_misplaced_key(root, keys.known(), state);
         keys.finish();
+        keys.require(!read.scan.empty(), "scan", "is missing; name the file of the scan in this folder");
         if (state.error) {
             return bad_input(*state.error);
         }

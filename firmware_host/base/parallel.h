@@ -1,7 +1,9 @@
-/// Splits offline work over the machine's cores. Never used on the kiosk's render path.
+/// Splits offline work over the cores that it may use. Never used on the kiosk's render path.
 ///
 /// Threads  the caller's and one more for each further core; returns when all are done.
 #pragma once
+
+#include "firmware_host/base/usable_cores.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +23,7 @@ template <typename Body> void parallel_for(std::size_t count, std::size_t block,
         }
     };
     std::vector<std::jthread> helpers;
-    for (unsigned core = 1; core < std::max(1U, std::thread::hardware_concurrency()); ++core) {
+    for (unsigned core = 1; core < usable_cores(); ++core) {
         helpers.emplace_back(work);
     }
     work();

@@ -90,6 +90,11 @@ TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
               "vase/artifact.toml: scan is missing; name the file of the scan in this folder");
 }
 
+TEST(ArtifactFile, a_misspelt_scan_is_told_before_a_missing_one) {
+    EXPECT_EQ(refusal("\nscna = \"a.stl\"\n"),
+              "vase/artifact.toml:2: scna is not a known key; the nearest allowed key is scan");
+}
+
 TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
     const Result<ArtifactFile> read =
         parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'en'\ntitle = '  '\n"
@@ -124,7 +129,15 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
          ":3: placement.turn is not a known key; the nearest allowed key is placement.turn_deg"},
         {"[[texts]]\nlanguage = \"en\"\ntitel = \"x\"",
          ":4: texts[0].titel is not a known key; the nearest allowed key is texts[0].title"},
-        {"[[hotspots]]\npoint = [0, 0, 0]\nlabel = { en = \"x\" }", "hotspots[0].labels has no text"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabel = { en = \"x\" }",
+         ":4: hotspots[0].label is not a known key; the nearest allowed key is hotspots[0].labels"},
+        {"[[hotspots]]\npiont = [0, 0, 0]\nlabels = { en = \"x\" }",
+         ":3: hotspots[0].piont is not a known key; the nearest allowed key is hotspots[0].point"},
+        {"[[hotspots]]\npoint = [0, 0, 0]\nlabels = {}", "hotspots[0].labels has no text"},
+        {"[[texts]]\nlangauge = \"en\"",
+         ":3: texts[0].langauge is not a known key; the nearest allowed key is texts[0].language"},
+        {"[[text]]\nlanguage = \"en\"", ":2: [[text]] is not known; the nearest one is [[texts]]"},
+        {"[[hotpsots]]\npoint = [0, 0, 0]", ":2: [[hotpsots]] is not known; the nearest one is [[hotspots]]"},
         {"[placement]\nup = \"up\"", ":3: placement.up is the text \"up\"; allowed are \"x\""},
         {"size = 5", ":2: size is 5; allowed are the whole numbers 16 to 4096"},
         {"[placement]\nscale = nan", ":3: placement.scale is nan; allowed are 0.05 to 20"},

@@ -121,6 +121,8 @@ TEST_F(BakePreview, WhatCannotBeWatchedIsSaid) {
     EXPECT_EQ(run("frustumscreen-bake --watch jug"), 1);
     EXPECT_EQ(count("err.txt", "jug: there is no artifact.toml in this folder"), 1U) << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --watch jug --siez 3"), 2);
+    EXPECT_EQ(run("frustumscreen-bake --watch"), 2);
+    EXPECT_EQ(run("frustumscreen-bake --watch --help"), 0);
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 #include <signal.h>
 
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -45,7 +47,12 @@ protected:
                             .c_str());
         return status == 0 ? static_cast<pid_t>(std::stol(text("pid.txt"))) : 0;
     }
-    [[nodiscard]] static bool runs(pid_t process) { return ::kill(process, 0) == 0; }
+    /// One that has ended and that nobody has asked about yet does not run.
+    [[nodiscard]] static bool runs(pid_t process) {
+        std::ifstream file(fmt::format("/proc/{}/stat", process));
+        const std::string stat(std::istreambuf_iterator<char>(file), {});
+        return !stat.empty() && stat.find(") Z ") == std::string::npos;
+    }
     [[nodiscard]] std::size_t count(const std::string& file, const std::string& part) const {
         const std::string all = text(file);
         std::size_t found = 0;

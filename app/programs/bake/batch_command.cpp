@@ -28,6 +28,8 @@ namespace {
 
 constexpr const char* program = "frustumscreen-bake";
 constexpr double bytes_per_mb = 1e6;
+/// With less, the libraries that a bake is made of cannot even say that they have too little.
+constexpr double least_memory_mb = 500.0;
 constexpr std::uintmax_t room_for_reports = 1'000'000;
 constexpr std::size_t most_sentences = 20; ///< of failures on standard error; all are in the report
 
@@ -168,12 +170,24 @@ Result<bool> work(const Arguments& arguments) {
     return count_of(rows, BatchStatus::Failed) + count_of(rows, BatchStatus::Missing) == 0;
 }
 
+CLI::Validator is_memory_limit() {
+    const auto check = [](std::string& text) {
+        double megabytes = -1.0;
+        const bool is_number = CLI::detail::lexical_cast(text, megabytes);
+        const bool well =
+            is_number && (megabytes == 0.0 || (megabytes >= least_memory_mb && megabytes <= 1e8));
+        return well ? std::string()
+                    : fmt::format("'{}' is not allowed; allowed are {} megabytes and more, or 0 for no limit",
+                                  text, least_memory_mb);
+    };
+    return {check, ""};
+}
+
 void add_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--batch", arguments.folder,
                    "DIR whose subfolders have an artifact.toml each; scans may lie there too")
-        ->required();
-    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report")
-        ->required();
+        ->expected(0, 1);
+    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report");
     app.add_option("-j,--jobs", arguments.jobs, "bakes at a time, 1 to 256; each uses all cores")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -182,8 +196,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--time-limit", arguments.time_limit_s, "seconds for one bake")
         ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
-    app.add_option("--memory-limit", arguments.memory_limit_mb, "megabytes for one bake; 0: no limit")
-        ->check(CLI::Range(0.0, 1e8))
+    app.add_option("--memory-limit", arguments.memory_limit_mb,
+                   fmt::format("megabytes for one bake, {} or more; 0: no limit", least_memory_mb))
+        ->check(is_memory_limit())
         ->capture_default_str();
     app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");
     app.add_flag("--report-only", arguments.report_only,
@@ -210,6 +225,10 @@ int batch_command(int argc, char** argv) {
     add_options(app, arguments);
     try {
         app.parse(argc, argv);
+        if (arguments.folder.empty() || arguments.output.empty()) {
+            throw CLI::ValidationError(
+                "--batch needs the folder DIR of the objects behind it, and -o that of the packs");
+        }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }

@@ -200,13 +200,16 @@ int watch_command(int argc, char** argv) {
                  "open shows each new one by itself.",
                  program);
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
-    app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml")->required();
+    app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml")->expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");
     app.add_option("-o,--output", arguments.pack, "coarse pack to keep (default: none is kept)");
     add_bake_options(app, arguments.bake);
     try {
         app.parse(argc, argv);
+        if (arguments.folder.empty()) {
+            throw CLI::ValidationError("--watch needs the FOLDER of an artifact behind it");
+        }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
