@@ -8,9 +8,8 @@ namespace frustumscreen {
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), house_language_(language),
-      selection_(make_selection(catalogue_, language, now)),
-      ready_(catalogue_.size(), ArtifactState::Ready), offered_(catalogue_.size(), true), state_since_(now),
-      next_turn_(now + turn_time),
+      selection_(make_selection(catalogue_, language, now)), ready_(catalogue_.size(), ArtifactState::Ready),
+      offered_(catalogue_.size(), true), state_since_(now), next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       sentences_(place.words, place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
     make_table();

@@ -71,7 +71,7 @@ void add_language(const LanguageWords& words, const AdviceWordsRequest& request,
         AdviceWord one{all.pictures.size(), nullptr};
         for (const double width_em : widths_em) {
             CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
-                                                    width_em * request.em_m, request.texels_per_m);
+                                              width_em * request.em_m, request.texels_per_m);
             text.sizes_m.push_back(image.size_m);
             all.pictures.push_back(std::move(image.coverage));
         }

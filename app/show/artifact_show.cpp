@@ -143,8 +143,7 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     on_table_.clear();
     set_->table.place_samples(attract_place_m_, on_table_);
     const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
-    const TextureId word =
-        !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
+    const TextureId word = !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
     for (const TextureId texture : {white_, signs_.front(), word}) {
         if (texture != TextureId::None) {
             on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
@@ -226,8 +225,7 @@ std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& prese
     }
     const PresentedAdvice& advice = *presentation.advice;
     return TablePicture{picture_corners(on_pixels(advice.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * advice.brightness,
-                        set_->word(advice.word, advice.shape)};
+                        caption_brightness_ * advice.brightness, set_->word(advice.word, advice.shape)};
 }
 
 void ArtifactShow::place_zone_frame(const Presentation& presentation) {
@@ -286,7 +284,7 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
                               const RenderTarget& target, Redraw redraw) {
     Residents& residents = *set_->residents;
     residents.step(renderer_.store(), {presentation.artifact, presentation.table_language,
-                                         presentation.wanted.artifacts(), presentation.wanted_language});
+                                       presentation.wanted.artifacts(), presentation.wanted_language});
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
     view.light = residents.known(presentation.artifact).plan.light;
     view.brightness = residents.exposure(presentation.artifact) * presentation.brightness;
@@ -294,8 +292,8 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     on_table_.clear();
     place_zone_frame(presentation);
     set_->table.place(presentation,
-                 hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
-                 on_table_);
+                      hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
+                      on_table_);
     if (presentation.stand_in) {
         set_->table.place_stand_in(*presentation.stand_in, on_table_);
     }

@@ -80,7 +80,9 @@ public:
         return set_->residents->known(description.artifact).texts.recordings[description.language];
     }
     [[nodiscard]] bool speaks() const override;
-    [[nodiscard]] std::span<const ArtifactState> artifacts() const override { return set_->residents->states(); }
+    [[nodiscard]] std::span<const ArtifactState> artifacts() const override {
+        return set_->residents->states();
+    }
     [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const override {
         return set_->residents->triangles(artifact);
     }
@@ -110,7 +112,9 @@ public:
         return set_->residents->known(artifact).plan;
     }
     /// Of an artifact that is ready, as the first is until another is shown.
-    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const { return *set_->residents->find(artifact); }
+    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const {
+        return *set_->residents->find(artifact);
+    }
 
 private:
     ArtifactShow(const Settings& settings, Renderer renderer);
@@ -138,7 +142,7 @@ private:
     RigidTransform table_from_projector_;
     PropShape prop_;
     double caption_brightness_; ///< share of the projector's light
-    bool may_speak_ = false; ///< in some set
+    bool may_speak_ = false;    ///< in some set
     RenderNeeds needs_;
     Renderer renderer_;
     SetOptions set_options_;

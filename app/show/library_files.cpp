@@ -85,7 +85,9 @@ SetRequest request_of(const InstalledSet& set, const std::filesystem::path& libr
     std::transform(set.packs.begin(), set.packs.end(), std::back_inserter(request.packs),
                    [&](const InstalledPack& pack) { return library / pack.file; });
     std::transform(set.attract.begin(), set.attract.end(), std::back_inserter(request.attract),
-                   [](const AttractText& text) { return AttractLine{text.language, text.text}; });
+                   [](const AttractText& text) {
+                       return AttractLine{text.language, text.text};
+                   });
     return request;
 }
 

@@ -74,7 +74,8 @@ void LibraryWatch::work(const std::stop_token& stop) {
 }
 
 void LibraryWatch::take_what_comes() {
-    if (const std::unique_ptr<ShownSet> gone(gone_.exchange(nullptr)); gone && trial_ && !gone->trouble.empty()) {
+    if (const std::unique_ptr<ShownSet> gone(gone_.exchange(nullptr));
+        gone && trial_ && !gone->trouble.empty()) {
         trial_->refuse(gone->number, gone->trouble);
     }
     ShownReport report;
@@ -135,8 +136,7 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
         heartbeat_.promise(monotonic_now() + pack_patience);
         return !stop.stop_requested();
     };
-    Result<std::unique_ptr<ShownSet>> opened =
-        open_set(settings_, set_up_.options, request, set_up_.frames);
+    Result<std::unique_ptr<ShownSet>> opened = open_set(settings_, set_up_.options, request, set_up_.frames);
     if (stop.stop_requested()) {
         return;
     }

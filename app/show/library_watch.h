@@ -72,11 +72,11 @@ private:
     std::string trouble_;           ///< with set.txt
     std::string verdict_trouble_;
     std::optional<FileStamp> stamp_;
-    std::optional<SetVerdict> kept_; ///< as it was written, or could not be
-    std::uint64_t offered_ = 0;      ///< number of the latest set that was offered, or the first
+    std::optional<SetVerdict> kept_;      ///< as it was written, or could not be
+    std::uint64_t offered_ = 0;           ///< number of the latest set that was offered, or the first
     std::optional<std::uint64_t> failed_; ///< the latest that could not be opened
     InstalledSet offered_set_, shown_set_;
-    std::uint64_t on_show_ = 0;      ///< as it was reported
+    std::uint64_t on_show_ = 0; ///< as it was reported
     std::optional<SetStatus> posted_;
 
     Latest<ShownReport> shown_;

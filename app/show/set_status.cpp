@@ -22,10 +22,10 @@ std::string verdict_of(const SetStatus& status) {
 } // namespace
 
 std::string sentence_of(const SetStatus& status) {
-    std::string sentence =
-        status.shown == 0 ? "the packs of the settings are shown"
-                          : fmt::format("set {} is shown, {} pack{}", status.shown, status.packs.size(),
-                                        status.packs.size() == 1 ? "" : "s");
+    std::string sentence = status.shown == 0
+                               ? "the packs of the settings are shown"
+                               : fmt::format("set {} is shown, {} pack{}", status.shown, status.packs.size(),
+                                             status.packs.size() == 1 ? "" : "s");
     if (status.newest.number != 0) {
         sentence += verdict_of(status);
     }

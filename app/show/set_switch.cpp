@@ -12,8 +12,7 @@ bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
         const std::size_t first = goal(state, exhibit).value_or(0);
         leaving_ = artifacts_.exchange(std::move(coming_));
         // The one that the exhibit had goes where it is destroyed, as the set does.
-        leaving_->catalogue =
-            exhibit.show_set(artifacts_.catalogue(), artifacts_.words(), first, now);
+        leaving_->catalogue = exhibit.show_set(artifacts_.catalogue(), artifacts_.words(), first, now);
         ++switches_;
         return true;
     }
@@ -48,7 +47,9 @@ void SetSwitch::take_the_new(Exhibit& exhibit) {
 
 std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) const {
     const std::span<const ArtifactState> states = coming_->residents->states();
-    const auto can_be_shown = [&](std::size_t artifact) { return states[artifact] != ArtifactState::LeftOut; };
+    const auto can_be_shown = [&](std::size_t artifact) {
+        return states[artifact] != ArtifactState::LeftOut;
+    };
     if (state != State::Attract) { // there somebody looks at it
         const std::vector<std::string>& names = coming_->names;
         const auto same = std::find(names.begin(), names.end(), artifacts_.set().names[exhibit.chosen()]);
@@ -68,7 +69,8 @@ std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) 
 void SetSwitch::bring(State state, Exhibit& exhibit) {
     const std::optional<std::size_t> first = goal(state, exhibit);
     if (!first || !coming_->trouble.empty()) {
-        give_up(first ? std::string(coming_->trouble) : fault_of(coming_->residents->left_out(), true), exhibit);
+        give_up(first ? std::string(coming_->trouble) : fault_of(coming_->residents->left_out(), true),
+                exhibit);
         return;
     }
     const std::array<std::size_t, 1> wanted{*first};

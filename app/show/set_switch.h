@@ -3,8 +3,8 @@
 ///     taken -> uploaded, some a frame -> the exhibit lets the old one fade out -> exchanged, in the dark -> the old one is
 ///     released, some a frame -> given back, to be destroyed elsewhere
 ///
-/// Cost     a frame uploads a few megabytes at most, as for any artifact that comes; the frame of the exchange lays out the
-///          table anew. Both sets are in memory meanwhile (shown_set.h). Another set waits until the one before is released.
+/// Cost     a frame uploads one picture for the table or some titles, or a few megabytes of the first artifact, as of any that
+///          comes; the frame of the exchange lays out the table anew. Both sets are in memory meanwhile (shown_set.h). Another set waits until the one before is released.
 /// Threads  the render thread, with the display's context current, also where it is destroyed. Nothing is read or compiled in a
 ///          frame. What there is to allocate for a set is allocated in the frames of its coming.
 /// Errors   a set that cannot be shown after all is given back with its trouble, and what is shown stays.
@@ -40,7 +40,9 @@ public:
     [[nodiscard]] std::uint64_t switches() const { return switches_; }
 
 private:
-    static constexpr std::uint64_t frame_bytes = std::uint64_t{2} << 20U;
+    /// Of words and small pictures in a frame: a picture for the table or some titles. Their mip levels are made at upload, which
+    /// takes longer than the upload itself.
+    static constexpr std::uint64_t frame_bytes = std::uint64_t{256} << 10U;
 
     void release_the_old();
     void take_the_new(Exhibit& exhibit);

@@ -71,12 +71,12 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
                                            const SetRequest& request,
                                            const std::optional<ExpectedFrames>& frames) {
     const double deadline_ms = 1e3 / settings.projector.refresh_hz;
-    const bool table =
-        chooses_on_table(settings) && options.devices.other_packs && request.packs.size() > 1;
-    Result<OpenedArtifacts> opened = open_artifacts(
-        settings, request.packs,
-        {options.technique, options.samples, options.economies, options.devices.language,
-         options.devices.other_packs, table, deadline_ms, options.program, request.packs_key, request.goes_on});
+    const bool table = chooses_on_table(settings) && options.devices.other_packs && request.packs.size() > 1;
+    Result<OpenedArtifacts> opened =
+        open_artifacts(settings, request.packs,
+                       {options.technique, options.samples, options.economies, options.devices.language,
+                        options.devices.other_packs, table, deadline_ms, options.program, request.packs_key,
+                        request.goes_on});
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }

@@ -36,7 +36,8 @@ namespace frustumscreen {
 
 /// The same for all sets of a run.
 struct SetOptions {
-    std::string technique = "auto"; ///< this, `samples`, `economies`, `program` and `waits`: as ArtifactShowOptions
+    std::string technique =
+        "auto"; ///< this, `samples`, `economies`, `program` and `waits`: as ArtifactShowOptions
     int samples = 1;
     unsigned economies = AllEconomies;
     std::string_view program = "frustumscreen";
@@ -62,7 +63,8 @@ struct ExpectedFrames {
 struct ShownSet {
     std::uint64_t number = 0;
     Catalogue catalogue; ///< as it was opened; the exhibit has its own
-    std::vector<std::string> names; ///< by artifact: its id; without one its file. The same in another set: the same artifact
+    std::vector<std::string>
+        names; ///< by artifact: its id; without one its file. The same in another set: the same artifact
     std::vector<std::string> languages; ///< of all captions
     std::string trouble;                ///< why it cannot be shown after all; empty: it can
     std::vector<std::string> notes;     ///< sentences about what a person may not have meant

@@ -220,13 +220,11 @@ void TableShow::place_card(const PlacedPicture& placed, const Presentation& pres
         on_table.add({picture_corners(fitted(card.picture.size, square)), picture_brightness * brightness,
                       id(card.picture.texture)});
     } else {
-        on_table.add(
-            {picture_corners(square), mark_brightness * text_brightness_ * brightness, id(square_)});
+        on_table.add({picture_corners(square), mark_brightness * text_brightness_ * brightness, id(square_)});
     }
     if (!card.titles.empty()) {
         place_title(placed, card.titles[caption_for(presentation.table_language, card.languages)],
-                    !has_picture, text_brightness_ * presentation.title_brightness * brightness,
-                    on_table);
+                    !has_picture, text_brightness_ * presentation.title_brightness * brightness, on_table);
     }
 }
 

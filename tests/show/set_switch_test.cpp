@@ -77,18 +77,17 @@ protected:
         return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0}).value();
     }
     void start() {
-        InstalledShow installed =
-            show_installed_set(settings, options, [&](const ArtifactShowOptions& each) {
-                return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
-            });
+        InstalledShow installed = show_installed_set(settings, options, [&](const ArtifactShowOptions& each) {
+            return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
+        });
         ASSERT_TRUE(installed.show);
         show = std::move(installed.show);
         exhibit.emplace(make_exhibit(settings, *show, now));
-        sets.emplace(*show, std::make_unique<LibraryWatch>(
-                                settings, LibraryWatch::SetUp{folder, show->set_options(),
-                                                              show->expected_frames(),
-                                                              std::move(installed.start),
-                                                              show->set().number, milliseconds(2)}));
+        sets.emplace(*show,
+                     std::make_unique<LibraryWatch>(
+                         settings, LibraryWatch::SetUp{folder, show->set_options(), show->expected_frames(),
+                                                       std::move(installed.start), show->set().number,
+                                                       milliseconds(2)}));
     }
     void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
         now += length;

@@ -173,10 +173,11 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
         settings, std::move(*artifacts), std::move(exhibit), display.name(),
         request.fast ? PromptReader::Answer::Always : PromptReader::Answer::WhenReady);
     if (watches) {
-        live->watch(stage, std::make_unique<LibraryWatch>(
-                               settings, LibraryWatch::SetUp{settings.exhibit.library, stage.set_options(),
-                                                             stage.expected_frames(),
-                                                             std::move(installed.start), stage.set().number}));
+        live->watch(stage,
+                    std::make_unique<LibraryWatch>(
+                        settings, LibraryWatch::SetUp{settings.exhibit.library, stage.set_options(),
+                                                      stage.expected_frames(), std::move(installed.start),
+                                                      stage.set().number}));
     }
     return live;
 }
