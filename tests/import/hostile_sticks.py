@@ -29,7 +29,7 @@ from plain_pack import DEFLATED, Entry, described, manifest, pack, pack_entries,
 MOST_MIB = 64.0
 MOST_WORK_S = 2.0
 MOST_CLOCK_S = 60.0
-NO_NUMBERS = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "nan(1)", "0x7ff0", "1e-99999999999")
+NO_NUMBERS = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "nan(1)", "0x7ff0", "--1")
 
 
 def signed(signer, text, files):
@@ -369,6 +369,8 @@ def check(kiosk, case, stick, before):
         raise Wrong(f"what it says cannot be printed: {said}")
     if not report["stage"] in ("done", "failed"):
         raise Wrong(f"the report stays at {report['stage']}")
+    if case in WHOLE:
+        return row
     taken = [told for told in report["packs"] if told["outcome"] not in ("refused", "already_there")]
     if report["stage"] == "done" and taken:
         raise Wrong(f"it was not refused: {taken[:2]}")
@@ -405,6 +407,7 @@ def main():
         (good / "vase.fspack").write_bytes(pack(signer, 10))
         status, said, *_ = kiosk.take(good)
         before = kiosk.list()
+        shutil.copytree(kiosk.into, place / "as_it_was")
         if status != 0 or len(before) != 1:
             print(f"the good pack is not taken: {said}")
             kiosk.stop()
@@ -414,6 +417,8 @@ def main():
                 continue
             stick = place / "stick"
             stick.mkdir()
+            shutil.rmtree(kiosk.into)
+            shutil.copytree(place / "as_it_was", kiosk.into)
             try:
                 case(stick, signer)
                 rows.append(check(kiosk, case, stick, before))
