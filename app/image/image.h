@@ -63,6 +63,12 @@ using ImageFloat = Image<glm::vec3>;
 [[nodiscard]] Result<Image8> decode_webp8(std::span<const std::byte> bytes,
                                           std::int64_t limit_texels = 1 << 28);
 [[nodiscard]] bool begins_as_webp(std::span<const std::byte> bytes);
+/// What a picture's first bytes say of its size; some hundred are enough. Errors: neither PNG nor lossless WebP.
+struct PictureExtent {
+    std::int64_t width = 0, height = 0;
+};
+[[nodiscard]] Result<PictureExtent> extent_of_png(std::span<const std::byte> beginning);
+[[nodiscard]] Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning);
 /// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
 [[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
 

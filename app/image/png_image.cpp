@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -74,6 +75,13 @@ Bytes encode(int width, int height, png_uint_32 format, const void* texels) {
 }
 
 } // namespace
+
+Result<PictureExtent> extent_of_png(std::span<const std::byte> beginning) {
+    constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
+    return begin_decode(beginning, no_limit).map([](const PngImage& png) {
+        return PictureExtent{png->width, png->height};
+    });
+}
 
 Result<Image8> decode_png8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     Result<PngImage> png = begin_decode(bytes, limit_texels);

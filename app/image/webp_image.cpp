@@ -50,21 +50,29 @@ Bytes encode_webp(const Image8& image) {
     return bytes;
 }
 
-Result<Image8> decode_webp8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
+Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning) {
     constexpr int lossless_format = 2;
     WebPBitstreamFeatures features;
-    if (WebPGetFeatures(raw(bytes), bytes.size(), &features) != VP8_STATUS_OK) {
+    if (WebPGetFeatures(raw(beginning), beginning.size(), &features) != VP8_STATUS_OK) {
         return bad_input("the WebP picture is damaged");
     }
     if (features.has_animation != 0 || features.format != lossless_format) {
         return bad_input("the WebP picture is not a lossless still picture");
     }
-    if (static_cast<std::int64_t>(features.width) * features.height > limit_texels) {
-        return bad_input("the WebP picture has " + std::to_string(features.width) + " x " +
-                         std::to_string(features.height) + " texels, allowed are " +
+    return PictureExtent{features.width, features.height};
+}
+
+Result<Image8> decode_webp8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
+    const Result<PictureExtent> extent = extent_of_webp(bytes);
+    if (!extent) {
+        return tl::unexpected<Error>(extent.error());
+    }
+    if (extent->width * extent->height > limit_texels) {
+        return bad_input("the WebP picture has " + std::to_string(extent->width) + " x " +
+                         std::to_string(extent->height) + " texels, allowed are " +
                          std::to_string(limit_texels) + " in all");
     }
-    Image8 image(features.width, features.height);
+    Image8 image(static_cast<int>(extent->width), static_cast<int>(extent->height));
     if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), &image.texels[0].x, 4 * image.texels.size(),
                            4 * image.width) == nullptr) {
         return bad_input("the WebP picture is damaged or truncated");

@@ -223,6 +223,9 @@ std::optional<ImportFailure> Import::progress(std::uint64_t bytes) {
 
 Outcome Import::copy() {
     pace_began_ = outside_.now();
+    if (report_.total_bytes > 0) {
+        tell(ImportStage::Copying);
+    }
     std::uint64_t done = 0; // with the packs that are decided on, however far they came
     for (const std::size_t k : copy_order(packs_)) {
         StickPack& pack = packs_[k];

@@ -8,7 +8,10 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string>
 
 namespace frustumscreen::pack_format {
 
@@ -19,6 +22,28 @@ namespace frustumscreen::pack_format {
 /// Technique, vertices, indices, clusters. `relief` and `box_size` must have been checked.
 [[nodiscard]] Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
                                              const glm::dvec3& box_size);
+
+/// A level's part that passes by: whether it could be decoded, without keeping it. Where a relief level's vertices lie is not
+/// looked at, as that needs the relief.
+class LevelScan {
+public:
+    explicit LevelScan(std::uint64_t part_bytes) : part_bytes_(part_bytes) {}
+    void add(std::span<const std::byte> bytes);
+    /// Call once, last. `technique`, `triangles` and `vertices`: what the manifest says.
+    [[nodiscard]] Result<void> finish(LevelTechnique technique, std::uint64_t triangles,
+                                      std::uint64_t vertices) const;
+
+private:
+    [[nodiscard]] std::size_t next_bytes() const;
+    void take(std::span<const std::byte> item);
+    std::uint64_t part_bytes_;
+    Bytes begun_; ///< of the next item
+    bool has_header_ = false, is_relief_ = false;
+    std::uint32_t vertices_ = 0, indices_ = 0, clusters_ = 0;
+    std::uint32_t clusters_seen_ = 0, indices_seen_ = 0, vertices_seen_ = 0;
+    std::uint64_t covered_ = 0; ///< indices, by clusters
+    std::string fault_;
+};
 
 [[nodiscard]] Bytes encode_charts(const std::vector<ReliefChart>& charts);
 [[nodiscard]] Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes);

@@ -25,16 +25,10 @@ bool is_sound(const PackCluster& cluster) {
 Result<void> check_clusters(const PackLevel& level) {
     std::uint64_t next = 0;
     for (std::size_t k = 0; k < level.clusters.size(); ++k) {
-        const PackCluster& cluster = level.clusters[k];
-        if (cluster.first_index != next || cluster.index_count == 0 || cluster.index_count % 3 != 0) {
-            return bad_input(
-                fmt::format("cluster {} has {} indices from {} on; allowed is a multiple of 3 from {} on", k,
-                            cluster.index_count, cluster.first_index, next));
+        if (Result<void> good = check_cluster(level.clusters[k], k, next); !good) {
+            return good;
         }
-        if (!is_sound(cluster)) {
-            return bad_input(fmt::format("cluster {} has a bound that is not a finite number", k));
-        }
-        next += cluster.index_count;
+        next += level.clusters[k].index_count;
     }
     if (next != level.indices.size()) {
         return bad_input(
@@ -75,6 +69,18 @@ Result<void> check_level(const Pack& pack, const PackLevel& level) {
 }
 
 } // namespace
+
+Result<void> check_cluster(const PackCluster& cluster, std::size_t k, std::uint64_t first) {
+    if (cluster.first_index != first || cluster.index_count == 0 || cluster.index_count % 3 != 0) {
+        return bad_input(
+            fmt::format("cluster {} has {} indices from {} on; allowed is a multiple of 3 from {} on", k,
+                        cluster.index_count, cluster.first_index, first));
+    }
+    if (!is_sound(cluster)) {
+        return bad_input(fmt::format("cluster {} has a bound that is not a finite number", k));
+    }
+    return {};
+}
 
 Result<void> check_mesh(const PackLevel& level) {
     if (level.vertices.size() > most_vertices || level.indices.size() > most_indices ||

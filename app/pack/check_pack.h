@@ -33,6 +33,8 @@ enum class Read { All, Chosen };
 [[nodiscard]] Result<void> check_table_picture(const Image8& picture);
 /// Levels; the pictures must have been checked. `Chosen`: an empty level was not read.
 [[nodiscard]] Result<void> check_levels(const Pack& pack, Read read = Read::All);
+/// Cluster number `k` alone, whose indices begin at `first`.
+[[nodiscard]] Result<void> check_cluster(const PackCluster& cluster, std::size_t k, std::uint64_t first);
 /// One level's own vertices, indices and clusters.
 [[nodiscard]] Result<void> check_mesh(const PackLevel& level);
 

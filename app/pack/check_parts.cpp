@@ -1,51 +1,136 @@
 #include "app/pack/check_parts.h"
 
+#include "app/image/image.h"
+#include "app/pack/binary_parts.h"
 #include "app/pack/check_pack.h"
+#include "app/pack/limits.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
-#include <vector>
 
 namespace frustumscreen {
 
+using namespace pack_format;
+
 namespace {
 
-/// Every part that the manifest refers to, in no order.
-std::vector<std::string> used_parts(const pack_format::Manifest& manifest) {
-    std::vector<std::string> names = manifest.textures;
-    if (manifest.relief) {
-        names.push_back(manifest.relief->atlas);
-        names.push_back(manifest.relief->charts);
+/// Of a picture: enough for what stands before its texels.
+constexpr std::size_t beginning_bytes = 64U << 10U;
+constexpr std::size_t most_charts_bytes = 12 + 20 * most_charts;
+
+class PartChecks {
+public:
+    PartChecks(PackReader& reader, const std::function<void(std::uint64_t bytes)>& progress)
+        : reader_(reader), progress_(progress) {}
+
+    Result<void> all();
+
+private:
+    Result<void> hash(const std::string& name);
+    Result<void> level(const LevelRecord& record);
+    Result<void> charts(const std::string& name);
+    Result<void> picture(const std::string& name, std::int64_t most_side, std::int64_t most_area);
+    Result<Bytes> beginning_of(const std::string& name, std::size_t most_bytes);
+    PackReader& reader_;
+    const std::function<void(std::uint64_t bytes)>& progress_;
+    std::int64_t texels_left_ = most_texels_together;
+};
+
+Result<void> PartChecks::hash(const std::string& name) {
+    return reader_.check(name, [this](std::span<const std::byte> bytes) { progress_(bytes.size()); });
+}
+
+Result<Bytes> PartChecks::beginning_of(const std::string& name, std::size_t most_bytes) {
+    Bytes beginning;
+    const Result<void> read = reader_.check(name, [&](std::span<const std::byte> bytes) {
+        const auto more = bytes.first(std::min(bytes.size(), most_bytes - beginning.size()));
+        beginning.insert(beginning.end(), more.begin(), more.end());
+        progress_(bytes.size());
+    });
+    return read ? Result<Bytes>(std::move(beginning)) : tl::unexpected<Error>(read.error());
+}
+
+Result<void> PartChecks::level(const LevelRecord& record) {
+    const ZipEntry* entry = reader_.zip().find(record.mesh);
+    LevelScan scan(entry != nullptr ? entry->bytes : 0);
+    const Result<void> read = reader_.check(record.mesh, [&](std::span<const std::byte> bytes) {
+        scan.add(bytes);
+        progress_(bytes.size());
+    });
+    if (!read) {
+        return read;
     }
-    for (const pack_format::LevelRecord& level : manifest.levels) {
-        names.push_back(level.mesh);
+    if (const Result<void> good = scan.finish(record.technique, record.triangles, record.vertices); !good) {
+        return at(record.mesh, good.error());
     }
-    if (!manifest.table_picture.empty()) {
-        names.push_back(manifest.table_picture);
+    return {};
+}
+
+Result<void> PartChecks::charts(const std::string& name) {
+    const Result<Bytes> bytes = beginning_of(name, most_charts_bytes + 1);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    if (const Result<std::vector<ReliefChart>> read = decode_charts(*bytes); !read) {
+        return at(name, read.error());
+    }
+    return {};
+}
+
+Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side, std::int64_t most_area) {
+    const Result<Bytes> bytes = beginning_of(name, beginning_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    const Result<PictureExtent> extent =
+        begins_as_webp(*bytes) ? extent_of_webp(*bytes) : extent_of_png(*bytes);
+    if (!extent) {
+        return at(name, extent.error());
+    }
+    const std::int64_t area = extent->width * extent->height; // libraries bound both by 31 bits
+    if (area == 0 || std::max(extent->width, extent->height) > most_side || area > most_area) {
+        return bad_input(
+            fmt::format("{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,
+                        extent->width, extent->height, most_side, most_area));
+    }
+    texels_left_ -= area;
+    return {};
+}
+
+Result<void> PartChecks::all() {
+    const Manifest& manifest = reader_.manifest();
+    Result<void> good = check_description(manifest.description).and_then([&] {
+        return check_level_count(manifest.description, manifest.levels.size());
+    });
+    for (std::size_t k = 0; good && k < manifest.textures.size(); ++k) {
+        good = picture(manifest.textures[k], most_side_texels, std::min(most_texels, texels_left_));
+    }
+    if (good && manifest.relief) {
+        good = picture(manifest.relief->atlas, most_side_texels, most_texels).and_then([&] {
+            return charts(manifest.relief->charts);
+        });
+    }
+    for (std::size_t k = 0; good && k < manifest.levels.size(); ++k) {
+        good = level(manifest.levels[k]);
+    }
+    if (good && !manifest.table_picture.empty()) {
+        constexpr std::int64_t side = most_table_picture_side;
+        good = picture(manifest.table_picture, side, side * side);
     }
     for (const PackSection& section : manifest.description.sections) {
-        names.insert(names.end(), section.parts.begin(), section.parts.end());
+        for (std::size_t k = 0; good && k < section.parts.size(); ++k) {
+            good = hash(section.parts[k]);
+        }
     }
-    return names;
+    return good.and_then([&] { return reader_.finish(); });
 }
 
 } // namespace
 
-Result<void> check_parts(pack_format::PackReader& reader,
-                         const std::function<void(std::uint64_t bytes)>& progress) {
-    const pack_format::Manifest& manifest = reader.manifest();
-    if (Result<void> good = pack_format::check_description(manifest.description); !good) {
-        return good;
-    }
-    if (Result<void> good = pack_format::check_level_count(manifest.description, manifest.levels.size());
-        !good) {
-        return good;
-    }
-    for (const std::string& name : used_parts(manifest)) {
-        if (Result<void> good = reader.check(name, progress); !good) {
-            return good;
-        }
-    }
-    return reader.finish();
+Result<void> check_parts(PackReader& reader, const std::function<void(std::uint64_t bytes)>& progress) {
+    return PartChecks(reader, progress).all();
 }
 
 } // namespace frustumscreen

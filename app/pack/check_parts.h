@@ -1,7 +1,8 @@
-/// A pack held against its manifest without being kept: what it says of itself, that every part is there and matches its hash,
-/// and that nothing else is. What the parts hold is looked at by whoever loads them (pack_file.h).
+/// A pack held against its manifest in little memory: what it says of itself, that every part is there and matches its hash, and
+/// that nothing else is. Of what the parts hold, as much as can be seen while they pass by: triangles and charts wholly, of
+/// pictures the size. The rest is looked at by whoever loads them (pack_file.h).
 ///
-/// Memory   some 100 kB, however large the parts are.
+/// Memory   some megabytes, however large the parts are.
 /// Errors   one line naming the part, as load_pack.
 /// Threads  one caller.
 #pragma once

@@ -1,10 +1,12 @@
 #include "app/pack/binary_parts.h"
+#include "app/pack/check_pack.h"
 #include "app/pack/limits.h"
 #include "app/pack/relief_texel.h"
 #include "firmware_host/base/byte_reader.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -149,7 +151,7 @@ struct Header {
 };
 
 /// Checks that the counts fit the limits and exactly fill the part.
-Result<Header> read_header(std::span<const std::byte> bytes) {
+Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_bytes) {
     if (bytes.size() < header_bytes ||
         std::memcmp(bytes.data(), level_magic.data(), level_magic.size()) != 0) {
         return bad_input("it does not begin as a level does (FSLV)");
@@ -170,10 +172,10 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
         std::uint64_t{header.indices} * sizeof(std::uint32_t) +
         std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
     if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
-        needed != reader.left()) {
+        needed != part_bytes - header_bytes) {
         return bad_input(fmt::format("{} vertices, {} indices, {} clusters need {} bytes, it has {}",
                                      header.vertices, header.indices, header.clusters, needed,
-                                     reader.left()));
+                                     part_bytes - header_bytes));
     }
     return header;
 }
@@ -209,7 +211,7 @@ Result<Bytes> encode_level(const PackLevel& level, const ReliefAtlas& relief, co
 
 Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
                                const glm::dvec3& box_size) {
-    const Result<Header> header = read_header(bytes);
+    const Result<Header> header = read_header(bytes, bytes.size());
     if (!header) {
         return tl::unexpected(header.error());
     }
@@ -232,6 +234,83 @@ Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtl
     }
     level.vertices = std::move(*vertices);
     return level;
+}
+
+/// 0: nothing is left.
+std::size_t LevelScan::next_bytes() const {
+    return !has_header_                 ? header_bytes
+           : clusters_seen_ < clusters_ ? cluster_bytes
+           : indices_seen_ < indices_   ? sizeof(std::uint32_t)
+           : vertices_seen_ < vertices_ ? (is_relief_ ? sizeof(StoredTexel) : sizeof(PackVertex))
+                                        : 0;
+}
+
+void LevelScan::take(std::span<const std::byte> item) {
+    ByteReader reader(item);
+    if (!has_header_) {
+        const Result<Header> header = read_header(item, part_bytes_);
+        if (!header) {
+            fault_ = header.error().message;
+            return;
+        }
+        has_header_ = true;
+        is_relief_ = header->relief;
+        vertices_ = header->vertices;
+        indices_ = header->indices;
+        clusters_ = header->clusters;
+    } else if (clusters_seen_ < clusters_) {
+        const PackCluster cluster = read_cluster(reader);
+        if (const Result<void> good = check_cluster(cluster, clusters_seen_, covered_); !good) {
+            fault_ = good.error().message;
+        }
+        covered_ += cluster.index_count;
+        ++clusters_seen_;
+    } else if (indices_seen_ < indices_) {
+        ++indices_seen_;
+        if (const auto index = reader.read<std::uint32_t>(); index >= vertices_) {
+            fault_ = fmt::format("an index is {}, the level has {} vertices", index, vertices_);
+        }
+    } else {
+        ++vertices_seen_;
+        if (!is_relief_ && reader.read<PackVertex>().reserved != 0) {
+            fault_ = "a vertex has its reserved bytes set; allowed is 0";
+        }
+    }
+}
+
+void LevelScan::add(std::span<const std::byte> bytes) {
+    while (!bytes.empty() && fault_.empty()) {
+        const std::size_t wanted = next_bytes();
+        const std::size_t more = std::min(wanted - begun_.size(), bytes.size());
+        if (begun_.empty() && more == wanted) {
+            take(bytes.first(wanted));
+        } else {
+            begun_.insert(begun_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(more));
+            if (begun_.size() == wanted) {
+                take(begun_);
+                begun_.clear();
+            }
+        }
+        bytes = bytes.subspan(more);
+    }
+}
+
+Result<void> LevelScan::finish(LevelTechnique technique, std::uint64_t triangles,
+                               std::uint64_t vertices) const {
+    if (!fault_.empty()) {
+        return bad_input(fault_);
+    }
+    if (!has_header_) {
+        return bad_input("it does not begin as a level does (FSLV)");
+    }
+    if (covered_ != indices_ || indices_ == 0) {
+        return bad_input(fmt::format("the clusters cover {} indices, the level has {}", covered_, indices_));
+    }
+    if (is_relief_ != (technique == LevelTechnique::Relief) || indices_ != 3 * triangles ||
+        vertices_ != vertices) {
+        return bad_input("it holds other triangles than the manifest says; the pack is altered");
+    }
+    return {};
 }
 
 } // namespace frustumscreen::pack_format

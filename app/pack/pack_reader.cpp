@@ -143,7 +143,7 @@ Result<Bytes> PackReader::take(const std::string& name) {
 }
 
 Result<void> PackReader::check(const std::string& name,
-                               const std::function<void(std::uint64_t bytes)>& progress) {
+                               const std::function<void(std::span<const std::byte>)>& pass) {
     const Result<const PartRecord*> part = use(name);
     if (!part) {
         return tl::unexpected(part.error());
@@ -151,7 +151,7 @@ Result<void> PackReader::check(const std::string& name,
     Sha256 hash;
     Result<void> read = zip_.read_through(*zip_.find(name), [&](std::span<const std::byte> bytes) {
         hash.add(bytes);
-        progress(bytes.size());
+        pass(bytes);
     });
     if (read && hash.hex() != (*part)->sha256) {
         return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));

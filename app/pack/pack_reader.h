@@ -34,9 +34,10 @@ public:
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
     /// A part's bytes; each part can be taken once.
     [[nodiscard]] Result<Bytes> take(const std::string& name);
-    /// Holds a part against its hash without keeping it; else as take(). `progress` hears of bytes as they pass.
+    /// Holds a part against its hash without keeping it; else as take(). `pass` gets its bytes, some at a time; they count only
+    /// if all is well in the end.
     [[nodiscard]] Result<void> check(const std::string& name,
-                                     const std::function<void(std::uint64_t bytes)>& progress);
+                                     const std::function<void(std::span<const std::byte>)>& pass);
     /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
     [[nodiscard]] Result<void> pass_over(const std::string& name);
     /// The bytes of the entry `signature`, unchecked; nothing if there is none.

@@ -14,15 +14,22 @@ ImportReport at(const char* id, ImportStage stage) {
 }
 
 TEST(ImportEnd, IsSaidOfAnImportThatWasStopped) {
-    for (const ImportStage stage : {ImportStage::Found, ImportStage::Copying, ImportStage::MayTakeOut}) {
+    for (const ImportStage stage : {ImportStage::Found, ImportStage::Copying}) {
         const auto word = last_word(at("stick7p1", stage), "stick7p1", "signal", 12);
         ASSERT_TRUE(word);
         EXPECT_EQ(word->stage, ImportStage::Failed);
         EXPECT_EQ(word->refusal, ImportRefusal::Unreadable);
         EXPECT_FALSE(word->reason.empty());
         EXPECT_EQ(word->set_number, 12U);
-        EXPECT_EQ(word->packs.size(), 2U);
+        ASSERT_EQ(word->packs.size(), 2U);
+        EXPECT_EQ(word->packs[0].outcome, ImportOutcome::Refused) << "none was switched to";
     }
+}
+
+TEST(ImportEnd, IsDoneOnceTheSetWasSwitchedTo) {
+    const auto word = last_word(at("stick7p1", ImportStage::MayTakeOut), "stick7p1", "signal", 12);
+    ASSERT_TRUE(word);
+    EXPECT_EQ(word->stage, ImportStage::Done);
 }
 
 TEST(ImportEnd, NamesALimitThatWasMet) {

@@ -11,27 +11,32 @@ using namespace testing_disk;
 
 constexpr int most_cuts = 512; ///< at one operation
 
-/// An installed set of two packs that has been good, and a stick with a newer one, a new one and a set file.
+/// An installed set of two packs that has been good, and the one before it, which is there to go back to; a stick with a newer
+/// pack, a new one and a set file.
 class PowerCut : public ::testing::Test {
 protected:
     void SetUp() override {
         VolatileDisk first;
         first.put("a.fspack", museum.pack("a", 1));
         first.put("b.fspack", museum.pack("b", 1));
+        VolatileDisk second;
+        second.put("a.fspack", museum.pack("a", 2));
         ASSERT_TRUE(before.make_folder("shown"));
         ASSERT_EQ(import_quietly(first, before, request).stage, ImportStage::Done);
+        judge(before, Verdict::Good);
+        ASSERT_EQ(import_quietly(second, before, request).stage, ImportStage::Done);
         judge(before, Verdict::Good);
         before.sync_all();
         old_text = text_of(before);
 
-        stick.put("a.fspack", museum.pack("a", 2, 5000));
+        stick.put("a.fspack", museum.pack("a", 3, 5000));
         stick.put("more/c.fspack", museum.pack("c", 1));
         museum.put_exhibit(stick, "order = [\"c\", \"a\"]\nattract = { en = \"Come near\" }\n", 1);
 
         const auto after = before.copy();
         ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
         new_text = text_of(*after);
-        ASSERT_EQ(ids_of(installed(*after)), (std::vector<std::string>{"c 1", "a 2", "b 1"}));
+        ASSERT_EQ(ids_of(installed(*after)), (std::vector<std::string>{"c 1", "a 3", "b 1"}));
         operations = after->operations;
         ASSERT_GT(operations, 20);
     }
@@ -202,7 +207,7 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
     const Bytes right = **stick.content("a.fspack");
     Bytes altered = right;
     altered[altered.size() / 2] ^= std::byte{1};
-    const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 3", 5000), 3);
+    const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 4", 5000), 4);
     const std::vector<Bytes> others{altered,
                                     Museum::unsigned_pack("a", "a 2", 5000),
                                     stranger,
