@@ -35,21 +35,22 @@ inline constexpr std::string_view trusted_prefix = "trusted comment: ";
     return lines;
 }
 
-/// Exactly `Size` bytes in the one way of writing them, with padding.
+[[nodiscard]] inline std::string to_base64(std::span<const std::uint8_t> bytes) {
+    std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+    sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
+    text.pop_back(); // sodium's terminator
+    return text;
+}
+
+/// Exactly `Size` bytes in the one way of writing them, with padding. libsodium 1.0.18 also takes bytes above 127 for letters, so
+/// what was read is written again.
 template <std::size_t Size>
 [[nodiscard]] std::optional<std::array<std::uint8_t, Size>> from_base64(std::string_view text) {
     std::array<std::uint8_t, Size> bytes{};
     std::size_t count = 0;
     const bool read = sodium_base642bin(bytes.data(), bytes.size(), text.data(), text.size(), nullptr, &count,
                                         nullptr, sodium_base64_VARIANT_ORIGINAL) == 0;
-    return read && count == Size ? std::optional(bytes) : std::nullopt;
-}
-
-[[nodiscard]] inline std::string to_base64(std::span<const std::uint8_t> bytes) {
-    std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
-    sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
-    text.pop_back(); // sodium's terminator
-    return text;
+    return read && count == Size && to_base64(bytes) == text ? std::optional(bytes) : std::nullopt;
 }
 
 /// Reads pieces of a record one after the other.

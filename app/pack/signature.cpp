@@ -73,7 +73,7 @@ std::optional<std::uint64_t> serial_in(std::string_view comment) {
     const char* const end = values[0].data() + values[0].size();
     std::uint64_t serial = 0;
     const auto [stop, error] = std::from_chars(values[0].data(), end, serial);
-    return error == std::errc() && stop == end ? std::optional(serial) : std::nullopt;
+    return error == std::errc() && stop == end && serial > 0 ? std::optional(serial) : std::nullopt;
 }
 
 Result<ReadSignature> read_signature(std::string_view text) {
@@ -173,11 +173,11 @@ tl::unexpected<SignatureRefusal> refused_as_unknown(const ReadSignature& read,
 } // namespace
 
 std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
-    std::string text;
-    for (std::size_t k = id.size(); k-- > 0;) { // a number, written with its lowest byte first
-        text += fmt::format("{:02X}", id[k]);
+    std::uint64_t number = 0;
+    for (std::size_t k = id.size(); k-- > 0;) { // its lowest byte stands first
+        number = number << 8U | id[k];
     }
-    return text;
+    return fmt::format("{:X}", number);
 }
 
 Result<PublicKey> parse_public_key(std::string_view text) {

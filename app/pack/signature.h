@@ -36,7 +36,7 @@ struct PublicKey {
 [[nodiscard]] std::string public_key_line(const PublicKey& key);
 /// A file of minisign's.
 [[nodiscard]] std::string write_public_key(const PublicKey& key);
-/// A key's id as minisign writes it: 16 digits, upper case.
+/// A key's id as minisign writes it: a number of at most 16 digits, upper case.
 [[nodiscard]] std::string text_of_key_id(std::span<const std::uint8_t, 8> id);
 
 /// As many as the settings or a folder may name.

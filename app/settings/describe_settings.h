@@ -230,10 +230,12 @@ template <typename Fields> void key_settings(Fields& fields, auto& key) {
         [](const std::optional<std::chrono::sys_days>& day) {
             return day ? text_of_day(*day) : std::string();
         },
-        [](std::string_view text) {
+        [](std::string_view text) -> std::optional<std::optional<std::chrono::sys_days>> {
             const std::optional<std::chrono::sys_days> day = parse_day(text);
-            // Left out, it does not end. A text that is empty does not come here.
-            return day || text.empty() ? std::optional(day) : std::nullopt;
+            if (!day && !text.empty()) {
+                return std::nullopt;
+            }
+            return std::make_optional<std::optional<std::chrono::sys_days>>(day); // left out, it does not end
         },
         allowed_last_days, "its last day, by the kiosk's clock; left out: it does not end");
     fields.require(!key.name.empty(), "name", "is left out; allowed is a text that names whose key it is");

@@ -65,12 +65,12 @@ public:
             fmt::format("`\"{}\"`", fmt::join(words, "\"`, `\"")), sentence);
     }
     void text(const char* key, const std::string& value, std::string_view sentence) {
-        row(key, value.empty() ? std::string() : in_quotes(value), "text", sentence);
+        text_row(key, value, "text", sentence);
     }
     template <typename Value>
     void parsed(const char* key, const Value& value, const auto& to_text, const auto& /*from_text*/,
                 std::string_view allowed, std::string_view sentence) {
-        row(key, in_quotes(to_text(value)), allowed, sentence);
+        text_row(key, to_text(value), allowed, sentence);
     }
     void path(const char* key, const std::filesystem::path& /*value*/, std::string_view sentence) {
         row(key, "", "a file", sentence);
@@ -101,6 +101,11 @@ public:
     [[nodiscard]] const std::string& text() const { return text_; }
 
 private:
+    /// An empty text is no default that a person could write.
+    void text_row(const char* key, const std::string& usual, std::string_view allowed,
+                  std::string_view sentence) {
+        row(key, usual.empty() ? usual : in_quotes(usual), allowed, sentence);
+    }
     void row(const char* key, std::string_view usual, std::string_view allowed, std::string_view sentence) {
         text_ += fmt::format("| `{}{}` | {} | {} | {} |\n", prefix_, key, usual, allowed, sentence);
     }

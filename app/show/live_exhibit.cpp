@@ -143,7 +143,7 @@ void LiveExhibit::tell(const RunStatus& status) {
     if (pattern_) {
         std::vector<std::string> lines = lines_of(status, driver_, presentation_.state_before);
         if (settings_.exhibit.unsigned_packs == UnsignedPacks::Allow) {
-            lines.emplace_back("unsigned packs are allowed: for the bench only");
+            lines.insert(lines.begin(), "unsigned packs are allowed: for the bench only");
         }
         pattern_->set_lines(std::move(lines));
     }

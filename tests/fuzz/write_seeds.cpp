@@ -9,6 +9,7 @@
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
 #include "tests/pack/samples.h"
+#include "tests/signature/vectors.h"
 #include "tests/texts/wav_bytes.h"
 #include "tests/tracker/wire_bytes.h"
 
@@ -127,6 +128,15 @@ void packs(const Seeds& seeds) {
     seeds.add("pack", "sections", as_text(full));
     seeds.add("pack", "words", as_text(samples::bytes_of(samples::pack_with_words())));
     seeds.add("manifest", "sections", samples::take_apart(full).manifest.dump());
+}
+
+void signatures(const Seeds& seeds) {
+    seeds.add("signature", "hash", vectors::of_the_hash);
+    seeds.add("signature", "bytes", vectors::of_the_bytes);
+    seeds.add("keys", "public", vectors::open_public);
+    seeds.add("keys", "line", vectors::encrypted_public);
+    seeds.add("keys", "open", vectors::open_key);
+    seeds.add("keys", "encrypted", vectors::encrypted_key);
 }
 
 void folders(const Seeds& seeds) {
@@ -261,6 +271,7 @@ int main(int count, char** arguments) {
     talks(seeds);
     recordings(seeds);
     packs(seeds);
+    signatures(seeds);
     folders(seeds);
     glyph_runs(seeds);
     words_files(seeds);

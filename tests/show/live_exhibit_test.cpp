@@ -125,6 +125,15 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     EXPECT_TRUE(frame().drawn);
 }
 
+TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
+    frame(chord);
+    const Image8 before = read_colour(display->framebuffer(), 320, 200);
+    settings.exhibit.unsigned_packs = UnsignedPacks::Allow;
+    show->tell(status);
+    EXPECT_TRUE(frame().drawn);
+    EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
+}
+
 /// Artifacts as white as can be, everywhere.
 class WhiteStage final : public Stage {
 public:

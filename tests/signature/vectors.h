@@ -14,7 +14,7 @@ inline constexpr std::string_view open_key =
     "AAA=\n";
 inline constexpr std::string_view open_public = "untrusted comment: minisign public key E68B78C87897BA2\n"
                                                 "RWSie4mHjLdoDgFygpvWxkFKDOTJgi5VklPjkmLVcy4pfr8p961f7U5V\n";
-inline constexpr std::string_view open_id = "0E68B78C87897BA2";
+inline constexpr std::string_view open_id = "E68B78C87897BA2";
 
 /// By the key above, of the hash and of the bytes themselves.
 inline constexpr std::string_view of_the_hash =
