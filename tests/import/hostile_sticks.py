@@ -211,7 +211,7 @@ def broken_parts(folder, signer):
     pictures = {
         "giant": png(0x7FFFFFFF, 0x7FFFFFFF, zeros(1)), "wide": png(100000, 100000, zeros(4)), "zero": png(0, 0, b""), "noise": os.urandom(5000),
         "sixteen_thousand": png(16384, 16384, zlib.compress(bytes(1 << 20))),
-        "bomb": png(8192, 8192, zlib.compress(bytes(3 * 8192 * 8192 + 8192))), "webp": b"RIFF\xff\xff\xff\xffWEBPVP8L" + bytes(64),
+        "bomb": png(8192, 8193, zlib.compress(bytes(1 << 24))), "webp": b"RIFF\xff\xff\xff\xffWEBPVP8L" + bytes(64),
     }
     for name, data in pictures.items():
         (folder / f"picture_{name}.fspack").write_bytes(with_part(signer, "textures/0.png", data))
