@@ -32,7 +32,8 @@ class StickTest(HilTest):
             subprocess.run([cls.pack_program, "keygen", "-o", cls.key], check=True, capture_output=True)
         public = cls.key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
         # The exhibit need not start again for it: it is the importer that asks for keys.
-        cls.bench.machine.write(SETTINGS, f'{USUAL}\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\n')
+        cls.bench.machine.write(SETTINGS, f'{USUAL}\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\n'
+                                  'until = "2099-12-31"\n')
 
     @classmethod
     def tearDownClass(cls):
@@ -63,12 +64,12 @@ class StickTest(HilTest):
         return self.folder / f"{name}.img"
 
     def plug(self, name, source, **options):
-        self.bench.machine.plug(name, source, **options)
+        self.bench.machine.plug(f"stick-{name}", source, **options)
         self.put_in.append(name)
 
     def pull(self, name):
         self.put_in.remove(name)
-        self.bench.machine.pull(name)
+        self.bench.machine.pull(f"stick-{name}")
 
     def report(self):
         """What the importer says now; None: nothing."""

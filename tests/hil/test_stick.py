@@ -2,6 +2,7 @@
 
 import sticks
 from bench import eventually
+from hil_test import CENTRE_M
 from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
 
 SLOW_BYTES_PER_S = 300_000
@@ -29,7 +30,7 @@ class Stick(StickTest):
         self.assertEqual(told["stage"], "done")
         self.bench.buttons.tell("press", 2, "300ms")  # what the table says of the stick ends, and nothing else happens
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
-        self.assert_at((0.05, 0.0, 0.0), artifact="nautilus-cup")
+        self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
 
     def test_2_unsigned(self):

@@ -29,7 +29,7 @@ from plain_pack import DEFLATED, Entry, described, manifest, pack, pack_entries,
 MOST_MIB = 64.0
 MOST_WORK_S = 2.0
 MOST_CLOCK_S = 60.0
-NO_NUMBERS = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "nan(1)", "0x7ff0", "1e-99999999999")
+NO_NUMBERS = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "nan(1)", "0x7ff0", "--1")
 
 
 def signed(signer, text, files):
@@ -211,7 +211,7 @@ def broken_parts(folder, signer):
     pictures = {
         "giant": png(0x7FFFFFFF, 0x7FFFFFFF, zeros(1)), "wide": png(100000, 100000, zeros(4)), "zero": png(0, 0, b""), "noise": os.urandom(5000),
         "sixteen_thousand": png(16384, 16384, zlib.compress(bytes(1 << 20))),
-        "bomb": png(8192, 8192, zlib.compress(bytes(3 * 8192 * 8192 + 8192))), "webp": b"RIFF\xff\xff\xff\xffWEBPVP8L" + bytes(64),
+        "bomb": png(8192, 8193, zlib.compress(bytes(1 << 24))), "webp": b"RIFF\xff\xff\xff\xffWEBPVP8L" + bytes(64),
     }
     for name, data in pictures.items():
         (folder / f"picture_{name}.fspack").write_bytes(with_part(signer, "textures/0.png", data))
@@ -369,6 +369,8 @@ def check(kiosk, case, stick, before):
         raise Wrong(f"what it says cannot be printed: {said}")
     if not report["stage"] in ("done", "failed"):
         raise Wrong(f"the report stays at {report['stage']}")
+    if case in WHOLE:
+        return row
     taken = [told for told in report["packs"] if told["outcome"] not in ("refused", "already_there")]
     if report["stage"] == "done" and taken:
         raise Wrong(f"it was not refused: {taken[:2]}")
@@ -405,6 +407,7 @@ def main():
         (good / "vase.fspack").write_bytes(pack(signer, 10))
         status, said, *_ = kiosk.take(good)
         before = kiosk.list()
+        shutil.copytree(kiosk.into, place / "as_it_was")
         if status != 0 or len(before) != 1:
             print(f"the good pack is not taken: {said}")
             kiosk.stop()
@@ -414,6 +417,8 @@ def main():
                 continue
             stick = place / "stick"
             stick.mkdir()
+            shutil.rmtree(kiosk.into)
+            shutil.copytree(place / "as_it_was", kiosk.into)
             try:
                 case(stick, signer)
                 rows.append(check(kiosk, case, stick, before))
