@@ -21,11 +21,14 @@ class Stick(StickTest):
         pack = self.signed("nautilus-cup", 1)
         part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
                                           "System Volume Information/IndexerVolumeGuid": b"x"})
-        self.plug("one", sticks.partitioned(self.image("one"), [("vfat", part)]))
+        stick = sticks.partitioned(self.image("one"), [("vfat", part)])
+        held = stick.read_bytes()
+        self.plug("one", stick)
         report = self.outcome()
         self.assertEqual((report["stage"], pulled_packs(report)), ("done", {"nautilus-cup.fspack": ("taken", "none")}))
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        self.assertEqual(stick.read_bytes(), held, "something was written to the stick")
         # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
         told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
         self.assertEqual(told["stage"], "done")
