@@ -16,7 +16,7 @@ import threading
 import time
 
 SECTOR = 512
-HAS_FLAGS, SEND_FLUSH, SEND_FUA, READ_ONLY = 1, 4, 8, 2
+HAS_FLAGS, SEND_FLUSH, SEND_FUA = 1, 4, 8
 OPTION_EXPORT_NAME, OPTION_ABORT, OPTION_INFO, OPTION_GO = 1, 2, 6, 7
 REPLY_ACK, REPLY_INFO, REPLY_UNSUPPORTED = 1, 3, 0x80000001
 REPLY_MAGIC = 0x3E889045565A9
@@ -28,7 +28,7 @@ EIO = 5
 class Disk:
     """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
     it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
-    is cut by itself after so many writes; `change`: called before each read with the disk's bytes and the place."""
+    is cut by itself after so many writes, and without it each write fails; `change`: called before each read with the disk's bytes and the place."""
 
     def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, change=None, size=None):
         self.path = pathlib.Path(path)
@@ -98,7 +98,7 @@ class Disk:
         return bytes(found)
 
     def _handshake(self, connection):
-        flags = HAS_FLAGS | (SEND_FLUSH | SEND_FUA if self.cut_after is not None else READ_ONLY)
+        flags = HAS_FLAGS | SEND_FLUSH | SEND_FUA
         connection.sendall(b"NBDMAGIC" + b"IHAVEOPT" + struct.pack(">H", 3))
         self._receive(connection, 4)
         while True:
@@ -136,6 +136,9 @@ class Disk:
             elif kind == COMMAND_READ:
                 self.reads += 1
                 answer = self._read(place, length)
+            elif kind == COMMAND_WRITE and self.cut_after is None:
+                self.writes += 1
+                error = EIO
             elif kind == COMMAND_WRITE:
                 self._write(place, data, bool(flags & COMMAND_FLAG_FUA))
             elif kind == COMMAND_FLUSH:

@@ -5,12 +5,17 @@ Threads  one caller.
 
 import json
 import pathlib
+import random
 import shutil
 import subprocess
+import sys
 
 import sticks
-from bench import SETTINGS, USUAL, eventually
+from bench import HERE, SETTINGS, USUAL, eventually
 from hil_test import HilTest
+
+sys.path.insert(0, str(HERE.parent / "import"))
+import plain_pack  # noqa: E402
 
 LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
@@ -52,10 +57,24 @@ class StickTest(HilTest):
         eventually(lambda: not self.units(), 60.0, lambda: f"units of a stick stay: {self.units()}")
 
     @classmethod
+    def large(cls, serial, mib):
+        """The path of a signed pack, called Vase, that takes a while: it has a part of noise, which no reader knows."""
+        pack = cls.folder / f"large-{serial}.fspack"
+        description = plain_pack.manifest()
+        description["sections"]["noise"] = {"parts": ["noise.bin"], "data": {}}
+        files = {**plain_pack.parts(), "noise.bin": random.Random(serial).randbytes(mib << 20)}
+        pack.write_bytes(plain_pack.pack(description=description, files=files))
+        return cls.sign(pack, serial)
+
+    @classmethod
     def signed(cls, artifact, serial):
         """The path of a signed copy of one of the guest's packs."""
         pack = cls.folder / f"{artifact}-{serial}.fspack"
         shutil.copyfile(cls.bench.packs / f"{artifact}.fspack", pack)
+        return cls.sign(pack, serial)
+
+    @classmethod
+    def sign(cls, pack, serial):
         subprocess.run([cls.pack_program, "sign", pack, "--key", cls.key.with_suffix(".key"), "--serial", str(serial)], check=True,
                        capture_output=True)
         return pack

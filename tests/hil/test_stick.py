@@ -5,7 +5,8 @@ from bench import eventually
 from hil_test import CENTRE_M
 from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
 
-SLOW_BYTES_PER_S = 300_000
+LARGE_MIB = 8
+SLOW_BYTES_PER_S = 700_000  # of it: a dozen seconds
 SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
 
 
@@ -20,11 +21,14 @@ class Stick(StickTest):
         pack = self.signed("nautilus-cup", 1)
         part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
                                           "System Volume Information/IndexerVolumeGuid": b"x"})
-        self.plug("one", sticks.partitioned(self.image("one"), [("vfat", part)]))
+        stick = sticks.partitioned(self.image("one"), [("vfat", part)])
+        held = stick.read_bytes()
+        self.plug("one", stick)
         report = self.outcome()
         self.assertEqual((report["stage"], pulled_packs(report)), ("done", {"nautilus-cup.fspack": ("taken", "none")}))
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        self.assertTrue(stick.read_bytes() == held, "something was written to the stick")
         # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
         told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
         self.assertEqual(told["stage"], "done")
@@ -41,8 +45,8 @@ class Stick(StickTest):
         self.assertIn("amphora.fspack", self.journal_of_imports())
 
     def test_3_pulled_out_half_way(self):
-        pack = self.signed("amphora", 2)
-        self.plug("slow", self.make("slow", "vfat", {"amphora.fspack": pack}), bytes_per_s=SLOW_BYTES_PER_S)
+        pack = self.large(2, LARGE_MIB)
+        self.plug("slow", self.make("slow", "vfat", {"vase.fspack": pack}), bytes_per_s=SLOW_BYTES_PER_S)
         self.stage("copying")
         self.pull("slow")
         report = self.outcome()
@@ -50,8 +54,8 @@ class Stick(StickTest):
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
         # and once more, to its end
         self.plug("again", self.image("slow"))
-        self.assertEqual(pulled_packs(self.outcome()), {"amphora.fspack": ("taken", "none")})
-        self.assertEqual(self.installed(), [("nautilus-cup", 1), ("amphora", 2)])
+        self.assertEqual(pulled_packs(self.outcome()), {"vase.fspack": ("taken", "none")})
+        self.assertEqual(self.installed(), [("nautilus-cup", 1), ("Vase", 2)])
 
     def test_4_two_at_once(self):
         part = self.make("part", "exfat", {"amphora.fspack": self.signed("amphora", 3)})
@@ -59,8 +63,8 @@ class Stick(StickTest):
         second = self.make("second", "ntfs", {"nautilus-cup.fspack": self.signed("nautilus-cup", 4)})
         self.plug("first", first)
         self.plug("second", second)
-        both = [("amphora", 3), ("nautilus-cup", 4)]
-        eventually(lambda: sorted(self.installed()) == both, 2 * IMPORT_S, lambda: f"installed: {self.installed()}")
+        both = {("amphora", 3), ("nautilus-cup", 4)}
+        eventually(lambda: both <= set(self.installed()), 2 * IMPORT_S, lambda: f"installed: {self.installed()}")
         self.outcome()
 
     def test_5_no_file_system(self):
@@ -68,5 +72,6 @@ class Stick(StickTest):
         self.plug("noise", self.image("noise"))
         report = self.outcome()
         self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
-        self.assertEqual(len(self.installed()), 2)
-        self.assertEqual(self.bench.machine.run(f"ls {LIBRARY}/packs | wc -l").output.strip(), "2", "files were left behind")
+        packs = self.bench.machine.check(f"ls {LIBRARY}/packs").split()
+        self.assertEqual(set(packs) & {"incoming"}, set(), "a file was left behind")
+        self.assertGreaterEqual(len(packs), len(self.installed()))

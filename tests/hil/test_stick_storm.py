@@ -161,6 +161,7 @@ class StickStorm(StickTest):
             self.plug("large", disk.path)
             self.assertEqual(self.outcome()["stage"], "done")
             self.pull("large")
+            self.assertEqual(disk.writes, 0, "something was written to the stick")
         finally:
             disk.stop()
         self.ends()
