@@ -62,9 +62,16 @@ function(frustumscreen_program name)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS "${name}=${CMAKE_CURRENT_SOURCE_DIR}")
 endfunction()
 
-# A GoogleTest program of one room; working directory is its own build folder.
+# The tests of what reads bytes from outside or shares memory between threads: under the sanitizers they run for every change.
+add_custom_target(outside)
+
+# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE: it belongs to the above.
 function(frustumscreen_test name)
-    cmake_parse_arguments(TEST "" "" "SOURCES;USES;LABELS" ${ARGN})
+    cmake_parse_arguments(TEST "OUTSIDE" "" "SOURCES;USES;LABELS" ${ARGN})
+    if(TEST_OUTSIDE)
+        list(APPEND TEST_LABELS outside)
+        add_dependencies(outside ${name})
+    endif()
     add_executable(${name} ${TEST_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} GTest::gtest_main)
     target_compile_options(${name} PRIVATE ${test_options})
