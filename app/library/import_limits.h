@@ -15,7 +15,7 @@ struct ImportLimits {
     /// So many bytes must come in each such time while something is copied.
     Nanoseconds pace = std::chrono::seconds(30);
     std::uint64_t pace_bytes = 4U << 20U;
-    std::size_t step_bytes = 1U << 20U;      ///< copied at a time
+    std::size_t step_bytes = 128U << 10U;    ///< copied at a time; a stick reads on by itself as far as that
     std::uint64_t margin_bytes = 64U << 20U; ///< stay free on the kiosk's disk
     std::size_t most_entries = 20000;        ///< in the folders that are looked into, all together
     std::size_t most_folders = 500;          ///< in the root

@@ -135,6 +135,9 @@ Outcome Import::read_exhibit_file(bool is_there) {
     tl::expected<SignedExhibitFile, ImportFailure> read =
         read_signed_exhibit_file(stick_, trust(), known_.exhibit_serial);
     if (!read) {
+        exhibit_line_->outcome = ImportOutcome::Refused;
+        exhibit_line_->refusal = read.error().refusal;
+        exhibit_line_->reason = read.error().reason;
         return failed(read.error());
     }
     exhibit_ = *std::move(read);

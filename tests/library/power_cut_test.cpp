@@ -208,7 +208,11 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
     Bytes altered = right;
     altered[altered.size() / 2] ^= std::byte{1};
     const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 4", 5000), 4);
+    // As long as the right one, and older than what is installed.
+    const Bytes older = Museum::signed_by(museum.key, Museum::unsigned_pack("a", "a 3", 5000), 1);
+    ASSERT_EQ(older.size(), right.size());
     const std::vector<Bytes> others{altered,
+                                    older,
                                     Museum::unsigned_pack("a", "a 2", 5000),
                                     stranger,
                                     museum.pack("a", 1),
@@ -232,6 +236,7 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
                                                      {request.keys, std::nullopt, UnsignedPacks::Refuse});
                 ASSERT_TRUE(opened) << opened.error().message;
                 EXPECT_EQ(opened->serial(), pack.serial);
+                EXPECT_TRUE(pack.id != "a" || pack.serial >= 2) << pack.serial;
                 EXPECT_TRUE(verify_pack(*content));
             }
         }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <thread>
 
@@ -93,11 +94,17 @@ void copy_all(FileTree& from, WritableTree& to, int packs) {
     ::sync();
 }
 
-double seconds_of(const std::function<void()>& work) {
+struct Times {
+    double clock_s = 0.0;
+    double processor_s = 0.0;
+};
+Times times_of(const std::function<void()>& work) {
     ::sync();
     const MonotonicTime began = monotonic_now();
+    const std::clock_t processor_began = std::clock();
     work();
-    return to_seconds(monotonic_now() - began);
+    return {to_seconds(monotonic_now() - began),
+            static_cast<double>(std::clock() - processor_began) / CLOCKS_PER_SEC};
 }
 
 int measure(std::size_t megabytes, int packs) {
@@ -119,16 +126,18 @@ int measure(std::size_t megabytes, int packs) {
     const auto library = open_tree(folder / "library").value();
     SlowTree slow(*stick);
     SlowTree as_slow(*stick);
-    const double copy_s = seconds_of([&] { copy_all(slow, *copy, packs); });
+    const Times copied = times_of([&] { copy_all(slow, *copy, packs); });
     ImportRequest request = testing_disk::request_of(museum);
     request.limits.step_bytes = ImportLimits().step_bytes;
     ImportSurroundings outside = testing_disk::quiet_surroundings();
     outside.now = monotonic_now;
     ImportStage stage = ImportStage::Failed;
-    const double import_s =
-        seconds_of([&] { stage = import_stick(as_slow, *library, request, outside).stage; });
-    fmt::print("{} MB in {} packs: copy and sync {:.2f} s, import {:.2f} s, ratio {:.3f}{}\n", megabytes,
-               packs, copy_s, import_s, import_s / copy_s, stage == ImportStage::Done ? "" : " FAILED");
+    const Times imported = times_of([&] { stage = import_stick(as_slow, *library, request, outside).stage; });
+    fmt::print("{} MB in {} packs: copy and sync {:.2f} s ({:.2f} s of the processor), import {:.2f} s "
+               "({:.2f} s), ratio "
+               "{:.2f}{}\n",
+               megabytes, packs, copied.clock_s, copied.processor_s, imported.clock_s, imported.processor_s,
+               imported.clock_s / copied.clock_s, stage == ImportStage::Done ? "" : " FAILED");
     fs::remove_all(folder);
     return stage == ImportStage::Done ? 0 : 1;
 }
