@@ -72,6 +72,6 @@ class Stick(StickTest):
         self.plug("noise", self.image("noise"))
         report = self.outcome()
         self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
-        packs = self.bench.machine.check(f"ls {LIBRARY}/packs").split()
+        packs = self.bench.machine.check(f"ls {LIBRARY}/packs 2>/dev/null || true").split()
         self.assertEqual(set(packs) & {"incoming"}, set(), "a file was left behind")
         self.assertGreaterEqual(len(packs), len(self.installed()))
