@@ -39,6 +39,7 @@ protected:
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(320, 200);
         options.technique = "finest"; // no governor: pictures can be compared
         options.other_sets = true;
+        options.waits = true; // for the texts that a picture is to have
         devices.other_packs = true;
     }
     void TearDown() override {
