@@ -34,15 +34,31 @@ TEST_F(CollectionFolder, FoldersWithAnArtifactFileAndScansAreObjects) {
     put("packs/artifact.toml");
     put("cup.STL");
     put("cup.txt");
+    put("report/artifact.toml");
     put("vase.glb");
     const Result<Collection> collection = list_collection(folder, folder / "packs");
     ASSERT_TRUE(collection) << collection.error().message;
-    EXPECT_EQ(names_of(collection->objects), (std::vector<std::string>{"Bowl", "cup", "vase", "vase"}));
+    EXPECT_EQ(names_of(collection->objects),
+              (std::vector<std::string>{"Bowl", "cup", "report", "vase", "vase"}));
     EXPECT_EQ(collection->passed_over, std::vector<std::string>{"letters"});
-    EXPECT_EQ(collection->objects[2].fault, "");
-    EXPECT_EQ(collection->objects[3].fault,
+    EXPECT_EQ(collection->objects[2].fault, "report: the batch's own reports have this name; rename it");
+    EXPECT_EQ(collection->objects[3].fault, "");
+    EXPECT_EQ(collection->objects[4].fault,
               "vase and vase.glb would have the same pack, vase.fspack; rename one of them");
     EXPECT_FALSE(list_collection(folder / "nowhere", folder));
+}
+
+TEST(Shards, KeepTheirObjectsWhereOthersComeAndGo) {
+    std::vector<BatchObject> objects;
+    for (int k = 0; k < 1000; ++k) {
+        objects.push_back({std::to_string(k), {}, {}});
+    }
+    std::vector<std::string> before = names_of(share_of(objects, {3, 8}));
+    EXPECT_NEAR(static_cast<double>(before.size()), 125.0, 40.0);
+    const std::string first = before.front();
+    std::erase_if(objects, [&](const BatchObject& object) { return object.name == first; });
+    before.erase(before.begin());
+    EXPECT_EQ(names_of(share_of(objects, {3, 8})), before);
 }
 
 TEST(Shards, TogetherHaveEachObjectOnce) {

@@ -15,8 +15,8 @@ protected:
         for (const char* name : {"a", "b"}) {
             put_jug(std::string("objects/") + name, spoken);
         }
-        put_jug("objects/broken", "siez = 3\n");
-        put("objects/alone.obj", text("objects/a/jug.obj"));
+        put_jug("objects/misspelt", "siez = 3\n");
+        put("objects/also.obj", text("objects/a/jug.obj"));
         put_recording("voice.wav");
         put("voice.sh", "cat voice.wav\n");
     }
@@ -24,7 +24,7 @@ protected:
         return run("frustumscreen-bake --batch objects --size 16 --speech 'sh voice.sh' " + more);
     }
     void expect_same_packs(const std::string& one, const std::string& other) const {
-        for (const char* name : {"a", "b", "alone"}) {
+        for (const char* name : {"a", "b", "also"}) {
             const std::string pack = text(fmt::format("{}/{}.fspack", one, name));
             EXPECT_FALSE(pack.empty()) << name;
             EXPECT_TRUE(pack == text(fmt::format("{}/{}.fspack", other, name))) << name;
@@ -35,7 +35,7 @@ protected:
 TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
     ASSERT_EQ(batch("-o whole -j 2"), 1) << "one object is broken: " << text("err.txt");
     EXPECT_NE(text("out.txt").find("4 objects: 3 baked, 1 failed"), std::string::npos) << text("out.txt");
-    EXPECT_EQ(count("err.txt", "broken: objects/broken/artifact.toml:3: siez"), 1U) << text("err.txt");
+    EXPECT_EQ(count("err.txt", "misspelt: objects/misspelt/artifact.toml:3: siez"), 1U) << text("err.txt");
 
     // The second spoken object waits for ever, as long as `hold` is there.
     put("hold", "");
@@ -64,19 +64,20 @@ TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
     // Two shares in another folder are the same once more.
     EXPECT_EQ(batch("-o shards --shard 1/2 --json"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("\"baked\": 2"), std::string::npos) << text("out.txt");
-    EXPECT_EQ(batch("-o shards --shard 2/2"), 1) << "the broken one is here";
+    EXPECT_EQ(batch("-o shards --shard 2/2"), 1) << "the misspelt one is here";
     expect_same_packs("whole", "shards");
     EXPECT_EQ(batch("-o shards --report-only"), 1);
     EXPECT_NE(text("out.txt").find("4 objects: 3 unchanged, 1 failed"), std::string::npos) << text("out.txt");
     // Python's own reader: the two shards' rows are those of the whole.
-    put("look.py", "import csv, glob\n"
-                   "def names(pattern): return sorted(r['object'] for f in glob.glob(pattern)\n"
-                   "                                  for r in csv.DictReader(open(f, newline='')))\n"
-                   "assert names('shards/report.?-of-2.csv') == names('shards/report.csv') == "
-                   "names('whole/report.csv')\n"
-                   "assert len(glob.glob('shards/report.?-of-2.html')) == 2\n"
-                   "rows = {r['object']: r for r in csv.DictReader(open('shards/report.csv', newline=''))}\n"
-                   "assert 'siez' in rows['broken']['sentence'] and float(rows['a']['seconds']) > 0, rows\n");
+    put("look.py",
+        "import csv, glob\n"
+        "def names(pattern): return sorted(r['object'] for f in glob.glob(pattern)\n"
+        "                                  for r in csv.DictReader(open(f, newline='')))\n"
+        "assert names('shards/report.?-of-2.csv') == names('shards/report.csv') == "
+        "names('whole/report.csv')\n"
+        "assert len(glob.glob('shards/report.?-of-2.html')) == 2\n"
+        "rows = {r['object']: r for r in csv.DictReader(open('shards/report.csv', newline=''))}\n"
+        "assert 'siez' in rows['misspelt']['sentence'] and float(rows['a']['seconds']) > 0, rows\n");
     EXPECT_EQ(std::system(fmt::format("cd '{}' && python3 look.py", folder.string()).c_str()), 0);
 }
 

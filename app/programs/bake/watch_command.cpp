@@ -162,8 +162,26 @@ private:
     bool has_page_ = false;
 };
 
+/// What is written there would count as a change, and be written again.
+Result<void> check_is_outside(const std::filesystem::path& written, const std::filesystem::path& folder) {
+    std::error_code none;
+    const std::filesystem::path way =
+        std::filesystem::weakly_canonical(written, none)
+            .lexically_relative(std::filesystem::weakly_canonical(folder, none));
+    if (!written.empty() && !way.empty() && *way.begin() != "..") {
+        return bad_input(fmt::format("{}: this lies in the folder that is watched; name a place outside {}",
+                                     written.string(), folder.string()));
+    }
+    return {};
+}
+
 Result<void> work(Arguments arguments) {
     std::error_code none;
+    for (const std::filesystem::path& written : {arguments.page, arguments.pack}) {
+        if (Result<void> outside = check_is_outside(written, arguments.folder); !outside) {
+            return outside;
+        }
+    }
     if (!std::filesystem::is_directory(arguments.folder, none)) {
         return bad_input(fmt::format("{}: this is no folder; --watch takes the folder of an artifact, and "
                                      "frustumscreen-bake --new FOLDER SCAN makes one",

@@ -1,6 +1,8 @@
 #include "app/programs/batch/collection.h"
 
+#include "app/pack/sha256.h"
 #include "assets_baked/folder/artifact_file.h"
+#include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -55,6 +57,16 @@ void refuse_twins(std::vector<BatchObject>& objects) {
     }
 }
 
+/// The page of such an object would have the batch's own report's name.
+void refuse_reports(std::vector<BatchObject>& objects) {
+    for (BatchObject& object : objects) {
+        if (object.name == "report" || object.name.starts_with("report.")) {
+            object.fault = fmt::format("{}: the batch's own reports have this name; rename it",
+                                       printable(object.input.filename().string()));
+        }
+    }
+}
+
 std::optional<std::size_t> whole_number(std::string_view text) {
     std::size_t value = 0;
     const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -86,6 +98,7 @@ Result<Collection> list_collection(const fs::path& folder, const fs::path& outpu
     });
     std::sort(collection.passed_over.begin(), collection.passed_over.end());
     refuse_twins(collection.objects);
+    refuse_reports(collection.objects);
     return collection;
 }
 
@@ -104,9 +117,13 @@ Result<Shard> parse_shard(std::string_view text) {
 }
 
 std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Shard& shard) {
+    constexpr std::size_t digits = 8;
     std::vector<BatchObject> share;
-    for (std::size_t k = shard.number - 1; k < objects.size(); k += shard.of) {
-        share.push_back(objects[k]);
+    for (const BatchObject& object : objects) {
+        const std::string hash = sha256_hex(as_bytes(object.name)).substr(0, digits);
+        if (std::stoul(hash, nullptr, 16) % shard.of == shard.number - 1) {
+            share.push_back(object);
+        }
     }
     return share;
 }

@@ -36,7 +36,8 @@ struct Shard {
 };
 /// "3/8".
 [[nodiscard]] Result<Shard> parse_shard(std::string_view text);
-/// Every `of`-th object; all shards together have each object once.
+/// By a hash of each object's name: all shards together have each object once, also where objects come or go between the runs of
+/// two shards.
 [[nodiscard]] std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Shard& shard);
 
 } // namespace frustumscreen

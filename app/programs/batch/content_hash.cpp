@@ -4,10 +4,8 @@
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
-#include <sodium.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -30,10 +28,11 @@ struct NamedFile {
 Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
     std::vector<NamedFile> files;
     std::error_code error;
-    fs::recursive_directory_iterator entries(folder, error);
+    constexpr int most_depth = 16; // a link may lead back to where it lies
+    fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink, error);
     for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
         std::error_code none;
-        if (entries->path().filename().string().starts_with('.')) {
+        if (entries->path().filename().string().starts_with('.') || entries.depth() >= most_depth) {
             entries.disable_recursion_pending();
         } else if (entries->is_regular_file(none)) {
             files.push_back({entries->path().lexically_relative(folder).string(), entries->path()});
@@ -49,25 +48,17 @@ Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
 } // namespace
 
 Result<std::string> hash_of_file(const fs::path& file) {
-    crypto_hash_sha256_state state;
-    crypto_hash_sha256_init(&state);
+    Sha256 hash;
     std::ifstream stream(file, std::ios::binary);
     std::vector<char> block(1U << 20U);
     while (stream) {
         stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(block.data()),
-                                  static_cast<unsigned long long>(stream.gcount()));
+        hash.add(as_bytes({block.data(), static_cast<std::size_t>(stream.gcount())}));
     }
     if (!stream.eof()) {
         return bad_input(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
     }
-    std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
-    crypto_hash_sha256_final(&state, hash.data());
-    std::string hex;
-    for (const unsigned char byte : hash) {
-        hex += fmt::format("{:02x}", byte);
-    }
-    return hex;
+    return hash.hex();
 }
 
 std::string hash_of_texts(std::span<const std::string> texts) {

@@ -80,17 +80,19 @@ BatchRow bake(const BatchPlan& plan, const BatchObject& object, const Outputs& o
     return row;
 }
 
-/// Whoever looks at the folder must not take the pack of before for this one's.
-std::string with_old_pack(std::string sentence, const Outputs& outputs) {
-    std::error_code none;
-    return fs::exists(outputs.pack, none) ? std::move(sentence) + " (the pack of before is still there)"
-                                          : sentence;
+/// Whoever looks at the folder must not take the pack of before for this one's. `before`: its hash before the bake, if it was
+/// there.
+std::string with_old_pack(std::string sentence, const Outputs& outputs, const Result<std::string>& before) {
+    const Result<std::string> now = hash_of_file(outputs.pack);
+    return before && now && *before == *now ? std::move(sentence) + " (the pack of before is still there)"
+                                            : sentence;
 }
 
 BatchRow bake_and_stamp(const BatchPlan& plan, const BatchObject& object, const Outputs& outputs,
                         const std::string& key) {
     std::error_code none;
     fs::remove(outputs.stamp, none);
+    const Result<std::string> before = hash_of_file(outputs.pack);
     Stamp stamp{key, {}, bake(plan, object, outputs)};
     if (stamp.row.status == BatchStatus::Baked) {
         const Result<std::string> hash = hash_of_file(outputs.pack);
@@ -99,7 +101,7 @@ BatchRow bake_and_stamp(const BatchPlan& plan, const BatchObject& object, const 
         }
         stamp.pack_sha256 = *hash;
     } else {
-        stamp.row.sentence = with_old_pack(std::move(stamp.row.sentence), outputs);
+        stamp.row.sentence = with_old_pack(std::move(stamp.row.sentence), outputs, before);
     }
     if (const Result<void> written = write_stamp(outputs.stamp, stamp); !written) {
         return failed(object, written.error().message);

@@ -62,6 +62,9 @@ FolderWatch::FolderWatch(FolderWatch&& other) noexcept
 
 Result<void> FolderWatch::add(const std::filesystem::path& folder) {
     const int number = ::inotify_add_watch(descriptor_, folder.c_str(), changes | IN_ONLYDIR);
+    if (number < 0 && !watched_.empty() && (errno == ENOENT || errno == ENOTDIR)) {
+        return {}; // it is gone already, which is told as a change
+    }
     if (number < 0) {
         return bad_input(fmt::format("{}: cannot be watched: {}", folder.string(), std::strerror(errno)));
     }
@@ -70,7 +73,9 @@ Result<void> FolderWatch::add(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
         if (entry.is_directory(none) && !entry.is_symlink(none) &&
             !is_passing_name(entry.path().filename().string())) {
-            (void)add(entry.path()); // it may be gone already; then that is told as a change
+            if (Result<void> added = add(entry.path()); !added) {
+                return added;
+            }
         }
     }
     return {};
@@ -92,13 +97,16 @@ Result<bool> FolderWatch::take() {
             }
             const bool is_new_folder =
                 (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0 && (event.mask & IN_ISDIR) != 0;
-            if (is_new_folder && place != watched_.end() && !is_passing_name(name)) {
-                (void)add(place->second / name);
+            const bool missed_some = (event.mask & IN_Q_OVERFLOW) != 0; // new folders perhaps
+            if (missed_some || (is_new_folder && place != watched_.end() && !is_passing_name(name))) {
+                if (Result<void> added = add(missed_some ? folder_ : place->second / name); !added) {
+                    return tl::unexpected<Error>(added.error());
+                }
             }
             if ((event.mask & IN_IGNORED) != 0) {
                 watched_.erase(event.wd);
             }
-            changed = changed || counts(event, name) || (event.mask & IN_Q_OVERFLOW) != 0;
+            changed = changed || counts(event, name) || missed_some;
         }
     }
     return changed;
