@@ -131,10 +131,14 @@ private:
 NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
     : prop_(make_prop(settings.prop)), lens_m_(settings.projector.table_from_projector.translation),
       place_(picture_on_table(settings, 0.0)) {
-    if (!tells_of_sticks(settings)) {
+    if (settings.exhibit.import_report.empty()) {
         return;
     }
     ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
+    if (!tells_of_sticks(settings)) { // in the journal and the status alone
+        watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
+        return;
+    }
     Result<LanguageWords> words = read_house_words(settings);
     if (words && settings.sound.kind != SoundKind::None) {
         found_ = recording_of(*words, "stick.found", found_gain_db);
