@@ -31,7 +31,8 @@ public:
         report_.stick = printable(request.stick);
     }
 
-    ImportReport run();
+    /// Nothing: the exhibit shows another set by now than the one that all was weighed against; it is to be begun anew.
+    std::optional<ImportReport> run();
 
 private:
     Outcome all();
@@ -42,6 +43,7 @@ private:
     Outcome look_for_room();
     Outcome copy();
     Outcome copy_one(StickPack& pack);
+    Outcome read_verdict_again();
     Outcome switch_set();
     [[nodiscard]] std::optional<ImportFailure> progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
@@ -64,6 +66,7 @@ private:
     SetFile known_;
     bool may_clear_away_ = false; ///< known_ is on the disk
     std::optional<SetVerdict> verdict_;
+    bool shows_another_ = false; ///< since the first look
     MonotonicTime pace_began_{};
     std::uint64_t pace_bytes_ = 0;
 };
@@ -265,6 +268,18 @@ Outcome Import::copy_one(StickPack& pack) {
     return {};
 }
 
+/// Copying takes minutes, in which the exhibit may have come to a verdict.
+Outcome Import::read_verdict_again() {
+    const std::uint64_t weighed = set_to_show(known_.choice, verdict_).number;
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
+    if (!verdict) {
+        return failed(verdict.error());
+    }
+    verdict_ = *verdict;
+    shows_another_ = set_to_show(known_.choice, verdict_).number != weighed;
+    return {};
+}
+
 /// Serials and keys are kept even where the set stays as it is.
 Outcome Import::switch_set() {
     const InstalledSet& shown = set_to_show(known_.choice, verdict_);
@@ -317,11 +332,15 @@ Outcome Import::all() {
         })
         .and_then([this] { return look_for_room(); })
         .and_then([this] { return copy(); })
-        .and_then([this] { return switch_set(); });
+        .and_then([this] { return read_verdict_again(); })
+        .and_then([this] { return shows_another_ ? Outcome() : switch_set(); });
 }
 
-ImportReport Import::run() {
+std::optional<ImportReport> Import::run() {
     const Outcome outcome = all();
+    if (shows_another_) {
+        return std::nullopt;
+    }
     if (outcome) {
         report_.done_bytes = report_.total_bytes;
         tell(ImportStage::MayTakeOut);
@@ -341,7 +360,11 @@ ImportReport Import::run() {
 
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
                           const ImportSurroundings& surroundings) {
-    return Import(stick, library, request, surroundings).run();
+    std::optional<ImportReport> report;
+    while (!report) { // a verdict only goes on, from trying to good or bad: this ends soon
+        report = Import(stick, library, request, surroundings).run();
+    }
+    return *std::move(report);
 }
 
 } // namespace frustumscreen

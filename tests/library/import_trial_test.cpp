@@ -1,0 +1,65 @@
+// What the importer makes of the exhibit's verdict: which set is kept, to which one it goes back, and what may be cleared away.
+#include "tests/library/museum.h"
+
+namespace frustumscreen {
+namespace {
+
+using namespace testing_disk;
+
+class ImportTrial : public ::testing::Test {
+protected:
+    ImportReport import(const ImportSurroundings& outside = quiet_surroundings()) {
+        ImportReport report = import_stick(stick, kiosk, request, outside);
+        EXPECT_EQ(inspector.fault_of(kiosk), "");
+        return report;
+    }
+    void put(std::uint64_t serial) {
+        stick.put("a.fspack", museum.pack("a", serial));
+        EXPECT_EQ(import().stage, ImportStage::Done);
+    }
+    SetFile set_file() { return read_set_file(kiosk).value_or(SetFile()); }
+    std::vector<std::string> ids() { return ids_of(installed(kiosk)); }
+    bool has_file(const InstalledSet& set) { return kiosk.content(set.packs.at(0).file).has_value(); }
+
+    Museum museum;
+    ImportRequest request = request_of(museum);
+    VolatileDisk stick, kiosk;
+    Inspector inspector;
+};
+
+TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) {
+    put(1);
+    judge(kiosk, Verdict::Good);
+    put(2);
+    stick.take_away("a.fspack");
+    stick.put("b.fspack", museum.pack("b", 1));
+    ImportSurroundings outside = quiet_surroundings();
+    outside.tell = [&](const ImportReport& report) {
+        if (report.stage == ImportStage::Copying) {
+            judge(kiosk, Verdict::Bad);
+        }
+    };
+    const ImportReport report = import(outside);
+    EXPECT_EQ(report.stage, ImportStage::Done);
+    EXPECT_EQ(line_of(report, "b.fspack").outcome, ImportOutcome::Taken);
+    EXPECT_EQ(ids(), (std::vector<std::string>{"a 1", "b 1"}));
+    EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 1"});
+}
+
+TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
+    put(1);
+    judge(kiosk, Verdict::Good);
+    put(2);
+    stick.put("a.fspack", museum.pack("a", 3));
+    ImportSurroundings outside = quiet_surroundings();
+    outside.tell = [&](const ImportReport& report) {
+        if (report.stage == ImportStage::Copying) {
+            judge(kiosk, Verdict::Good);
+        }
+    };
+    EXPECT_EQ(import(outside).stage, ImportStage::Done);
+    EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 2"});
+}
+
+} // namespace
+} // namespace frustumscreen
