@@ -61,5 +61,20 @@ TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
     EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 2"});
 }
 
+TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
+    put(1);
+    const SetFile first = set_file();
+    ASSERT_TRUE(first.choice.last_good);
+    EXPECT_EQ(*first.choice.last_good, InstalledSet());
+    judge(kiosk, Verdict::Bad);
+    EXPECT_EQ(installed(kiosk), InstalledSet());
+    put(2);
+    EXPECT_EQ(installed(kiosk).number, 2U);
+    EXPECT_EQ(set_file().choice.last_good, InstalledSet());
+    judge(kiosk, Verdict::Good);
+    put(3);
+    EXPECT_EQ(set_file().choice.last_good->number, 2U);
+}
+
 } // namespace
 } // namespace frustumscreen
