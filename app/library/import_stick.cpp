@@ -45,6 +45,10 @@ private:
     Outcome copy_one(StickPack& pack);
     Outcome read_verdict_again();
     Outcome switch_set();
+    /// Higher than any that the exhibit has judged, though set.txt may have been removed.
+    [[nodiscard]] std::uint64_t next_number() const {
+        return std::max(known_.choice.set.number, verdict_ ? verdict_->number : 0) + 1;
+    }
     [[nodiscard]] std::optional<ImportFailure> progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
     [[nodiscard]] PackTrust trust() const { return {keys_, request_.today, request_.unsigned_packs}; }
@@ -299,7 +303,7 @@ Outcome Import::switch_set() {
         next.choice.last_good = set_to_go_back_to(known_.choice, verdict_);
         next.before = shown;
         next.choice.set = std::move(planned->set);
-        next.choice.set.number = known_.choice.set.number + 1;
+        next.choice.set.number = next_number();
     }
     if (!(next == known_)) {
         may_clear_away_ = false; // as long as nobody knows which of the two is on the disk

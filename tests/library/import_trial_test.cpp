@@ -76,5 +76,15 @@ TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
     EXPECT_EQ(set_file().choice.last_good->number, 2U);
 }
 
+TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
+    put(1);
+    put(2);
+    judge(kiosk, Verdict::Bad);
+    kiosk.take_away("set.txt");
+    put(3);
+    EXPECT_EQ(set_file().choice.set.number, 3U);
+    EXPECT_EQ(ids(), std::vector<std::string>{"a 3"}) << "the old verdict is not about it";
+}
+
 } // namespace
 } // namespace frustumscreen
