@@ -45,6 +45,9 @@ private:
     Outcome copy_one(StickPack& pack);
     Outcome read_verdict_again();
     Outcome switch_set();
+    [[nodiscard]] bool is_judged(Verdict verdict) const {
+        return verdict_ && verdict_->number == known_.choice.set.number && verdict_->verdict == verdict;
+    }
     /// Higher than any that the exhibit has judged, though set.txt may have been removed.
     [[nodiscard]] std::uint64_t next_number() const {
         return std::max(known_.choice.set.number, verdict_ ? verdict_->number : 0) + 1;
@@ -301,7 +304,8 @@ Outcome Import::switch_set() {
     }
     if (!(planned->set == shown)) {
         next.choice.last_good = set_to_go_back_to(known_.choice, verdict_);
-        next.before = shown;
+        next.before =
+            is_judged(Verdict::Bad) ? shown : known_.choice.set; // on its last trial it is shown now
         next.choice.set = std::move(planned->set);
         next.choice.set.number = next_number();
     }

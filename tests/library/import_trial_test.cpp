@@ -86,5 +86,19 @@ TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
     EXPECT_EQ(ids(), std::vector<std::string>{"a 3"}) << "the old verdict is not about it";
 }
 
+TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
+    put(1);
+    judge(kiosk, Verdict::Good);
+    put(2);
+    const InstalledSet shown = installed(kiosk);
+    judge(kiosk, Verdict::Trying, most_starts);
+    put(3);
+    EXPECT_TRUE(has_file(shown));
+    judge(kiosk, Verdict::Bad);
+    put(4);
+    EXPECT_FALSE(has_file(shown));
+    EXPECT_EQ(set_file().choice.last_good->number, 1U);
+}
+
 } // namespace
 } // namespace frustumscreen
