@@ -7,8 +7,6 @@
 #include "app/library/stick_walk.h"
 #include "firmware_host/base/printable.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -41,6 +39,7 @@ private:
     Outcome read_exhibit_file(bool is_there);
     Outcome look_at_packs(const std::vector<std::string>& paths);
     Outcome look_for_room();
+    Outcome forget_older_sets();
     Outcome copy();
     Outcome copy_one(StickPack& pack);
     Outcome read_verdict_again();
@@ -203,19 +202,35 @@ Outcome Import::look_for_room() {
     if (wanted == 0) {
         return {};
     }
-    const FileResult<std::uint64_t> free = library_.free_bytes();
+    const std::uint64_t needed = wanted + request_.limits.margin_bytes;
+    FileResult<std::uint64_t> free = library_.free_bytes();
+    if (free && *free < needed) {
+        if (Outcome forgotten = forget_older_sets(); !forgotten) {
+            return forgotten;
+        }
+        free = library_.free_bytes();
+    }
     if (!free) {
         return failed(disk_failure(packs_folder_name, free.error()));
     }
-    constexpr std::uint64_t bytes_per_mb = 1000000;
-    if (*free < wanted + request_.limits.margin_bytes) {
-        return failed({ImportRefusal::NoRoom,
-                       fmt::format("the packs need {} MB and {} MB of the kiosk's disk are free, of which {} "
-                                   "MB stay free; remove packs, or put fewer on the stick",
-                                   wanted / bytes_per_mb + 1, *free / bytes_per_mb,
-                                   request_.limits.margin_bytes / bytes_per_mb),
-                       true});
+    return *free < needed ? failed(no_room(wanted, *free, request_.limits.margin_bytes)) : Outcome();
+}
+
+/// Where the set is good, nothing older is needed. Their packs need not be there for nothing.
+Outcome Import::forget_older_sets() {
+    SetFile next = known_;
+    next.choice.last_good.reset();
+    next.before.reset();
+    if (next == known_ || !is_judged(Verdict::Good)) {
+        return {};
     }
+    may_clear_away_ = false;
+    if (const FileResult<void> switched = switch_to(library_, next); !switched) {
+        return failed(disk_failure(set_file_name, switched.error()));
+    }
+    known_ = std::move(next);
+    may_clear_away_ = true;
+    clear_away(library_, known_);
     return {};
 }
 

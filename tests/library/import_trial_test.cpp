@@ -100,5 +100,22 @@ TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
     EXPECT_EQ(set_file().choice.last_good->number, 1U);
 }
 
+TEST_F(ImportTrial, OlderSetsMakeRoomOnceTheSetIsGood) {
+    put(1);
+    const InstalledSet oldest = installed(kiosk);
+    judge(kiosk, Verdict::Good);
+    put(2);
+    stick.put("a.fspack", museum.pack("a", 3));
+    const std::uint64_t needed = (*stick.content("a.fspack"))->size() + request.limits.margin_bytes;
+    kiosk.before_operation = [&](int) { kiosk.free = needed - (has_file(oldest) ? 1 : 0); };
+    EXPECT_EQ(import().refusal, ImportRefusal::NoRoom) << "it is on trial";
+    EXPECT_TRUE(has_file(oldest));
+    judge(kiosk, Verdict::Good);
+    EXPECT_EQ(import().stage, ImportStage::Done);
+    EXPECT_FALSE(has_file(oldest));
+    EXPECT_EQ(ids(), std::vector<std::string>{"a 3"});
+    EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 2"});
+}
+
 } // namespace
 } // namespace frustumscreen
