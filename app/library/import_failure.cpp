@@ -79,6 +79,14 @@ ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t ma
         true};
 }
 
+ImportFailure unsure_switch() {
+    return {
+        ImportRefusal::Unwritable,
+        "the new set is shown, but a power cut may bring the old one back, as the kiosk's disk fails; call "
+        "a technician",
+        true};
+}
+
 ImportFailure too_slow() {
     return too_much("the stick answers too slowly; try another one, or put fewer files on it");
 }

@@ -56,6 +56,7 @@ private:
     [[nodiscard]] PackTrust trust() const { return {keys_, request_.today, request_.unsigned_packs}; }
     void tell(ImportStage stage);
     void fail_whole(const ImportFailure& failure);
+    void refuse_all(const ImportFailure& failure);
 
     FileTree& stick_;
     WritableTree& library_;
@@ -71,6 +72,7 @@ private:
     std::vector<TrustedKey> keys_;
     SetFile known_;
     bool may_clear_away_ = false; ///< known_ is on the disk
+    bool is_unsure_ = false;      ///< known_ is shown, and may not be on the disk
     std::optional<SetVerdict> verdict_;
     bool shows_another_ = false; ///< since the first look
     MonotonicTime pace_began_{};
@@ -88,29 +90,32 @@ void Import::tell(ImportStage stage) {
     }
     report_.packs.insert(report_.packs.end(), refused_on_the_way_.begin(), refused_on_the_way_.end());
     for (const InstalledPack& pack : removed_) {
-        report_.packs.push_back({printable(pack.id.empty() ? pack.file : pack.id), printable(pack.title),
-                                 ImportOutcome::Removed, ImportRefusal::None, "the set file removes it"});
+        report_.packs.push_back(removed_line(pack));
     }
     outside_.tell(report_);
 }
 
-/// Nothing is taken, and every line says so.
 void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
+    if (!is_unsure_) {
+        refuse_all(failure);
+    }
+    tell(ImportStage::Failed);
+}
+
+/// Nothing is taken, and every line says so.
+void Import::refuse_all(const ImportFailure& failure) {
     removed_.clear();
     const ImportFailure of_each{failure.refusal, "nothing of this stick was taken: " + failure.reason, false};
     for (StickPack& pack : packs_) {
         if (pack.is_wanted()) {
-            refuse(pack, of_each);
+            refuse(pack.told, of_each);
         }
     }
     if (exhibit_line_ && exhibit_line_->outcome != ImportOutcome::Refused) {
-        exhibit_line_->outcome = ImportOutcome::Refused;
-        exhibit_line_->refusal = failure.refusal;
-        exhibit_line_->reason = of_each.reason;
+        refuse(*exhibit_line_, of_each);
     }
-    tell(ImportStage::Failed);
 }
 
 Outcome Import::read_library() {
@@ -139,14 +144,11 @@ Outcome Import::read_exhibit_file(bool is_there) {
     if (!is_there) {
         return {};
     }
-    exhibit_line_ =
-        ImportedPack{std::string(exhibit_file_name), "", ImportOutcome::Pending, ImportRefusal::None, ""};
+    exhibit_line_.emplace().file = exhibit_file_name;
     tl::expected<SignedExhibitFile, ImportFailure> read =
         read_signed_exhibit_file(stick_, trust(), known_.exhibit_serial);
     if (!read) {
-        exhibit_line_->outcome = ImportOutcome::Refused;
-        exhibit_line_->refusal = read.error().refusal;
-        exhibit_line_->reason = read.error().reason;
+        refuse(*exhibit_line_, read.error());
         return failed(read.error());
     }
     exhibit_ = *std::move(read);
@@ -172,7 +174,7 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
         if (pack.error().whole) {
             return failed(pack.error());
         }
-        refuse(refused, pack.error());
+        refuse(refused.told, pack.error());
         in_vain += outside_.work() - before;
         if (in_vain > request_.limits.refused_work) {
             return failed(too_much("the stick holds many files that look like packs and are none; put only "
@@ -285,7 +287,7 @@ Outcome Import::copy_one(StickPack& pack) {
     } else if (copied.error().whole) {
         return failed(copied.error());
     } else {
-        refuse(pack, copied.error());
+        refuse(pack.told, copied.error());
     }
     return {};
 }
@@ -327,17 +329,21 @@ Outcome Import::switch_set() {
     if (!(next == known_)) {
         may_clear_away_ = false; // as long as nobody knows which of the two is on the disk
         if (const FileResult<void> switched = switch_to(library_, next); !switched) {
-            return failed(disk_failure(set_file_name, switched.error()));
+            const tl::expected<SetFile, ImportFailure> now = read_set_file(library_);
+            is_unsure_ = now && *now == next;
+            if (!is_unsure_) {
+                return failed(disk_failure(set_file_name, switched.error()));
+            }
         }
     }
     if (exhibit_line_) {
         exhibit_line_->outcome = next == known_ ? ImportOutcome::AlreadyThere : ImportOutcome::Taken;
     }
     known_ = std::move(next);
-    may_clear_away_ = true;
+    may_clear_away_ = !is_unsure_;
     removed_ = std::move(planned->removed);
     report_.set_number = known_.choice.set.number;
-    return {};
+    return is_unsure_ ? failed(unsure_switch()) : Outcome();
 }
 
 Outcome Import::all() {
