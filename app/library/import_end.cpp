@@ -24,6 +24,9 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         return report;
     }
     report.import_id = std::move(import_id);
+    if (last && !is_ours && service_result == "success") {
+        return std::nullopt;
+    }
     report.stage = ImportStage::Failed;
     report.set_number = set_number;
     report.refusal = ImportRefusal::Unreadable;

@@ -13,7 +13,7 @@
 namespace frustumscreen {
 
 /// Of the import `import_id` that has ended, while the report said `last`; none: it was said, or the report is that of another
-/// stick which is being read. `service_result`: why it ended, as systemd calls it in SERVICE_RESULT. `set_number`: of what is
+/// stick which is being read, or came after this one had ended well. `service_result`: why it ended, as systemd calls it in SERVICE_RESULT. `set_number`: of what is
 /// installed.
 [[nodiscard]] std::optional<ImportReport> last_word(const std::optional<ImportReport>& last,
                                                     std::string import_id, std::string_view service_result,
