@@ -1,5 +1,6 @@
 #include "app/library/import_end.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
@@ -10,12 +11,20 @@ bool is_last(ImportStage stage) {
     return stage == ImportStage::Done || stage == ImportStage::Failed;
 }
 
+/// stick7 of stick7p1.
+std::string_view disk_of(std::string_view import_id) {
+    return import_id.substr(0, import_id.find('p'));
+}
+
 } // namespace
 
 std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, std::string import_id,
                                       std::string_view service_result, std::uint64_t set_number) {
     const bool is_ours = last && last->import_id == import_id;
     if (last && (is_ours ? is_last(last->stage) : !is_last(last->stage))) {
+        return std::nullopt;
+    }
+    if (last && !is_ours && service_result == "success") {
         return std::nullopt;
     }
     ImportReport report = is_ours ? *last : ImportReport{};
@@ -41,6 +50,21 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         }
     }
     return report;
+}
+
+bool is_to_be_told_unmounted(const std::optional<ImportReport>& last, std::string_view import_id) {
+    if (!last || last->import_id == import_id) {
+        return !last;
+    }
+    return disk_of(last->import_id) != disk_of(import_id) || last->stage == ImportStage::Failed;
+}
+
+Nanoseconds wait_before_first_word(const std::optional<ImportReport>& last, std::string_view import_id,
+                                   Nanoseconds age, Nanoseconds stands) {
+    if (!last || last->import_id == import_id || !is_last(last->stage)) {
+        return Nanoseconds(0);
+    }
+    return std::clamp(stands - age, Nanoseconds(0), stands);
 }
 
 } // namespace frustumscreen

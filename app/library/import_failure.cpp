@@ -69,6 +69,24 @@ ImportFailure failure_of(const PackRefusal& refusal) {
     return {ImportRefusal::NotAPack, refusal.message, false};
 }
 
+ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin) {
+    constexpr std::uint64_t bytes_per_mb = 1000000;
+    return {
+        ImportRefusal::NoRoom,
+        fmt::format("the packs need {} MB and {} MB of the kiosk's disk are free, of which {} MB stay free; "
+                    "remove packs, or put fewer on the stick",
+                    wanted / bytes_per_mb + 1, free / bytes_per_mb, margin / bytes_per_mb),
+        true};
+}
+
+ImportFailure unsure_switch() {
+    return {
+        ImportRefusal::Unwritable,
+        "the new set is shown, but a power cut may bring the old one back, as the kiosk's disk fails; call "
+        "a technician",
+        true};
+}
+
 ImportFailure too_slow() {
     return too_much("the stick answers too slowly; try another one, or put fewer files on it");
 }

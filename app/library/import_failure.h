@@ -24,6 +24,10 @@ struct ImportFailure {
 [[nodiscard]] ImportFailure disk_failure(std::string_view path, FileFault fault);
 [[nodiscard]] ImportFailure failure_of(const PackRefusal& refusal);
 [[nodiscard]] ImportFailure failure_of(const SignatureRefusal& refusal);
+/// The packs need `wanted` bytes, `free` are left, and `margin` of these stay free.
+[[nodiscard]] ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin);
+/// The new set is shown, and nobody knows whether it is on the disk.
+[[nodiscard]] ImportFailure unsure_switch();
 [[nodiscard]] ImportFailure too_slow();
 [[nodiscard]] ImportFailure too_much(std::string reason);
 

@@ -7,8 +7,6 @@
 #include "app/library/stick_walk.h"
 #include "firmware_host/base/printable.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +29,8 @@ public:
         report_.stick = printable(request.stick);
     }
 
-    ImportReport run();
+    /// Nothing: the exhibit shows another set by now than the one that all was weighed against; it is to be begun anew.
+    std::optional<ImportReport> run();
 
 private:
     Outcome all();
@@ -40,14 +39,24 @@ private:
     Outcome read_exhibit_file(bool is_there);
     Outcome look_at_packs(const std::vector<std::string>& paths);
     Outcome look_for_room();
+    Outcome forget_older_sets();
     Outcome copy();
     Outcome copy_one(StickPack& pack);
+    Outcome read_verdict_again();
     Outcome switch_set();
+    [[nodiscard]] bool is_judged(Verdict verdict) const {
+        return verdict_ && verdict_->number == known_.choice.set.number && verdict_->verdict == verdict;
+    }
+    /// Higher than any that the exhibit has judged, though set.txt may have been removed.
+    [[nodiscard]] std::uint64_t next_number() const {
+        return std::max(known_.choice.set.number, verdict_ ? verdict_->number : 0) + 1;
+    }
     [[nodiscard]] std::optional<ImportFailure> progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
     [[nodiscard]] PackTrust trust() const { return {keys_, request_.today, request_.unsigned_packs}; }
     void tell(ImportStage stage);
     void fail_whole(const ImportFailure& failure);
+    void refuse_all(const ImportFailure& failure);
 
     FileTree& stick_;
     WritableTree& library_;
@@ -63,7 +72,9 @@ private:
     std::vector<TrustedKey> keys_;
     SetFile known_;
     bool may_clear_away_ = false; ///< known_ is on the disk
+    bool is_unsure_ = false;      ///< known_ is shown, and may not be on the disk
     std::optional<SetVerdict> verdict_;
+    bool shows_another_ = false; ///< since the first look
     MonotonicTime pace_began_{};
     std::uint64_t pace_bytes_ = 0;
 };
@@ -79,29 +90,32 @@ void Import::tell(ImportStage stage) {
     }
     report_.packs.insert(report_.packs.end(), refused_on_the_way_.begin(), refused_on_the_way_.end());
     for (const InstalledPack& pack : removed_) {
-        report_.packs.push_back({printable(pack.id.empty() ? pack.file : pack.id), printable(pack.title),
-                                 ImportOutcome::Removed, ImportRefusal::None, "the set file removes it"});
+        report_.packs.push_back(removed_line(pack));
     }
     outside_.tell(report_);
 }
 
-/// Nothing is taken, and every line says so.
 void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
+    if (!is_unsure_) {
+        refuse_all(failure);
+    }
+    tell(ImportStage::Failed);
+}
+
+/// Nothing is taken, and every line says so.
+void Import::refuse_all(const ImportFailure& failure) {
     removed_.clear();
     const ImportFailure of_each{failure.refusal, "nothing of this stick was taken: " + failure.reason, false};
     for (StickPack& pack : packs_) {
         if (pack.is_wanted()) {
-            refuse(pack, of_each);
+            refuse(pack.told, of_each);
         }
     }
     if (exhibit_line_ && exhibit_line_->outcome != ImportOutcome::Refused) {
-        exhibit_line_->outcome = ImportOutcome::Refused;
-        exhibit_line_->refusal = failure.refusal;
-        exhibit_line_->reason = of_each.reason;
+        refuse(*exhibit_line_, of_each);
     }
-    tell(ImportStage::Failed);
 }
 
 Outcome Import::read_library() {
@@ -130,14 +144,11 @@ Outcome Import::read_exhibit_file(bool is_there) {
     if (!is_there) {
         return {};
     }
-    exhibit_line_ =
-        ImportedPack{std::string(exhibit_file_name), "", ImportOutcome::Pending, ImportRefusal::None, ""};
+    exhibit_line_.emplace().file = exhibit_file_name;
     tl::expected<SignedExhibitFile, ImportFailure> read =
         read_signed_exhibit_file(stick_, trust(), known_.exhibit_serial);
     if (!read) {
-        exhibit_line_->outcome = ImportOutcome::Refused;
-        exhibit_line_->refusal = read.error().refusal;
-        exhibit_line_->reason = read.error().reason;
+        refuse(*exhibit_line_, read.error());
         return failed(read.error());
     }
     exhibit_ = *std::move(read);
@@ -163,7 +174,7 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
         if (pack.error().whole) {
             return failed(pack.error());
         }
-        refuse(refused, pack.error());
+        refuse(refused.told, pack.error());
         in_vain += outside_.work() - before;
         if (in_vain > request_.limits.refused_work) {
             return failed(too_much("the stick holds many files that look like packs and are none; put only "
@@ -193,19 +204,35 @@ Outcome Import::look_for_room() {
     if (wanted == 0) {
         return {};
     }
-    const FileResult<std::uint64_t> free = library_.free_bytes();
+    const std::uint64_t needed = wanted + request_.limits.margin_bytes;
+    FileResult<std::uint64_t> free = library_.free_bytes();
+    if (free && *free < needed) {
+        if (Outcome forgotten = forget_older_sets(); !forgotten) {
+            return forgotten;
+        }
+        free = library_.free_bytes();
+    }
     if (!free) {
         return failed(disk_failure(packs_folder_name, free.error()));
     }
-    constexpr std::uint64_t bytes_per_mb = 1000000;
-    if (*free < wanted + request_.limits.margin_bytes) {
-        return failed({ImportRefusal::NoRoom,
-                       fmt::format("the packs need {} MB and {} MB of the kiosk's disk are free, of which {} "
-                                   "MB stay free; remove packs, or put fewer on the stick",
-                                   wanted / bytes_per_mb + 1, *free / bytes_per_mb,
-                                   request_.limits.margin_bytes / bytes_per_mb),
-                       true});
+    return *free < needed ? failed(no_room(wanted, *free, request_.limits.margin_bytes)) : Outcome();
+}
+
+/// Where the set is good, nothing older is needed. Their packs need not be there for nothing.
+Outcome Import::forget_older_sets() {
+    SetFile next = known_;
+    next.choice.last_good.reset();
+    next.before.reset();
+    if (next == known_ || !is_judged(Verdict::Good)) {
+        return {};
     }
+    may_clear_away_ = false;
+    if (const FileResult<void> switched = switch_to(library_, next); !switched) {
+        return failed(disk_failure(set_file_name, switched.error()));
+    }
+    known_ = std::move(next);
+    may_clear_away_ = true;
+    clear_away(library_, known_);
     return {};
 }
 
@@ -260,8 +287,20 @@ Outcome Import::copy_one(StickPack& pack) {
     } else if (copied.error().whole) {
         return failed(copied.error());
     } else {
-        refuse(pack, copied.error());
+        refuse(pack.told, copied.error());
     }
+    return {};
+}
+
+/// Copying takes minutes, in which the exhibit may have come to a verdict.
+Outcome Import::read_verdict_again() {
+    const std::uint64_t weighed = set_to_show(known_.choice, verdict_).number;
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
+    if (!verdict) {
+        return failed(verdict.error());
+    }
+    verdict_ = *verdict;
+    shows_another_ = set_to_show(known_.choice, verdict_).number != weighed;
     return {};
 }
 
@@ -282,24 +321,29 @@ Outcome Import::switch_set() {
     }
     if (!(planned->set == shown)) {
         next.choice.last_good = set_to_go_back_to(known_.choice, verdict_);
-        next.before = shown;
+        next.before =
+            is_judged(Verdict::Bad) ? shown : known_.choice.set; // on its last trial it is shown now
         next.choice.set = std::move(planned->set);
-        next.choice.set.number = known_.choice.set.number + 1;
+        next.choice.set.number = next_number();
     }
     if (!(next == known_)) {
         may_clear_away_ = false; // as long as nobody knows which of the two is on the disk
         if (const FileResult<void> switched = switch_to(library_, next); !switched) {
-            return failed(disk_failure(set_file_name, switched.error()));
+            const tl::expected<SetFile, ImportFailure> now = read_set_file(library_);
+            is_unsure_ = now && *now == next;
+            if (!is_unsure_) {
+                return failed(disk_failure(set_file_name, switched.error()));
+            }
         }
     }
     if (exhibit_line_) {
         exhibit_line_->outcome = next == known_ ? ImportOutcome::AlreadyThere : ImportOutcome::Taken;
     }
     known_ = std::move(next);
-    may_clear_away_ = true;
+    may_clear_away_ = !is_unsure_;
     removed_ = std::move(planned->removed);
     report_.set_number = known_.choice.set.number;
-    return {};
+    return is_unsure_ ? failed(unsure_switch()) : Outcome();
 }
 
 Outcome Import::all() {
@@ -317,11 +361,15 @@ Outcome Import::all() {
         })
         .and_then([this] { return look_for_room(); })
         .and_then([this] { return copy(); })
-        .and_then([this] { return switch_set(); });
+        .and_then([this] { return read_verdict_again(); })
+        .and_then([this] { return shows_another_ ? Outcome() : switch_set(); });
 }
 
-ImportReport Import::run() {
+std::optional<ImportReport> Import::run() {
     const Outcome outcome = all();
+    if (shows_another_) {
+        return std::nullopt;
+    }
     if (outcome) {
         report_.done_bytes = report_.total_bytes;
         tell(ImportStage::MayTakeOut);
@@ -341,7 +389,11 @@ ImportReport Import::run() {
 
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
                           const ImportSurroundings& surroundings) {
-    return Import(stick, library, request, surroundings).run();
+    std::optional<ImportReport> report;
+    while (!report) { // a verdict only goes on, from trying to good or bad: this ends soon
+        report = Import(stick, library, request, surroundings).run();
+    }
+    return *std::move(report);
 }
 
 } // namespace frustumscreen

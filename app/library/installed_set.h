@@ -39,7 +39,7 @@ struct AttractText {
 };
 struct InstalledSet {
     std::uint64_t number = 0;         ///< each switch has a higher one
-    std::vector<InstalledPack> packs; ///< in the order in which they are shown
+    std::vector<InstalledPack> packs; ///< in the order in which they are shown; none: those of the settings
     std::vector<AttractText> attract;
     [[nodiscard]] bool operator==(const InstalledSet&) const = default;
 };
@@ -61,7 +61,7 @@ inline constexpr std::string_view verdict_file_name = "shown/verdict.json";
 /// What set.txt holds, as far as the exhibit needs it.
 struct SetChoice {
     InstalledSet set;
-    std::optional<InstalledSet> last_good; ///< none: `set` has been good, or was the first
+    std::optional<InstalledSet> last_good; ///< none: `set` has been good, or no set was installed yet
 };
 /// The set that an exhibit started now would show.
 [[nodiscard]] const InstalledSet& set_to_show(const SetChoice& choice,

@@ -136,17 +136,15 @@ void remember(SetFile& known, const std::vector<StickPack>& packs,
     }
 }
 
-std::optional<InstalledSet> set_to_go_back_to(const SetChoice& choice,
-                                              const std::optional<SetVerdict>& verdict) {
+InstalledSet set_to_go_back_to(const SetChoice& choice, const std::optional<SetVerdict>& verdict) {
     const bool is_judged = verdict && verdict->number == choice.set.number;
     if (is_judged && verdict->verdict == Verdict::Good) {
         return choice.set;
     }
     if (choice.last_good) {
-        return choice.last_good;
+        return *choice.last_good;
     }
-    const bool is_bad = is_judged && verdict->verdict == Verdict::Bad;
-    return is_bad || choice.set.packs.empty() ? std::nullopt : std::optional(choice.set);
+    return is_judged && verdict->verdict == Verdict::Bad ? InstalledSet() : choice.set;
 }
 
 } // namespace frustumscreen

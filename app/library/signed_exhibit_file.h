@@ -32,7 +32,8 @@ void remember(SetFile& known, const std::vector<StickPack>& packs,
               const std::optional<SignedExhibitFile>& exhibit);
 
 /// What a set that replaces the one of `choice` goes back to: that one if it was good, or if nothing is known to be better.
-[[nodiscard]] std::optional<InstalledSet> set_to_go_back_to(const SetChoice& choice,
-                                                            const std::optional<SetVerdict>& verdict);
+/// Without packs: those of the settings, as before the first set.
+[[nodiscard]] InstalledSet set_to_go_back_to(const SetChoice& choice,
+                                             const std::optional<SetVerdict>& verdict);
 
 } // namespace frustumscreen

@@ -38,28 +38,35 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
     }
     const std::uint64_t highest = highest_serial(known, pack.id);
     if (pack.serial < highest) {
-        refuse(candidate, {ImportRefusal::Older,
-                           candidate.is_signed
-                               ? fmt::format("it is older (serial {}) than one that was taken before (serial "
-                                             "{}); sign it anew to go back to it",
-                                             pack.serial, highest)
-                               : "it is unsigned, and a signed one of the same id was taken before; sign it",
-                           false});
+        refuse(candidate.told,
+               {ImportRefusal::Older,
+                candidate.is_signed
+                    ? fmt::format("it is older (serial {}) than one that was taken before (serial "
+                                  "{}); sign it anew to go back to it",
+                                  pack.serial, highest)
+                    : "it is unsigned, and a signed one of the same id was taken before; sign it",
+                false});
     } else if (installed != nullptr && pack.serial > 0 && installed->serial == pack.serial) {
-        refuse(candidate, {ImportRefusal::Older,
-                           fmt::format("it is another pack with the same id and the same serial {} as the "
-                                       "one that is installed; sign it with a higher serial",
-                                       pack.serial),
-                           false});
+        refuse(candidate.told,
+               {ImportRefusal::Older,
+                fmt::format("it is another pack with the same id and the same serial {} as the "
+                            "one that is installed; sign it with a higher serial",
+                            pack.serial),
+                false});
     }
 }
 
 } // namespace
 
-void refuse(StickPack& pack, const ImportFailure& failure) {
-    pack.told.outcome = ImportOutcome::Refused;
-    pack.told.refusal = failure.refusal;
-    pack.told.reason = failure.reason;
+void refuse(ImportedPack& told, const ImportFailure& failure) {
+    told.outcome = ImportOutcome::Refused;
+    told.refusal = failure.refusal;
+    told.reason = failure.reason;
+}
+
+ImportedPack removed_line(const InstalledPack& pack) {
+    return {printable(pack.id.empty() ? pack.file : pack.id), printable(pack.title), ImportOutcome::Removed,
+            ImportRefusal::None, "the set file removes it"};
 }
 
 bool is_same_artifact(const InstalledPack& a, const InstalledPack& b) {
@@ -95,10 +102,10 @@ void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
         be_there_already(pack, fmt::format("it is the same as {} on this stick", name));
         return;
     }
-    refuse(pack, {ImportRefusal::Older,
-                  fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
-                              taken->pack.serial, pack.pack.serial),
-                  false});
+    refuse(pack.told, {ImportRefusal::Older,
+                       fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
+                                   taken->pack.serial, pack.pack.serial),
+                       false});
 }
 
 } // namespace frustumscreen

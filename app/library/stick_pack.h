@@ -21,7 +21,9 @@ struct StickPack {
     }
 };
 
-void refuse(StickPack& pack, const ImportFailure& failure);
+void refuse(ImportedPack& told, const ImportFailure& failure);
+/// Of a pack that the set file removes.
+[[nodiscard]] ImportedPack removed_line(const InstalledPack& pack);
 
 /// Whether two packs are the same artifact: the same id, or neither has one and they hold the same.
 [[nodiscard]] bool is_same_artifact(const InstalledPack& a, const InstalledPack& b);

@@ -22,6 +22,15 @@ InstalledShow show_installed_set(
         return installed;
     }
     const std::filesystem::path& library = settings.exhibit.library;
+    const auto options_for = [&](const InstalledSet& set) {
+        const SetRequest request = request_of(set, library, settings);
+        ArtifactShowOptions own = options;
+        own.packs = request.packs;
+        own.packs_key = request.packs_key;
+        own.set_number = request.number;
+        own.attract = request.attract;
+        return own;
+    };
     installed.start = start_library(library);
     if (!installed.start.trouble.empty()) {
         say_line(options.program, installed.start.trouble);
@@ -29,13 +38,10 @@ InstalledShow show_installed_set(
     std::optional<SetTrial>& trial = installed.start.trial;
     for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad one leads to the one before
         const InstalledSet target = trial->target();
-        const SetRequest request = request_of(target, library, settings);
-        ArtifactShowOptions own = options;
-        own.packs = request.packs;
-        own.packs_key = request.packs_key;
-        own.set_number = request.number;
-        own.attract = request.attract;
-        Result<std::unique_ptr<ArtifactShow>> show = create(own);
+        Result<std::unique_ptr<ArtifactShow>> show = create(options_for(target));
+        if (!show && target.packs.empty()) { // better the new set without what is wrong in it than nothing
+            show = create(options_for(trial->choice().set));
+        }
         const std::string fault = show ? fault_of((*show)->left_out(), false) : show.error().message;
         if (!fault.empty()) {
             say_line(options.program, fmt::format("set {}: {}", target.number, fault));

@@ -61,5 +61,38 @@ TEST(ImportEnd, IsSaidWhereNothingWas) {
     EXPECT_EQ(word->stage, ImportStage::Failed);
 }
 
+TEST(ImportEnd, OfAnImportThatEndedWellDoesNotReplaceTheNextOnes) {
+    for (const ImportStage stage : {ImportStage::Found, ImportStage::Done, ImportStage::Failed}) {
+        EXPECT_FALSE(last_word(at("stick8", stage), "stick7p1", "success", 0));
+    }
+}
+
+TEST(ImportEnd, AStickThatCannotBeMountedIsToldOnce) {
+    EXPECT_TRUE(is_to_be_told_unmounted(std::nullopt, "stick7p1"));
+    EXPECT_TRUE(is_to_be_told_unmounted(at("stick71p1", ImportStage::Done), "stick7p1"));
+    EXPECT_TRUE(is_to_be_told_unmounted(at("stick7p2", ImportStage::Failed), "stick7p1"));
+    EXPECT_FALSE(is_to_be_told_unmounted(at("stick7p2", ImportStage::Done), "stick7p1"));
+    EXPECT_FALSE(is_to_be_told_unmounted(at("stick7", ImportStage::Copying), "stick7p1"));
+    EXPECT_FALSE(is_to_be_told_unmounted(at("stick7p1", ImportStage::Found), "stick7p1"));
+    EXPECT_FALSE(is_to_be_told_unmounted(at("stick7p1", ImportStage::Failed), "stick7p1"));
+}
+
+TEST(ImportEnd, AReportThatIsOverStandsForAWhile) {
+    using std::chrono::hours;
+    using std::chrono::seconds;
+    const ImportReport other = at("stick7p1", ImportStage::Done);
+    const auto wait = [&](const ImportReport& last, Nanoseconds age) {
+        return wait_before_first_word(last, "stick8p1", age, seconds(10));
+    };
+    EXPECT_EQ(wait(other, seconds(3)), seconds(7));
+    EXPECT_EQ(wait(other, seconds(10)), seconds(0));
+    EXPECT_EQ(wait(other, hours(1000)), seconds(0)) << "the clock was set";
+    EXPECT_EQ(wait(other, -hours(1000)), seconds(10));
+    EXPECT_EQ(wait(at("stick7p1", ImportStage::Failed), seconds(1)), seconds(9));
+    EXPECT_EQ(wait(at("stick7p1", ImportStage::Copying), seconds(1)), seconds(0)) << "it was stopped";
+    EXPECT_EQ(wait(at("stick8p1", ImportStage::Done), seconds(1)), seconds(0));
+    EXPECT_EQ(wait_before_first_word(std::nullopt, "stick8p1", seconds(1), seconds(10)), seconds(0));
+}
+
 } // namespace
 } // namespace frustumscreen

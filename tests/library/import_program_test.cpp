@@ -110,6 +110,39 @@ TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
     EXPECT_EQ(parse_import_report(text("report.json"))->refusal, ImportRefusal::Unreadable);
 }
 
+TEST_F(ImportProgram, TellsOfAKioskThatCannotBegin) {
+    put("kiosk.toml", as_bytes("[exhibit\n"));
+    const std::string words = "frustumscreen-import --from stick --report report.json --id stick8p1 ";
+    EXPECT_EQ(run(words + "--into library --config kiosk.toml"), 1);
+    Result<ImportReport> report = parse_import_report(text("report.json"));
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->stage, ImportStage::Failed);
+    EXPECT_EQ(report->refusal, ImportRefusal::Unwritable);
+    EXPECT_EQ(report->import_id, "stick8p1");
+    EXPECT_NE(report->reason.find("kiosk.toml"), std::string::npos) << report->reason;
+    EXPECT_NE(text("err.txt").find(report->reason), std::string::npos) << text("err.txt");
+    put("file", as_bytes("no folder"));
+    EXPECT_EQ(run(words + "--into file --keys keys"), 1);
+    report = parse_import_report(text("report.json"));
+    EXPECT_EQ(report->refusal, ImportRefusal::Unwritable);
+    EXPECT_NE(report->reason.find("file"), std::string::npos) << report->reason;
+}
+
+TEST_F(ImportProgram, LeavesTheReportOfAStickThatWasReadAfterAll) {
+    put("stick/vase.fspack", museum.pack("vase", 3));
+    ASSERT_EQ(import("--report report.json --id stick8p1"), 0);
+    const std::string read = text("report.json");
+    const std::string words = "frustumscreen-import --unmounted --into library --report report.json --id ";
+    EXPECT_EQ(run(words + "stick8p1"), 0);
+    EXPECT_EQ(run(words + "stick8p2"), 0);
+    EXPECT_EQ(text("report.json"), read);
+    // The clock was set back by an hour: the wait is as long as it is asked for, and no longer.
+    std::filesystem::last_write_time(folder / "report.json",
+                                     std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+    EXPECT_EQ(run(words + "stick9 --report-stands 0.1"), 1);
+    EXPECT_EQ(parse_import_report(text("report.json"))->import_id, "stick9");
+}
+
 TEST_F(ImportProgram, FollowsNoLinkAndWaitsForNoPipe) {
     put("vase.fspack", museum.pack("vase", 3));
     std::filesystem::create_symlink(folder / "vase.fspack", folder / "stick/link.fspack");

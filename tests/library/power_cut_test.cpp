@@ -160,8 +160,14 @@ TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {
                 const ImportReport report = import_quietly(*same_stick, *disk, request);
                 disk->plan = {};
                 if (report.stage == ImportStage::Failed) {
+                    const bool is_new = text_of(*disk) == new_text;
+                    EXPECT_EQ(report.set_number == 3, is_new) << where;
+                    for (const ImportedPack& pack : report.packs) {
+                        EXPECT_EQ(pack.outcome, is_new ? ImportOutcome::Taken : ImportOutcome::Refused)
+                            << where;
+                    }
                     EXPECT_EQ(report.refusal,
-                              error == ENOSPC ? ImportRefusal::NoRoom : ImportRefusal::Unwritable)
+                              error == ENOSPC && !is_new ? ImportRefusal::NoRoom : ImportRefusal::Unwritable)
                         << where << report.reason;
                     EXPECT_TRUE(samples::is_one_line(report.reason)) << report.reason;
                 } else { // what could not be cleared away stays

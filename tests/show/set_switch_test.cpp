@@ -271,6 +271,23 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     EXPECT_EQ(sets->switches(), 0U);
 }
 
+TEST_F(SetSwitching, AStartWithABrokenFirstSetShowsTheSettingsPacksOrWhatIsLeftOfIt) {
+    const InstalledSet broken = put(1, {3, 4});
+    const fs::path own = folder / put(0, {0}).packs[0].file;
+    fs::remove(folder / broken.packs[0].file);
+    install(broken, InstalledSet());
+    settings.exhibit.packs = {own};
+    start();
+    EXPECT_EQ(show->set().number, 0U);
+    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    sets.reset();
+    show.reset();
+    settings.exhibit.packs.clear();
+    start();
+    EXPECT_EQ(show->set().number, 1U);
+    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+}
+
 TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
     const InstalledSet broken = put(2, {3, 4});
     fs::remove(folder / broken.packs[0].file);

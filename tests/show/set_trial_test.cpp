@@ -127,5 +127,14 @@ TEST(SetTrial, AVerdictOnAnotherSetSaysNothing) {
     EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""}));
 }
 
+TEST(SetTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
+    SetTrial trial({set_of(1), InstalledSet()}, std::nullopt);
+    EXPECT_TRUE(trial.on_trial());
+    trial.refuse(1, "a pack cannot be shown");
+    EXPECT_EQ(trial.target(), InstalledSet());
+    trial.refuse(0, "neither can one of the settings'"); // there is nothing else
+    EXPECT_EQ(trial.target(), InstalledSet());
+}
+
 } // namespace
 } // namespace frustumscreen

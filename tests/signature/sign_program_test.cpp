@@ -256,15 +256,24 @@ TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
 
 TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
     make_keys();
-    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("packs = [\"vase.fspack\"]\n")));
+    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("order = [\"vase\"]\n")));
     expect_done(pack("sign exhibit.toml --key house.key --serial 8"));
-    EXPECT_EQ(text_of(folder_ / "exhibit.toml"), "packs = [\"vase.fspack\"]\n");
+    EXPECT_EQ(text_of(folder_ / "exhibit.toml"), "order = [\"vase\"]\n");
     const Outcome verified = run("minisign -V -m exhibit.toml -p house.pub");
     expect_done(verified);
     EXPECT_NE(verified.out.find("serial:8\tfile:exhibit.toml"), std::string::npos) << verified.out;
     expect_done(pack("sign exhibit.toml --key house.key"));
     expect_done(pack("sign exhibit.toml --key house.key --serial 99999999999"));
     expect_failed(pack("sign exhibit.toml --key house.key"), "exhibit.toml: its signature has the serial");
+}
+
+TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
+    make_keys();
+    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("order = [\"vase\"]\nonyl = true\n")));
+    expect_failed(pack("sign exhibit.toml --key house.key"), "exhibit.toml:2: ");
+    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes(std::string(70000, '#'))));
+    expect_failed(pack("sign exhibit.toml --key house.key"), "65536");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "exhibit.toml.minisig"));
 }
 
 } // namespace

@@ -14,12 +14,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace frustumscreen {
@@ -119,27 +121,65 @@ std::uint64_t set_number(const ImportArguments& arguments) {
     return installed_set(arguments.into).map([](const InstalledSet& set) { return set.number; }).value_or(0);
 }
 
+/// None: there is none, or it is no report.
+std::optional<ImportReport> last_report(const ImportArguments& arguments) {
+    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
+    const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes);
+    Result<ImportReport> report =
+        bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
+    return report ? std::optional(*std::move(report)) : std::nullopt;
+}
+
+/// Whoever put the stick before in reads on the table what became of it.
+void wait_for_readers(const ImportArguments& arguments, const std::string& id) {
+    struct stat file {};
+    if (arguments.report_stands_s <= 0 || ::stat(arguments.report.c_str(), &file) != 0) {
+        return;
+    }
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    const Nanoseconds age = std::chrono::seconds(now.tv_sec - file.st_mtim.tv_sec) +
+                            std::chrono::nanoseconds(now.tv_nsec - file.st_mtim.tv_nsec);
+    const auto stands =
+        std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.report_stands_s));
+    std::this_thread::sleep_for(wait_before_first_word(last_report(arguments), id, age, stands));
+}
+
+/// Nothing of the stick was looked at.
+ImportReport tell_failed(const ImportArguments& arguments, const std::string& id, ImportRefusal refusal,
+                         const std::string& reason) {
+    ImportReport report;
+    report.import_id = id;
+    report.stick = printable(arguments.label);
+    report.stage = ImportStage::Failed;
+    report.refusal = refusal;
+    report.reason = reason;
+    report.set_number = set_number(arguments);
+    ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
+    return report;
+}
+
 } // namespace
 
-Result<ImportReport> import_from(const ImportArguments& arguments) {
+ImportReport import_from(const ImportArguments& arguments) {
     ImportRequest request;
     request.import_id = import_id(arguments);
     request.stick = arguments.label;
     request.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-    if (const Result<void> trusted = read_trust(arguments, request); !trusted) {
-        return tl::unexpected<Error>(trusted.error());
-    }
     const Result<std::unique_ptr<WritableTree>> stick = open_tree(arguments.from);
-    if (!stick) {
-        return tl::unexpected<Error>(stick.error());
-    }
-    if (const Result<void> made = make_folder(arguments.into); !made) {
-        return tl::unexpected<Error>(made.error());
-    }
-    const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
+    const Result<FolderLock> lock =
+        make_folder(arguments.into).and_then([&] { return FolderLock::wait_for(arguments.into); });
     const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
-    if (!lock || !library) {
-        return tl::unexpected<Error>(lock ? library.error() : lock.error());
+    const Result<void> trusted = read_trust(arguments, request);
+    wait_for_readers(arguments, request.import_id);
+    if (!stick) {
+        return tell_failed(arguments, request.import_id, ImportRefusal::Unreadable, stick.error().message);
+    }
+    const Result<void> ready = lock.map([](const FolderLock&) {})
+                                   .and_then([&] { return library.map([](const auto&) {}); })
+                                   .and_then([&] { return trusted; });
+    if (!ready) {
+        return tell_failed(arguments, request.import_id, ImportRefusal::Unwritable, ready.error().message);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
     const ImportSurroundings outside{monotonic_now, processor_time, [&](const ImportReport& report) {
@@ -148,29 +188,22 @@ Result<ImportReport> import_from(const ImportArguments& arguments) {
     return import_stick(**stick, **library, request, outside);
 }
 
-Result<ImportReport> tell_unmounted(const ImportArguments& arguments) {
-    ImportReport report;
-    report.import_id = import_id(arguments);
-    report.stick = printable(arguments.label);
-    report.stage = ImportStage::Failed;
-    report.refusal = ImportRefusal::Unreadable;
-    report.reason = "the stick's file system cannot be read; format it as FAT32 or exFAT, and copy the packs "
-                    "onto it again";
-    report.set_number = set_number(arguments);
-    ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
-    return report;
+std::optional<ImportReport> tell_unmounted(const ImportArguments& arguments) {
+    // Where the folder cannot be locked, nothing is imported either.
+    const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
+    const std::string id = import_id(arguments);
+    if (!is_to_be_told_unmounted(last_report(arguments), id)) {
+        return std::nullopt;
+    }
+    wait_for_readers(arguments, id);
+    return tell_failed(arguments, id, ImportRefusal::Unreadable,
+                       "the stick cannot be read or was pulled out; put it in again, and if this is said "
+                       "again, format it as FAT32 or exFAT and copy the packs onto it");
 }
 
 Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
-    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
-    std::optional<ImportReport> last;
-    if (const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes)) {
-        if (Result<ImportReport> report = parse_import_report(as_text(*bytes))) {
-            last = *std::move(report);
-        }
-    }
     const std::optional<ImportReport> word =
-        last_word(last, import_id(arguments), service_result, set_number(arguments));
+        last_word(last_report(arguments), import_id(arguments), service_result, set_number(arguments));
     return word ? write_file(arguments.report, as_bytes(write_import_report(*word))) : Result<void>();
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 namespace frustumscreen {
@@ -26,11 +27,8 @@ std::string line_of(const ImportedPack& pack) {
 }
 
 /// Every pack has a line, refused ones on standard error. The status is about the stick, not about each pack.
-int say(const Result<ImportReport>& report, const ImportArguments& arguments) {
-    if (!report) {
-        return complain(report.error().message);
-    }
-    for (const ImportedPack& pack : report->packs) {
+int say(const ImportReport& report, const ImportArguments& arguments) {
+    for (const ImportedPack& pack : report.packs) {
         if (pack.outcome == ImportOutcome::Refused) {
             fmt::print(stderr, "frustumscreen-import: {}\n", line_of(pack));
         } else if (!arguments.json) {
@@ -38,9 +36,9 @@ int say(const Result<ImportReport>& report, const ImportArguments& arguments) {
         }
     }
     if (arguments.json) {
-        fmt::print("{}", write_import_report(*report));
+        fmt::print("{}", write_import_report(report));
     }
-    return report->stage == ImportStage::Failed ? complain(report->reason) : 0;
+    return report.stage == ImportStage::Failed ? complain(report.reason) : 0;
 }
 
 int list(const ImportArguments& arguments) {
@@ -72,12 +70,14 @@ int run(int argc, char** argv) {
         ->check(CLI::IsMember({"refuse", "allow"}));
     auto* report = app.add_option("--report", arguments.report,
                                   "file that says what happens, renewed while it does (JSON)");
+    app.add_option("--report-stands", arguments.report_stands_s,
+                   "s that another stick's report stands once it is over, before this one's replaces it")
+        ->check(CLI::Range(0.0, 60.0));
     app.add_option("--label", arguments.label, "the stick's name, for the report");
     app.add_flag("--json", arguments.json, "for programs");
     auto* list_flag =
         app.add_flag("--list", to_list, "the set that an exhibit started now would show; takes nothing");
-    app.add_flag("--unmounted", is_unmounted,
-                 "only leaves the report of a stick whose file system cannot be mounted");
+    app.add_flag("--unmounted", is_unmounted, "only leaves the report of a stick that cannot be mounted");
     auto* ended = app.add_flag("--ended", has_ended,
                                "only leaves the last word on an import that was stopped (ExecStopPost=)");
     auto* id = app.add_option("--id", arguments.id, "name of this import; another one for each stick");
@@ -103,8 +103,11 @@ int run(int argc, char** argv) {
         return exit_status("frustumscreen-import", tell_ended(arguments, result != nullptr ? result : ""));
     }
     arguments.allow_unsigned = unsigned_packs == "allow";
-    return to_list ? list(arguments)
-                   : say(is_unmounted ? tell_unmounted(arguments) : import_from(arguments), arguments);
+    if (is_unmounted) {
+        const std::optional<ImportReport> unmounted = tell_unmounted(arguments);
+        return unmounted ? say(*unmounted, arguments) : 0;
+    }
+    return to_list ? list(arguments) : say(import_from(arguments), arguments);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "app/programs/pack/sign_command.h"
 
+#include "app/library/exhibit_file.h"
 #include "app/pack/limits.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
@@ -22,7 +23,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::uintmax_t most_key_bytes = 4096;
-constexpr std::uintmax_t most_set_file_bytes = 1U << 20U;
 
 Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
     const Result<Bytes> bytes = read_file(file, most_key_bytes);
@@ -106,9 +106,12 @@ Result<std::uint64_t> sign_pack(const SignRequest& request, const SecretKey& key
 
 Result<std::uint64_t> sign_set_file(const SignRequest& request, const SecretKey& key,
                                     const std::string& file) {
-    const Result<Bytes> text = read_file(file, most_set_file_bytes);
+    const Result<Bytes> text = read_file(file, most_exhibit_file_bytes);
     if (!text) {
         return tl::unexpected<Error>(text.error());
+    }
+    if (const Result<ExhibitFile> sound = parse_exhibit_file(as_text(*text)); !sound) {
+        return at(file, sound.error());
     }
     const std::string beside = file + ".minisig";
     const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
