@@ -39,7 +39,7 @@ void SetSwitch::take_the_new(Exhibit& exhibit) {
         return;
     }
     leaving_ = std::exchange(coming_, std::move(newer));
-    exhibit.await_set(false);
+    exhibit.await_no_set();
     if (const Result<void> prepared = artifacts_.prepare(*coming_); !prepared) {
         give_up(prepared.error().message, exhibit);
     }
@@ -87,7 +87,7 @@ void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
         return; // it is too late: what it shows is reported then
     }
     coming_->trouble = trouble;
-    exhibit.await_set(false);
+    exhibit.await_no_set();
     if (!leaving_) {
         leaving_ = std::move(coming_);
     }
