@@ -112,7 +112,7 @@ struct Presentation {
     std::optional<PresentedAdvice> advice;    ///< the same in words; an invitation; why nothing is shown
     std::optional<WordIndex> says;            ///< what begins to be spoken at this step
     bool falls_silent = false;                ///< what was spoken of it holds no more
-    std::optional<WordIndex> prepares_word;   ///< what may be spoken next
+    std::optional<WordIndex> prepares_word;   ///< what may be spoken next; none while the set leaves
     std::optional<DescriptionIndex> tells;    ///< whose description is to be heard, from its beginning on
     bool leaves = false;                      ///< what it told before ends at its next pause, else at once
     std::optional<DescriptionIndex> prepares; ///< whose description may be heard next

@@ -79,6 +79,7 @@ std::optional<MonotonicTime> LiveExhibit::alive_until() const {
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     if (set_switch_ && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
+        speaker_.forget();
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
