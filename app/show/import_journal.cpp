@@ -64,7 +64,7 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
     if (noted_ != import) {
         const bool another = !noted_ || noted_->report.import_id != import->report.import_id;
         const bool changed = another || noted_->report.stage != import->report.stage;
-        const bool was_over = another && import->was_there && is_over(import->report);
+        const bool was_over = another && import->is_old && is_over(import->report);
         packs_ = another ? 0 : packs_;
         noted_ = import;
         if (was_over) {
