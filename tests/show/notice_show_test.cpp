@@ -362,5 +362,23 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     EXPECT_EQ(lines[before + 1], "stick: 0.fspack: taken: Title 0");
 }
 
+TEST(ImportJournal, WhatIsOverIsToldToItsEndBeforeTheNextOne) {
+    ImportJournal journal;
+    std::vector<std::string> lines;
+    const auto note = [&](const ImportReport& report) {
+        journal.note(std::make_shared<const SeenImport>(SeenImport{report, false, nullptr, nullptr}),
+                     [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
+    };
+    note(done_with(40));
+    ImportReport second = report_of(ImportStage::Copying, 1);
+    second.import_id = "second";
+    for (int k = 0; k < 5; ++k) {
+        note(second);
+    }
+    ASSERT_EQ(lines.size(), 42U);
+    EXPECT_EQ(lines[40], "stick: 39.fspack: taken: Title 39");
+    EXPECT_EQ(lines[41], "stick: 1000 bytes are copied from 'MUSEUM'");
+}
+
 } // namespace
 } // namespace frustumscreen::synthetic
