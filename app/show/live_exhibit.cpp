@@ -34,6 +34,9 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
     if (status.set) {
         lines.push_back(sentence_of(*status.set));
     }
+    if (status.library_hangs) {
+        lines.emplace_back(library_hangs_sentence);
+    }
     return lines;
 }
 
@@ -70,10 +73,6 @@ LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage,
 
 void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library) {
     set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
-}
-
-std::optional<MonotonicTime> LiveExhibit::alive_until() const {
-    return set_switch_ ? std::optional(set_switch_->alive_until()) : std::nullopt;
 }
 
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
@@ -118,6 +117,7 @@ ShowState LiveExhibit::state() const {
     ShowState state = stage_->state(presentation_);
     state.told = told_by(presentation_);
     state.set = set_switch_ ? set_switch_->status() : nullptr;
+    state.library_hangs = set_switch_ && set_switch_->library_hangs();
     state.import = notice_.import();
     return state;
 }

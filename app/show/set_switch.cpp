@@ -7,6 +7,7 @@ namespace frustumscreen {
 
 bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
     static_cast<void>(library_->news(status_));
+    library_hangs_ = now > library_->alive_until();
     release_the_old();
     if (coming_ && exhibit.set_has_left()) {
         const std::size_t first = goal(state, exhibit).value_or(0);
