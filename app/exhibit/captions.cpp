@@ -239,6 +239,7 @@ void CaptionPlacer::turn_to(int quarter_turns) {
 void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
                            const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m,
                            int quarter_turns) {
+    searched_in_vain_ = false;
     clearance_m_ = place_ && shadow ? clearance(place_->rectangle.corners(), shadow->corners()) : 0.0;
     if (!shadow || size_count_ == 0) {
         return;
@@ -271,6 +272,7 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
     if (place_) {
         clearance_m_ = clearance(place_->rectangle.corners(), shadow->corners());
     } else {
+        searched_in_vain_ = true;
         next_look_ = now + between_searches;
     }
 }

@@ -80,6 +80,8 @@ public:
     void update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
                 const std::optional<TablePolygon>& hidden, const glm::dvec2& prop_m, int quarter_turns = 0);
     [[nodiscard]] CaptionPlace at(MonotonicTime now) const;
+    /// The latest update looked for a place, and there was none.
+    [[nodiscard]] bool searched_in_vain() const { return searched_in_vain_; }
 
 private:
     struct Choice {
@@ -108,7 +110,8 @@ private:
     MonotonicTime appears_;                  ///< when it begins to fade in
     std::optional<MonotonicTime> leaves_;    ///< when it begins to fade out
     std::optional<MonotonicTime> next_look_; ///< a search that found nothing waits until then
-    double clearance_m_ = 0.0;               ///< of the caption from the shadow, at the last update
+    bool searched_in_vain_ = false;
+    double clearance_m_ = 0.0; ///< of the caption from the shadow, at the last update
 };
 
 } // namespace frustumscreen

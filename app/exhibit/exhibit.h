@@ -112,7 +112,7 @@ struct Presentation {
     std::optional<PresentedAdvice> advice;    ///< the same in words; an invitation; why nothing is shown
     std::optional<WordIndex> says;            ///< what begins to be spoken at this step
     bool falls_silent = false;                ///< what was spoken of it holds no more
-    std::optional<WordIndex> prepares_word;   ///< what may be spoken next
+    std::optional<WordIndex> prepares_word;   ///< what may be spoken next; none while the set leaves
     std::optional<DescriptionIndex> tells;    ///< whose description is to be heard, from its beginning on
     bool leaves = false;                      ///< what it told before ends at its next pause, else at once
     std::optional<DescriptionIndex> prepares; ///< whose description may be heard next
@@ -155,9 +155,15 @@ public:
     void hear(bool speaking, const Narration& narration = {});
     /// The label of this hotspot is shown while none is told of; nothing, and an index that there is not: no label.
     void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
-    /// Another set of artifacts can be shown, or none any more. When it suits who is there, all that belongs to this set fades out:
-    /// in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`.
+    /// Another set of artifacts comes, and can be shown now or not. When it suits who is there, all that belongs to this set fades
+    /// out: in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`,
+    /// which begins when the other set is ready for the first time.
     void await_set(bool ready) { set_is_ready_ = ready; }
+    /// It does not come any more.
+    void await_no_set() {
+        set_is_ready_ = false;
+        set_waits_since_.reset();
+    }
     /// All of this set fades out, or is dark.
     [[nodiscard]] bool leaves_set() const { return set_leaves_since_.has_value(); }
     /// All of it is dark, and stays dark.

@@ -70,12 +70,10 @@ bool Exhibit::may_leave_set(MonotonicTime now) const {
 }
 
 void Exhibit::follow_set(MonotonicTime now) {
-    if (!set_is_ready_ && !leaves_set()) {
-        set_waits_since_.reset();
-        return;
+    if (set_is_ready_ && !set_waits_since_) {
+        set_waits_since_ = now; // it is kept while what is chosen in the meantime is loaded of the other set
     }
-    set_waits_since_ = set_waits_since_ ? set_waits_since_ : now;
-    if (!leaves_set() && may_leave_set(now)) {
+    if (set_is_ready_ && !leaves_set() && may_leave_set(now)) {
         set_leaves_since_ = now;
     }
     set_left_ = leaves_set() && now - *set_leaves_since_ >= fade_time;

@@ -250,7 +250,7 @@ void Exhibit::present_words(MonotonicTime now, const Situation& situation, const
         }
     }
     presentation.advice = sentences_.place(now, wanted, surroundings);
-    if (guidance_ != nullptr) {
+    if (guidance_ != nullptr && !leaves_set()) {
         presentation.prepares_word = sentences_.find(words_key(*guidance_), selection_.language());
     }
     speak(now, wanted, presentation);

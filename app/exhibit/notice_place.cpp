@@ -74,7 +74,7 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
     }
     look(now, surroundings);
     const CaptionPlace place = placer_.at(now);
-    if (!(place.rectangle.size_m.x > 0.0)) {
+    if (placer_.searched_in_vain()) { // the next search is another one
         beside_ = beside_ == Beside::All                 ? Beside::AllButEmptyPlaces
                   : beside_ == Beside::AllButEmptyPlaces ? Beside::AllButCaption
                                                          : Beside::All;

@@ -148,7 +148,7 @@ NoticeText stopped_text() {
     return {{"stick.stopped"}, {}, false};
 }
 
-void StickNotice::take(MonotonicTime now, const ImportReport& report, bool was_there) {
+void StickNotice::take(MonotonicTime now, const ImportReport& report, bool is_old) {
     const bool another = import_ == 0 || report.import_id != id_;
     if (!another && report.stage == stage_ && report.done_bytes == done_bytes_) {
         return;
@@ -156,7 +156,7 @@ void StickNotice::take(MonotonicTime now, const ImportReport& report, bool was_t
     if (another) {
         id_ = report.import_id;
         ++import_;
-        hidden_ = was_there && is_over(report.stage);
+        hidden_ = is_old && is_over(report.stage);
         changed_ = now;
         ring_to_ = 0.0;
     } else if (is_over(stage_)) {

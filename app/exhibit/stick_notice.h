@@ -4,7 +4,7 @@
 ///     ImportReport, now, presses -> StickNotice -> which of it is shown, and how full its ring is
 ///
 /// Shown    from the report on until two minutes after it was over, or until a button is pressed then. A report that was over
-///          before the exhibit began is not shown. Another import begins anew.
+///          two minutes before the exhibit began is not shown. Another import begins anew.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` and `press` allocate nothing.
 /// Errors   none.
@@ -61,8 +61,8 @@ public:
     /// A stick with many files is looked through for a minute at most.
     static constexpr Nanoseconds look_patience = std::chrono::seconds(90);
 
-    /// `was_there`: it was there when the exhibit began. The same report again changes nothing.
-    void take(MonotonicTime now, const ImportReport& report, bool was_there);
+    /// `is_old`: it was long there when the exhibit began. The same report again changes nothing.
+    void take(MonotonicTime now, const ImportReport& report, bool is_old);
     /// Nothing: nothing is shown.
     [[nodiscard]] std::optional<ShownNotice> at(MonotonicTime now) const;
     /// Ends what ends at a press. True: it did.

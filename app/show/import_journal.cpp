@@ -61,10 +61,15 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
     if (!import) {
         return;
     }
+    const bool goes_on = noted_ && noted_->report.import_id == import->report.import_id;
+    if (!goes_on && noted_ && is_over(noted_->report) && packs_ < noted_->report.packs.size()) {
+        note_packs(write); // the one before comes to its end first
+        return;
+    }
     if (noted_ != import) {
-        const bool another = !noted_ || noted_->report.import_id != import->report.import_id;
+        const bool another = !goes_on;
         const bool changed = another || noted_->report.stage != import->report.stage;
-        const bool was_over = another && import->was_there && is_over(import->report);
+        const bool was_over = another && import->is_old && is_over(import->report);
         packs_ = another ? 0 : packs_;
         noted_ = import;
         if (was_over) {

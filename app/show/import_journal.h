@@ -19,7 +19,8 @@ public:
     static constexpr std::size_t most_lines = 16;
     using Write = std::function<void(LogPriority priority, const Sentence& line)>;
 
-    /// Call once a second. What was over before the exhibit began is not said again.
+    /// Call once a second. What was over long before the exhibit began is not said again. An import that comes while the one before
+    /// still has lines waits for them.
     void note(const SharedImport& import, const Write& write);
 
 private:

@@ -20,6 +20,12 @@ constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, ma
 constexpr std::size_t lines_of_counts = 3; ///< where all of them may find no room
 constexpr int niceness = 5;                ///< the picture comes first
 
+/// By the wall's clock, as the file's times are.
+Nanoseconds age_of(const struct stat& file) {
+    const auto changed = std::chrono::seconds(file.st_mtim.tv_sec) + Nanoseconds(file.st_mtim.tv_nsec);
+    return std::chrono::system_clock::now().time_since_epoch() - changed;
+}
+
 } // namespace
 
 ImportWatch::ImportWatch(std::filesystem::path file, Draw draw, Answer answer)
@@ -32,7 +38,7 @@ ImportWatch::ImportWatch(std::filesystem::path file, Draw draw, Answer answer)
 const SharedImport& ImportWatch::latest(MonotonicTime now) {
     if (answer_ == Answer::Always && (!looked_ || now - *looked_ >= between_looks)) {
         looked_ = now;
-        look();
+        look(now);
     }
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
         latest_ = found_;
@@ -45,44 +51,53 @@ void ImportWatch::work(const std::stop_token& stop) {
     // On Linux this is about the calling thread alone. Where it is not allowed, it works at the usual priority.
     static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
     while (!stop.stop_requested()) {
-        look();
+        look(monotonic_now());
         std::unique_lock lock(mutex_);
         ends_.wait_for(lock, stop, between_looks, [] { return false; });
     }
 }
 
-void ImportWatch::look() {
-    const bool first = std::exchange(first_, false);
+Result<ImportReport> ImportWatch::read() const {
+    const Result<Bytes> bytes = read_file(file_, most_report_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    Result<ImportReport> report = parse_import_report(as_text(*bytes));
+    return report ? std::move(report) : at(file_.string(), report.error());
+}
+
+/// Another file is read at once; one that could not be read, some seconds later.
+void ImportWatch::look(MonotonicTime now) {
     struct stat file {};
     if (::stat(file_.c_str(), &file) != 0) {
         mark_.reset();
+        first_ = false;
         return;
     }
     const FileMark mark{file.st_dev, file.st_ino, static_cast<std::uint64_t>(file.st_size),
                         std::int64_t{file.st_mtim.tv_sec} * 1'000'000'000 + file.st_mtim.tv_nsec};
-    if (mark_ == mark) {
+    if (mark_ == mark && (!read_again_ || now < *read_again_)) {
         return;
     }
     mark_ = mark;
-    const Result<Bytes> bytes = read_file(file_, most_report_bytes);
-    Result<ImportReport> report =
-        bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
+    Result<ImportReport> report = read();
     if (!report) {
-        const std::string line = fmt::format("{}{}; nothing is told of it on the table",
-                                             bytes ? file_.string() + ": " : "", report.error().message);
+        read_again_ = now + between_tries;
+        const std::string line = report.error().message + "; nothing is told of it on the table";
         if (line != said_) {
             say_line("frustumscreen", line);
             said_ = line;
         }
         return;
     }
+    read_again_.reset();
     auto seen = std::make_shared<SeenImport>();
     seen->notice = drawn(notice_text(*report), notice_text(*report, lines_of_counts));
     seen->stopped = drawn(stopped_text(), stopped_text());
     seen->report = std::move(*report);
     const SharedImport before = found_; // only this thread changes it
-    seen->was_there =
-        first || (before && before->was_there && before->report.import_id == seen->report.import_id);
+    seen->is_old = (std::exchange(first_, false) && age_of(file) >= is_news_for) ||
+                   (before && before->is_old && before->report.import_id == seen->report.import_id);
     const std::scoped_lock lock(mutex_);
     found_ = std::move(seen);
 }

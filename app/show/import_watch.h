@@ -4,7 +4,8 @@
 ///
 /// Threads  one caller, the render thread; one worker of low priority, which alone reads the file and draws. It makes no promise to
 ///          be heard of again: a report that cannot be read is no reason to end the exhibit.
-/// Errors   a file that is not there says nothing. One that is no report is left out, and one line on standard error says why.
+/// Errors   a file that is not there says nothing. One that is no report is left out, and one line on standard error says why;
+///          it is read again some seconds later.
 #pragma once
 
 #include "app/exhibit/notice_place.h"
@@ -26,9 +27,10 @@ namespace frustumscreen {
 
 struct SeenImport {
     ImportReport report;
-    bool was_there = false; ///< when the watch began
-    SharedNotice notice;    ///< none: there are no words to draw it with
-    SharedNotice stopped;   ///< that nothing comes any more
+    bool is_old =
+        false; ///< it was there when the watch began, and nothing had been said of it for `is_news_for`
+    SharedNotice notice;  ///< none: there are no words to draw it with
+    SharedNotice stopped; ///< that nothing comes any more
 };
 using SharedImport = std::shared_ptr<const SeenImport>;
 
@@ -40,6 +42,9 @@ public:
     /// `counts`: as draw_notice. It may return none.
     using Draw = std::function<SharedNotice(const NoticeText& text, const NoticeText& counts)>;
     static constexpr Nanoseconds between_looks = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds between_tries = std::chrono::seconds(5); ///< of what could not be read
+    /// By the wall's clock, which may be wrong: a report from the future is news.
+    static constexpr Nanoseconds is_news_for = std::chrono::minutes(2);
 
     ImportWatch(std::filesystem::path file, Draw draw, Answer answer);
 
@@ -54,7 +59,8 @@ private:
         [[nodiscard]] bool operator==(const FileMark&) const = default;
     };
     void work(const std::stop_token& stop);
-    void look();
+    void look(MonotonicTime now);
+    [[nodiscard]] Result<ImportReport> read() const;
     [[nodiscard]] SharedNotice drawn(const NoticeText& text, const NoticeText& counts);
 
     std::filesystem::path file_;
@@ -62,8 +68,9 @@ private:
     Answer answer_;
     // The worker's own, or the caller's where it answers always.
     std::optional<FileMark> mark_;
-    bool first_ = true;
-    std::string said_; ///< the last line on standard error
+    bool first_ = true;                       ///< nothing was found out yet
+    std::optional<MonotonicTime> read_again_; ///< it could not be read
+    std::string said_;                        ///< the last line on standard error
     std::vector<SharedNotice> drawn_;
 
     std::mutex mutex_; ///< for found_; nothing is read or drawn under it

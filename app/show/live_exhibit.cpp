@@ -34,6 +34,9 @@ std::vector<std::string> lines_of(const RunStatus& status, const std::string& dr
     if (status.set) {
         lines.push_back(sentence_of(*status.set));
     }
+    if (status.library_hangs) {
+        lines.emplace_back(library_hangs_sentence);
+    }
     return lines;
 }
 
@@ -72,13 +75,10 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
     set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
 }
 
-std::optional<MonotonicTime> LiveExhibit::alive_until() const {
-    return set_switch_ ? std::optional(set_switch_->alive_until()) : std::nullopt;
-}
-
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
     if (set_switch_ && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
+        speaker_.forget();
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
@@ -117,6 +117,7 @@ ShowState LiveExhibit::state() const {
     ShowState state = stage_->state(presentation_);
     state.told = told_by(presentation_);
     state.set = set_switch_ ? set_switch_->status() : nullptr;
+    state.library_hangs = set_switch_ && set_switch_->library_hangs();
     state.import = notice_.import();
     return state;
 }

@@ -44,7 +44,6 @@ public:
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
-    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
 
 private:
     /// Those that a notice leaves to the exhibit.

@@ -173,7 +173,7 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
     const SharedImport& latest = watch_->latest(now);
     if (latest != import_) {
         import_ = latest;
-        notice_.take(now, import_->report, import_->was_there);
+        notice_.take(now, import_->report, import_->is_old);
     }
     side_.update(situation.eye_m);
     const std::optional<ShownNotice> shown = notice_.at(now);

@@ -129,7 +129,7 @@ private:
         if (drawn.drawn) {
             watch_.presented(now, display_, coded);
         }
-        watch_.look(now, display_, inputs_, show_.alive_until());
+        watch_.look(now, display_, inputs_);
         const bool changed = drawn.drawn && !drawn.redrawn.empty();
         count(drawn.drawn, changed, now, ms);
         result_.status.prop_known = situation.prop_known;
@@ -226,6 +226,7 @@ private:
         const ShowState state = show_.state();
         status.left_out = state.left_out;
         status.set = state.set;
+        status.library_hangs = state.library_hangs;
         status.state = name_of(state.state);
         status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
         status.loaded = state.loaded;

@@ -81,7 +81,7 @@ nlohmann::ordered_json json_of(const TrackerCounts& counts) {
 /// In the order of Verdict.
 constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
 
-nlohmann::ordered_json json_of(const SharedSetStatus& status) {
+nlohmann::ordered_json json_of(const SharedSetStatus& status, bool library_hangs) {
     if (!status) {
         return nullptr;
     }
@@ -99,7 +99,7 @@ nlohmann::ordered_json json_of(const SharedSetStatus& status) {
               {"on_trial", status->on_trial},
               {"starts", newest.starts},
               {"reason", newest.reason}}},
-            {"trouble", status->trouble}};
+            {"trouble", library_hangs ? std::string(library_hangs_sentence) : status->trouble}};
 }
 
 /// The importer's own report, as its file has it.
@@ -165,7 +165,7 @@ std::string status_json(const RunStatus& status) {
         {"presented", json_of(status.presented)},
         {"shown_code", json_of(status.shown_code)},
         {"left_out", left_out},
-        {"set", json_of(status.set)},
+        {"set", json_of(status.set, status.library_hangs)},
         {"state", status.state},
         {"artifact", status.artifact},
         {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},

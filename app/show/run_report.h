@@ -96,9 +96,10 @@ struct RunStatus {
     PresentedPicture presented;
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     TrackerCounts tracker_counts;
-    PacksLeftOut left_out;  ///< none: there are none
-    SharedSetStatus set;    ///< none: no set is installed, and none is looked for
-    std::string_view state; ///< name_of(State); this and the other texts live as long as the show
+    PacksLeftOut left_out;      ///< none: there are none
+    SharedSetStatus set;        ///< none: no set is installed, and none is looked for
+    bool library_hangs = false; ///< who looks for another set hangs on the disk; what is shown goes on
+    std::string_view state;     ///< name_of(State); this and the other texts live as long as the show
     std::string_view artifact;
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;

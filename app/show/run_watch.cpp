@@ -78,12 +78,11 @@ std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
     return read_probe(display.framebuffer());
 }
 
-void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs,
-                    std::optional<MonotonicTime> show) {
+void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs) {
     if (!watchdog_) {
         return;
     }
-    std::array<MonotonicTime, 5> promises{};
+    std::array<MonotonicTime, 4> promises{};
     std::size_t count = 0;
     const auto add = [&](const auto* device) {
         if (const std::optional<MonotonicTime> until =
@@ -96,9 +95,6 @@ void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inp
     add(inputs.tracker.get());
     add(inputs.panel.get());
     add(inputs.sound.get());
-    if (show) {
-        promises.at(count++) = *show;
-    }
     const Health health = watchdog_->health(now, std::span(promises).first(count));
     note_health(health);
     if (watchdog_->feed(now, health)) {
@@ -133,6 +129,13 @@ void RunWatch::note(const RunStatus& status) {
     if (status.set && status.set != noted_set_) { // the sentence is made only where there is news
         noted_set_ = status.set;
         note_device("set", Sentence(sentence_of(*status.set)), set_);
+    }
+    if (status.library_hangs != library_hung_) {
+        library_hung_ = status.library_hangs;
+        const std::string_view state =
+            status.library_hangs ? library_hangs_sentence : "the library's disk answers again";
+        note_state(status.library_hangs ? LogPriority::Warning : LogPriority::Notice, "set", state,
+                   format_sentence("set: {}", state));
     }
     imports_.note(status.import, [this](LogPriority priority, const Sentence& line) {
         note_state(priority, "stick", line.view(), line);

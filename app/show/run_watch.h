@@ -35,9 +35,8 @@ public:
     /// A picture was presented; `has_code`: a code was written into it. It looks at what the projector shows
     /// if that can be read, else at the display's framebuffer.
     void presented(MonotonicTime now, const Display& display, bool has_code);
-    /// Call in every frame. `show`: Show::alive_until.
-    void look(MonotonicTime now, const Display& display, const Inputs& inputs,
-              std::optional<MonotonicTime> show = std::nullopt);
+    /// Call in every frame.
+    void look(MonotonicTime now, const Display& display, const Inputs& inputs);
     /// The service manager was told that the run is ready; until then every frame is presented.
     [[nodiscard]] bool ready() const { return ready_; }
     [[nodiscard]] Health health() const { return health_; }
@@ -63,6 +62,7 @@ private:
     Health health_ = Health::Well;
     std::optional<std::uint8_t> shown_code_;
     SharedSetStatus noted_set_;
+    bool library_hung_ = false;
     Sentence display_, tracker_, panel_, sound_, recording_, set_, artifact_, language_, level_;
     ImportJournal imports_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above

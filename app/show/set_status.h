@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -21,6 +22,10 @@ struct SetStatus {
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };
 using SharedSetStatus = std::shared_ptr<const SetStatus>;
+
+/// Who writes the status cannot say this of itself.
+inline constexpr std::string_view library_hangs_sentence =
+    "the library's disk does not answer; no other set can come until it does";
 
 /// For the journal and the service manager.
 [[nodiscard]] std::string sentence_of(const SetStatus& status);

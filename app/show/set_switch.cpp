@@ -7,6 +7,7 @@ namespace frustumscreen {
 
 bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
     static_cast<void>(library_->news(status_));
+    library_hangs_ = now > library_->alive_until();
     release_the_old();
     if (coming_ && exhibit.set_has_left()) {
         const std::size_t first = goal(state, exhibit).value_or(0);
@@ -39,7 +40,7 @@ void SetSwitch::take_the_new(Exhibit& exhibit) {
         return;
     }
     leaving_ = std::exchange(coming_, std::move(newer));
-    exhibit.await_set(false);
+    exhibit.await_no_set();
     if (const Result<void> prepared = artifacts_.prepare(*coming_); !prepared) {
         give_up(prepared.error().message, exhibit);
     }
@@ -87,7 +88,7 @@ void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
         return; // it is too late: what it shows is reported then
     }
     coming_->trouble = trouble;
-    exhibit.await_set(false);
+    exhibit.await_no_set();
     if (!leaving_) {
         leaving_ = std::move(coming_);
     }

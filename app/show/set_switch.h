@@ -35,7 +35,8 @@ public:
     void report(MonotonicTime now, State state);
 
     [[nodiscard]] const SharedSetStatus& status() const { return status_; }
-    [[nodiscard]] MonotonicTime alive_until() const { return library_->alive_until(); }
+    /// At the latest step the library's thread was overdue. That is no reason to end a picture that is well.
+    [[nodiscard]] bool library_hangs() const { return library_hangs_; }
     /// How many sets took another one's place.
     [[nodiscard]] std::uint64_t switches() const { return switches_; }
 
@@ -55,6 +56,7 @@ private:
     std::unique_ptr<LibraryWatch> library_;
     std::unique_ptr<ShownSet> coming_, leaving_;
     SharedSetStatus status_;
+    bool library_hangs_ = false;
     std::uint64_t switches_ = 0;
 };
 

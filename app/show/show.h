@@ -29,6 +29,7 @@ struct ShowState {
     std::optional<RigidTransform> stands = {};
     PacksLeftOut left_out = {};
     SharedSetStatus set = {};
+    bool library_hangs = false;     ///< as RunStatus
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
@@ -62,8 +63,6 @@ public:
     /// refresh.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state() const = 0;
-    /// As Heartbeat, of a thread of its own; nothing: it has none that promises.
-    [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return std::nullopt; }
 };
 
 /// Draws what a Presentation says.

@@ -109,6 +109,11 @@ void Speaker::advise(const Presentation& presentation, const Stage& stage) {
     }
 }
 
+void Speaker::forget() {
+    told_.reset();
+    word_.reset();
+}
+
 void Speaker::hear(const SoundReport& report) {
     report_ = report;
 }

@@ -28,6 +28,8 @@ public:
     bool step(const Presentation& presentation, const Stage& stage,
               const SharedRecording& announcement = nullptr);
     void hear(const SoundReport& report);
+    /// Another set is shown: what was decided of the one before names nothing of this one, and what is heard of it ends.
+    void forget();
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
     [[nodiscard]] const SoundWish& wish() const { return wish_; }

@@ -149,6 +149,31 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
     EXPECT_LE(waited, Exhibit::longest_wait + seconds(1));
 }
 
+TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
+    visit();
+    exhibit.hear(true); // and it never ends
+    exhibit.await_set(true);
+    const MonotonicTime from = now;
+    while (!exhibit.leaves_set() && now - from < seconds(60)) {
+        exhibit.await_set((now - from) % seconds(2) >= milliseconds(100));
+        run(milliseconds(20));
+    }
+    EXPECT_GE(now - from, Exhibit::longest_wait);
+    EXPECT_LE(now - from, Exhibit::longest_wait + seconds(1));
+}
+
+TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
+    visit();
+    exhibit.hear(true);
+    exhibit.await_set(true);
+    run(seconds(15));
+    exhibit.await_no_set();
+    run(seconds(15));
+    EXPECT_FALSE(exhibit.leaves_set());
+    exhibit.await_set(true);
+    EXPECT_GE(leaves_within(seconds(60)), Exhibit::longest_wait);
+}
+
 TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {
     visit();
     run(milliseconds(20), {Command::StaffMode});

@@ -146,6 +146,7 @@ struct Table {
     std::optional<TableRectangle> caption;
     NoticePlace place{room};
     MonotonicTime now = start;
+    Nanoseconds frame = milliseconds(20);
 
     [[nodiscard]] NoticeSurroundings surroundings() const {
         return {hidden_by_prop(prop, pose, {0.0, 0.0, 1.5}),
@@ -158,8 +159,8 @@ struct Table {
     }
     std::optional<PresentedNotice> wait(milliseconds time, const SharedNotice& wanted) {
         std::optional<PresentedNotice> shown;
-        for (milliseconds each{0}; each < time; each += milliseconds(20)) {
-            now += milliseconds(20);
+        for (Nanoseconds each{0}; each < time; each += frame) {
+            now += frame;
             shown = place.step(now, wanted, surroundings());
         }
         return shown;
@@ -199,6 +200,24 @@ TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_
         ASSERT_TRUE(later);
         EXPECT_EQ(later->rectangle.centre_m, first.centre_m) << "it stays";
         EXPECT_EQ(later->brightness, 1.0);
+    }
+}
+
+TEST(NoticePlace, it_finds_the_captions_place_at_every_projectors_rate) {
+    for (const int hz : {24, 25, 30, 50, 60, 75, 85, 100, 120, 144}) {
+        Table full;
+        full.frame = Nanoseconds(1'000'000'000 / hz);
+        full.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+        full.kept = {{{0.0, 0.19}, {0.4, 0.1}, 0}};
+        full.obstacles = {{{-0.3, 0.0}, {0.19, 0.49}, 0}, {{0.3, 0.0}, {0.19, 0.49}, 0}};
+        const SharedNotice small = notice_of({{0.2, 0.05}});
+        const auto kept = full.wait(milliseconds(1500), small);
+        ASSERT_TRUE(kept) << hz;
+        EXPECT_TRUE(touch(kept->rectangle, full.kept.front())) << hz;
+        full.obstacles.push_back(full.kept.front());
+        const auto over = full.wait(milliseconds(1500), small);
+        ASSERT_TRUE(over) << hz;
+        EXPECT_TRUE(touch(over->rectangle, *full.caption)) << hz;
     }
 }
 

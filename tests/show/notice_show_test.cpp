@@ -11,11 +11,13 @@
 #include "tests/render/counted_new.h"
 #include "tests/show/shown_packs.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include <array>
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -258,9 +260,10 @@ TEST_F(Notice, BytesThatAreNoReportSayNothing) {
     EXPECT_NE(picture().texels, without.texels);
 }
 
-TEST_F(Notice, WhatWasOverBeforeTheExhibitBeganIsNotShown) {
+TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
     const Image8 without = picture();
     put(report, done_with(3));
+    fs::last_write_time(report, fs::file_time_type::clock::now() - seconds(125));
     start(true);
     EXPECT_EQ(picture().texels, without.texels);
     ASSERT_NE(show->state().import, nullptr) << "the status has it all the same";
@@ -268,6 +271,31 @@ TEST_F(Notice, WhatWasOverBeforeTheExhibitBeganIsNotShown) {
     status.import = show->state().import;
     EXPECT_EQ(nlohmann::json::parse(status_json(status)).at("import").at("packs")[2].at("title"), "Title 2");
     EXPECT_TRUE(nlohmann::json::parse(status_json(RunStatus())).at("import").is_null());
+}
+
+TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
+    const Image8 without = picture();
+    for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall's clock may have been set
+        put(report, done_with(3));
+        fs::last_write_time(report, fs::file_time_type::clock::now() - age);
+        start(true);
+        EXPECT_NE(picture().texels, without.texels) << age.count();
+    }
+}
+
+TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
+    const Image8 without = picture();
+    const std::string json = write_import_report(done_with(1));
+    ASSERT_TRUE(write_file(report, as_bytes(std::string(json.size(), ' '))));
+    struct stat before {};
+    ASSERT_EQ(::stat(report.c_str(), &before), 0);
+    wait(seconds(1));
+    EXPECT_EQ(picture().texels, without.texels);
+    std::ofstream(report, std::ios::in | std::ios::binary) << json; // the same file of the same size
+    const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
+    ASSERT_EQ(::utimensat(AT_FDCWD, report.c_str(), times.data(), 0), 0);
+    wait(seconds(6));
+    EXPECT_NE(picture().texels, without.texels);
 }
 
 TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
@@ -296,7 +324,7 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
         ASSERT_TRUE(wait_for(report_of(ImportStage::Copying, done)));
     }
     EXPECT_EQ(drawn, 2) << "the words of a copy are drawn once, and that it stopped";
-    EXPECT_FALSE(watch.latest({})->was_there);
+    EXPECT_FALSE(watch.latest({})->is_old);
     ASSERT_TRUE(wait_for(done_with(500)));
     EXPECT_EQ(watch.latest({})->notice->text.lines.size(), most_notice_lines);
     fs::remove(file);
@@ -305,9 +333,9 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
 TEST(ImportJournal, EachStageAndEachPackIsALine) {
     ImportJournal journal;
     std::vector<std::string> lines;
-    const auto note = [&](const ImportReport& report, bool was_there = false) {
+    const auto note = [&](const ImportReport& report, bool is_old = false) {
         const std::size_t before = lines.size();
-        journal.note(std::make_shared<const SeenImport>(SeenImport{report, was_there, nullptr, nullptr}),
+        journal.note(std::make_shared<const SeenImport>(SeenImport{report, is_old, nullptr, nullptr}),
                      [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
         return lines.size() - before;
     };
@@ -332,6 +360,24 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());
     EXPECT_EQ(lines[before + 4], "stick: coin.fspack: refused: its hash is another");
     EXPECT_EQ(lines[before + 1], "stick: 0.fspack: taken: Title 0");
+}
+
+TEST(ImportJournal, WhatIsOverIsToldToItsEndBeforeTheNextOne) {
+    ImportJournal journal;
+    std::vector<std::string> lines;
+    const auto note = [&](const ImportReport& report) {
+        journal.note(std::make_shared<const SeenImport>(SeenImport{report, false, nullptr, nullptr}),
+                     [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
+    };
+    note(done_with(40));
+    ImportReport second = report_of(ImportStage::Copying, 1);
+    second.import_id = "second";
+    for (int k = 0; k < 5; ++k) {
+        note(second);
+    }
+    ASSERT_EQ(lines.size(), 42U);
+    EXPECT_EQ(lines[40], "stick: 39.fspack: taken: Title 39");
+    EXPECT_EQ(lines[41], "stick: 1000 bytes are copied from 'MUSEUM'");
 }
 
 } // namespace

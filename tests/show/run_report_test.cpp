@@ -82,6 +82,11 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     EXPECT_EQ(json.at("set").at("packs")[0].at("title"), "A cat");
     EXPECT_EQ(json.at("set").at("newest").at("verdict"), "bad");
     EXPECT_EQ(json.at("set").at("newest").at("reason"), "dog.fspack: it is damaged");
+    EXPECT_EQ(json.at("set").at("trouble"), "");
+    RunStatus hanging;
+    hanging.set = set;
+    hanging.library_hangs = true;
+    EXPECT_EQ(nlohmann::json::parse(status_json(hanging)).at("set").at("trouble"), library_hangs_sentence);
     EXPECT_EQ(json.at("left_out")[0].at("reason"), "there is no such file");
     std::tm utc{};
     const std::string written_at = json.at("written_at");

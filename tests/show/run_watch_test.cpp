@@ -107,6 +107,20 @@ TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
     EXPECT_GE(meals_in(seconds(10), true), 9);
 }
 
+TEST_F(RunWatchTest, NotesADiskThatHangsAndThatItAnswersAgain) {
+    RunStatus status;
+    ::testing::internal::CaptureStderr();
+    watch->note(status);
+    status.library_hangs = true;
+    watch->note(status);
+    watch->note(status);
+    status.library_hangs = false;
+    watch->note(status);
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+              "frustumscreen: set: the library's disk does not answer; no other set can come until it does\n"
+              "frustumscreen: set: the library's disk answers again\n");
+}
+
 TEST_F(RunWatchTest, NotesEachChangeOnce) {
     RunStatus status;
     status.artifact = "Cat";

@@ -32,10 +32,14 @@ public:
     }
     [[nodiscard]] ShowState state(const Presentation&) const override { return {"", "", {}}; }
     [[nodiscard]] bool speaks() const override { return true; }
-    [[nodiscard]] SharedRecording recording(const WordIndex&) const override { return word; }
+    [[nodiscard]] SharedRecording recording(const WordIndex& index) const override {
+        EXPECT_LT(index.text, words);
+        return word;
+    }
     [[nodiscard]] SharedRecording recording(const DescriptionIndex& index) const override {
         return index.artifact == 0 ? description : nullptr;
     }
+    std::size_t words = 2;
     SharedRecording word = recording_of("tone.opus");
     SharedRecording description = recording_of("speech.opus");
 };
@@ -220,6 +224,31 @@ TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_o
     const double of_loud = loudest_of(loud);
     EXPECT_GT(of_loud, 1000.0);
     EXPECT_NEAR(loudest_of(soft), of_loud * std::pow(10.0, -12.0 / 20.0), 0.01 * of_loud);
+}
+
+TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) {
+    Speaker waiting;
+    waiting.begin(PromptReader::Answer::WhenReady);
+    presentation.prepares_word = presentation.says = WordIndex{0, 1};
+    waiting.step(presentation, stage);
+    presentation = {};
+    stage.words = 1;
+    waiting.forget();
+    waiting.step(presentation, stage); // the stage says if it is asked for what it has not
+}
+
+TEST_F(Speaking, a_description_ends_with_its_set) {
+    tell();
+    frames(10);
+    ASSERT_TRUE(sounds());
+    speaker.forget();
+    tell(); // the new set's, of the same index
+    stage.description = recording_of("tone.opus");
+    const Prompt truth = *read_opus(fixture("tone.opus"));
+    frames(20);
+    EXPECT_NE(
+        std::search(heard.begin(), heard.end(), truth.samples.begin() + 1000, truth.samples.begin() + 3000),
+        heard.end());
 }
 
 TEST_F(Speaking, the_staff_are_left_in_peace) {
