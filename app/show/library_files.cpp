@@ -68,9 +68,9 @@ LibraryStart start_library(const std::filesystem::path& library) {
         return start;
     }
     start.trial.emplace(std::move(**choice), read_verdict(library));
-    if (const Result<void> kept = keep_verdict(library, start.trial->verdict()); !kept) {
-        start.trouble = kept.error().message;
-    }
+    const Result<void> kept = keep_verdict(library, start.trial->verdict());
+    start.trial->note_kept(kept.has_value());
+    start.trouble = kept ? "" : kept.error().message;
     return start;
 }
 

@@ -27,6 +27,7 @@ LibraryWatch::LibraryWatch(const Settings& settings, SetUp set_up)
     if (trial_) {
         verdict_trouble_ = set_up_.start.trouble;
         kept_ = trial_->verdict();
+        keep_again_ = monotonic_now() + set_up_.between_tries;
         if (trial_->target().number == offered_) {
             offered_set_ = shown_set_ = trial_->target();
         } else {
@@ -91,15 +92,19 @@ void LibraryWatch::take_what_comes() {
     }
 }
 
+/// Another file is read at once; one that could not be read, some seconds later.
 void LibraryWatch::look() {
     const std::optional<FileStamp> stamp = stamp_of_set(set_up_.library);
-    if (!stamp || stamp == stamp_) {
+    const MonotonicTime now = monotonic_now();
+    if (!stamp || (stamp == stamp_ && (trouble_.empty() || now < read_again_))) {
         return;
     }
     stamp_ = stamp;
+    read_again_ = now + set_up_.between_tries;
     Result<std::optional<SetChoice>> choice = read_choice(set_up_.library);
     trouble_ = choice ? "" : choice.error().message;
     if (!choice || !*choice) {
+        stamp_ = choice ? std::nullopt : stamp_; // it was taken away meanwhile
         return;
     }
     if (trial_) {
@@ -109,13 +114,16 @@ void LibraryWatch::look() {
     }
 }
 
-/// Before anything of the set is shown, and once only where it cannot be written.
+/// Before anything of the set is shown. Another verdict is written at once; one that could not be written, some seconds later.
 void LibraryWatch::keep() {
-    if (!trial_ || kept_ == trial_->verdict()) {
+    const MonotonicTime now = monotonic_now();
+    if (!trial_ || (kept_ == trial_->verdict() && (verdict_trouble_.empty() || now < keep_again_))) {
         return;
     }
     kept_ = trial_->verdict();
+    keep_again_ = now + set_up_.between_tries;
     const Result<void> written = keep_verdict(set_up_.library, *kept_);
+    trial_->note_kept(written.has_value());
     verdict_trouble_ = written ? "" : written.error().message;
 }
 

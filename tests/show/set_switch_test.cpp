@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <fstream>
 #include <thread>
 
 namespace frustumscreen::synthetic {
@@ -88,7 +89,7 @@ protected:
                      std::make_unique<LibraryWatch>(
                          settings, LibraryWatch::SetUp{folder, show->set_options(), show->expected_frames(),
                                                        std::move(installed.start), show->set().number,
-                                                       milliseconds(2)}));
+                                                       milliseconds(2), milliseconds(300)}));
     }
     void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
         now += length;
@@ -278,6 +279,21 @@ TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
     start();
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(verdict().verdict, Verdict::Bad);
+}
+
+TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
+    install(put(2, {3}), put(1, {0}));
+    std::ofstream(folder / "shown") << "a file in the folder's place";
+    start();
+    EXPECT_EQ(show->set().number, 1U) << "its start cannot be counted";
+    visit();
+    ASSERT_TRUE(await([&] { return sets->status() && !sets->status()->trouble.empty(); }));
+    EXPECT_EQ(sets->switches(), 0U);
+    fs::remove(folder / "shown");
+    ASSERT_TRUE(await_switches(1));
+    EXPECT_EQ(show->set().number, 2U);
+    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
 TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
