@@ -296,6 +296,18 @@ TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
     ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
+TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
+    install(put(2, {3}), put(1, {0}));
+    InstalledShow none = show_installed_set(
+        settings, options, [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
+            return fail(ErrorKind::DeviceLost, "the driver has no memory");
+        });
+    EXPECT_FALSE(none.show);
+    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    start();
+    EXPECT_EQ(show->set().number, 2U);
+}
+
 TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
     install(put(1, {0}));
     start();
