@@ -77,7 +77,7 @@ void LibraryWatch::work(const std::stop_token& stop) {
 void LibraryWatch::take_what_comes() {
     if (const std::unique_ptr<ShownSet> gone(gone_.exchange(nullptr));
         gone && trial_ && !gone->trouble.empty()) {
-        trial_->refuse(gone->number, gone->trouble);
+        refuse(*gone);
     }
     ShownReport report;
     if (!shown_.take(report)) {
@@ -89,6 +89,16 @@ void LibraryWatch::take_what_comes() {
     on_show_ = report.number;
     if (trial_) {
         trial_->shown(report.now, report.number, fault_of(report.left_out, report.shows_nothing));
+    }
+}
+
+/// It was offered and never shown: what is on show stays, and is not offered as if it were another.
+void LibraryWatch::refuse(const ShownSet& gone) {
+    trial_->refuse(gone.number, gone.trouble);
+    if (gone.number == offered_) {
+        failed_ = offered_;
+        offered_ = on_show_;
+        offered_set_ = shown_set_;
     }
 }
 

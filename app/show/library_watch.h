@@ -61,6 +61,7 @@ public:
 private:
     void work(const std::stop_token& stop);
     void take_what_comes();
+    void refuse(const ShownSet& gone);
     void look();
     void keep();
     void follow_target(const std::stop_token& stop);

@@ -122,6 +122,17 @@ protected:
         }
         return is_so();
     }
+    /// The same without a step.
+    static bool await_there(const std::function<bool()>& is_so, Nanoseconds longest = seconds(10)) {
+        const MonotonicTime begin = monotonic_now();
+        while (monotonic_now() - begin < longest) {
+            if (is_so()) {
+                return true;
+            }
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return false;
+    }
     bool await_switches(std::uint64_t number) {
         return await([&] { return sets->switches() >= number; });
     }
@@ -306,6 +317,22 @@ TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
     EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
     start();
     EXPECT_EQ(show->set().number, 2U);
+}
+
+TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
+    const InstalledSet one = put(1, {0});
+    install(one);
+    start();
+    sets.reset();
+    LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
+                                    start_library(folder), 1, milliseconds(2)});
+    install(put(2, {3}), one);
+    std::unique_ptr<ShownSet> coming;
+    ASSERT_TRUE(await_there([&] { return (coming = library.take()) != nullptr; }));
+    coming->trouble = "the driver has no memory";
+    ASSERT_TRUE(library.give_back(coming));
+    ASSERT_TRUE(await_there([&] { return verdict().verdict == Verdict::Bad; }));
+    EXPECT_FALSE(await_there([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 
 TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
