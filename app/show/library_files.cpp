@@ -67,6 +67,7 @@ LibraryStart start_library(const std::filesystem::path& library) {
     if (!*choice) {
         return start;
     }
+    clear_partial_files(library / verdict_file_name);
     start.trial.emplace(std::move(**choice), read_verdict(library));
     const Result<void> kept = keep_verdict(library, start.trial->verdict());
     start.trial->note_kept(kept.has_value());

@@ -1,6 +1,7 @@
 #include "app/show/library_watch.h"
 
 #include "firmware_host/base/device_thread.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -160,6 +161,11 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
     }
     const std::string fault =
         opened ? fault_of((*opened)->residents->left_out(), false) : opened.error().message;
+    if (opened) {
+        for (const std::string& note : (*opened)->notes) {
+            say_line(set_up_.options.program, note);
+        }
+    }
     if (!fault.empty()) {
         trial_->refuse(set.number, fault);
     }

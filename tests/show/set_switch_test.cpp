@@ -267,6 +267,9 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
 
 TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     install(put(2, {3}), put(1, {0}));
+    const fs::path left = folder / "shown/verdict.json.part4194305"; // of no process
+    fs::create_directory(left.parent_path());
+    ASSERT_TRUE(write_file(left, {}));
     for (int begun = 1; begun <= most_starts; ++begun) {
         start();
         step();
@@ -278,6 +281,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     start();
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_FALSE(fs::exists(left));
     step();
     rest();
     EXPECT_EQ(sets->switches(), 0U);
@@ -324,11 +328,15 @@ TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
     install(one);
     start();
     sets.reset();
+    settings.exhibit.words = folder / "none.fswords"; // of which a note is made
+    settings.exhibit.guidance = true;
     LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
                                     start_library(folder), 1, milliseconds(2)});
+    ::testing::internal::CaptureStderr();
     install(put(2, {3}), one);
     std::unique_ptr<ShownSet> coming;
     ASSERT_TRUE(await_there([&] { return (coming = library.take()) != nullptr; }));
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find("signs without words"), std::string::npos);
     coming->trouble = "the driver has no memory";
     ASSERT_TRUE(library.give_back(coming));
     ASSERT_TRUE(await_there([&] { return verdict().verdict == Verdict::Bad; }));
