@@ -36,6 +36,7 @@ InstalledShow show_installed_set(
         say_line(options.program, installed.start.trouble);
     }
     std::optional<SetTrial>& trial = installed.start.trial;
+    const std::optional<SetTrial> before = trial;
     for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad one leads to the one before
         const InstalledSet target = trial->target();
         Result<std::unique_ptr<ArtifactShow>> show = create(options_for(target));
@@ -51,10 +52,13 @@ InstalledShow show_installed_set(
             installed.show = std::move(*show);
         }
     }
-    if (trial) {
-        if (const Result<void> kept = keep_verdict(library, trial->verdict()); !kept) {
-            installed.start.trouble = kept.error().message;
-        }
+    if (!installed.show) {
+        trial = before; // not even the one before can be shown: that may be the driver's fault
+    }
+    if (trial && trial->verdict() != before->verdict()) {
+        const Result<void> kept = keep_verdict(library, trial->verdict());
+        trial->note_kept(kept.has_value());
+        installed.start.trouble = kept ? "" : kept.error().message;
     }
     return installed;
 }

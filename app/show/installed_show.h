@@ -1,6 +1,7 @@
 /// The set that the exhibit starts with, where one is installed.
 ///
-/// A set on trial of which a pack cannot be shown makes way for the one before, at once.
+/// A set on trial of which a pack cannot be shown makes way for the one before, at once. Where that cannot be shown either, the
+/// verdict stays as it was.
 ///
 /// Threads  the render thread, before the first frame.
 /// Errors   no installed set can be shown: then there is no show, and the packs of the settings are to be tried.

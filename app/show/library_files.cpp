@@ -67,10 +67,11 @@ LibraryStart start_library(const std::filesystem::path& library) {
     if (!*choice) {
         return start;
     }
+    clear_partial_files(library / verdict_file_name);
     start.trial.emplace(std::move(**choice), read_verdict(library));
-    if (const Result<void> kept = keep_verdict(library, start.trial->verdict()); !kept) {
-        start.trouble = kept.error().message;
-    }
+    const Result<void> kept = keep_verdict(library, start.trial->verdict());
+    start.trial->note_kept(kept.has_value());
+    start.trouble = kept ? "" : kept.error().message;
     return start;
 }
 

@@ -35,7 +35,7 @@ struct LibraryStart {
     std::optional<SetTrial> trial; ///< none: no set is installed
     std::string trouble;           ///< a sentence; empty: all is well
 };
-/// Counts the start.
+/// Counts the start. Where it cannot be counted, a set on trial makes way for the one before.
 [[nodiscard]] LibraryStart start_library(const std::filesystem::path& library);
 
 /// A set without packs shows those of the settings.

@@ -1,6 +1,7 @@
 #include "app/show/library_watch.h"
 
 #include "firmware_host/base/device_thread.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -27,6 +28,7 @@ LibraryWatch::LibraryWatch(const Settings& settings, SetUp set_up)
     if (trial_) {
         verdict_trouble_ = set_up_.start.trouble;
         kept_ = trial_->verdict();
+        keep_again_ = monotonic_now() + set_up_.between_tries;
         if (trial_->target().number == offered_) {
             offered_set_ = shown_set_ = trial_->target();
         } else {
@@ -76,7 +78,7 @@ void LibraryWatch::work(const std::stop_token& stop) {
 void LibraryWatch::take_what_comes() {
     if (const std::unique_ptr<ShownSet> gone(gone_.exchange(nullptr));
         gone && trial_ && !gone->trouble.empty()) {
-        trial_->refuse(gone->number, gone->trouble);
+        refuse(*gone);
     }
     ShownReport report;
     if (!shown_.take(report)) {
@@ -91,15 +93,29 @@ void LibraryWatch::take_what_comes() {
     }
 }
 
+/// It was offered and never shown: what is on show stays, and is not offered as if it were another.
+void LibraryWatch::refuse(const ShownSet& gone) {
+    trial_->refuse(gone.number, gone.trouble);
+    if (gone.number == offered_) {
+        failed_ = offered_;
+        offered_ = on_show_;
+        offered_set_ = shown_set_;
+    }
+}
+
+/// Another file is read at once; one that could not be read, some seconds later.
 void LibraryWatch::look() {
     const std::optional<FileStamp> stamp = stamp_of_set(set_up_.library);
-    if (!stamp || stamp == stamp_) {
+    const MonotonicTime now = monotonic_now();
+    if (!stamp || (stamp == stamp_ && (trouble_.empty() || now < read_again_))) {
         return;
     }
     stamp_ = stamp;
+    read_again_ = now + set_up_.between_tries;
     Result<std::optional<SetChoice>> choice = read_choice(set_up_.library);
     trouble_ = choice ? "" : choice.error().message;
     if (!choice || !*choice) {
+        stamp_ = choice ? std::nullopt : stamp_; // it was taken away meanwhile
         return;
     }
     if (trial_) {
@@ -109,13 +125,16 @@ void LibraryWatch::look() {
     }
 }
 
-/// Before anything of the set is shown, and once only where it cannot be written.
+/// Before anything of the set is shown. Another verdict is written at once; one that could not be written, some seconds later.
 void LibraryWatch::keep() {
-    if (!trial_ || kept_ == trial_->verdict()) {
+    const MonotonicTime now = monotonic_now();
+    if (!trial_ || (kept_ == trial_->verdict() && (verdict_trouble_.empty() || now < keep_again_))) {
         return;
     }
     kept_ = trial_->verdict();
+    keep_again_ = now + set_up_.between_tries;
     const Result<void> written = keep_verdict(set_up_.library, *kept_);
+    trial_->note_kept(written.has_value());
     verdict_trouble_ = written ? "" : written.error().message;
 }
 
@@ -142,6 +161,11 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
     }
     const std::string fault =
         opened ? fault_of((*opened)->residents->left_out(), false) : opened.error().message;
+    if (opened) {
+        for (const std::string& note : (*opened)->notes) {
+            say_line(set_up_.options.program, note);
+        }
+    }
     if (!fault.empty()) {
         trial_->refuse(set.number, fault);
     }

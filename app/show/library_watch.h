@@ -6,7 +6,7 @@
 /// Bad      a set of which a pack cannot be opened is not shown at all where there is another to go back to.
 /// Threads  one of its own, of low priority, which alone reads and writes files. The render thread calls all of the below; none
 ///          waits. Where it is destroyed, it waits for the pack that is being opened.
-/// Errors   none: what goes wrong stands in the status, and what is shown stays.
+/// Errors   none: what goes wrong stands in the status, and what is shown stays. What could not be read or written is tried again.
 #pragma once
 
 #include "app/show/library_files.h"
@@ -40,6 +40,7 @@ public:
         LibraryStart start;
         std::uint64_t shown = 0; ///< number of the set that the exhibit began with
         Nanoseconds between_looks = std::chrono::milliseconds(250);
+        Nanoseconds between_tries = std::chrono::seconds(5); ///< of what could not be read or written
     };
     /// `settings` outlive it.
     LibraryWatch(const Settings& settings, SetUp set_up);
@@ -60,6 +61,7 @@ public:
 private:
     void work(const std::stop_token& stop);
     void take_what_comes();
+    void refuse(const ShownSet& gone);
     void look();
     void keep();
     void follow_target(const std::stop_token& stop);
@@ -68,11 +70,12 @@ private:
 
     const Settings& settings_;
     SetUp set_up_;
-    std::optional<SetTrial> trial_; ///< none: no set was ever installed
-    std::string trouble_;           ///< with set.txt
-    std::string verdict_trouble_;
-    std::optional<FileStamp> stamp_;
-    std::optional<SetVerdict> kept_;      ///< as it was written, or could not be
+    std::optional<SetTrial> trial_;  ///< none: no set was ever installed
+    std::string trouble_;            ///< with set.txt: it is read again
+    std::string verdict_trouble_;    ///< it is written again
+    std::optional<FileStamp> stamp_; ///< of the set.txt that was read, or could not be
+    std::optional<SetVerdict> kept_; ///< as it was written, or could not be
+    MonotonicTime read_again_, keep_again_;
     std::uint64_t offered_ = 0;           ///< number of the latest set that was offered, or the first
     std::optional<std::uint64_t> failed_; ///< the latest that could not be opened
     InstalledSet offered_set_, shown_set_;

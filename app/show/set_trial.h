@@ -29,8 +29,12 @@ public:
 
     /// To show now. This start is counted already, so that `set_to_show` of the verdict is about the next one.
     [[nodiscard]] const InstalledSet& target() const {
-        return verdict_.verdict == Verdict::Bad && choice_.last_good ? *choice_.last_good : choice_.set;
+        const bool other = verdict_.verdict == Verdict::Bad || (on_trial() && !is_kept_);
+        return other && choice_.last_good ? *choice_.last_good : choice_.set;
     }
+    /// Whether the verdict could be written. A set on trial whose starts cannot be counted is not begun with: it might end the
+    /// exhibit again and again.
+    void note_kept(bool is_kept) { is_kept_ = is_kept; }
     /// To keep; written before `target` is shown.
     [[nodiscard]] const SetVerdict& verdict() const { return verdict_; }
     [[nodiscard]] const SetChoice& choice() const { return choice_; }
@@ -49,6 +53,7 @@ private:
 
     SetChoice choice_;
     SetVerdict verdict_;
+    bool is_kept_ = true;
     std::optional<MonotonicTime> since_; ///< it has been on show in one piece
     MonotonicTime latest_;               ///< when that was told
 };

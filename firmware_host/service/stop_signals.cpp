@@ -3,16 +3,19 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <string_view>
 
 namespace frustumscreen {
 
 namespace {
 
+volatile std::sig_atomic_t status_of_end = 0;
+
 extern "C" void end_now(int) {
     constexpr std::string_view line = "frustumscreen: a device did not stop in time; ended without it\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
-    ::_exit(0);
+    ::_exit(status_of_end);
 }
 
 } // namespace
@@ -37,7 +40,8 @@ StopSignals::AtOnce::~AtOnce() {
     ::pthread_sigmask(SIG_BLOCK, &signals_.set_, nullptr);
 }
 
-void end_within(Nanoseconds time) {
+void end_within(Nanoseconds time, int status) {
+    status_of_end = status;
     struct sigaction action {};
     action.sa_handler = end_now;
     ::sigaction(SIGALRM, &action, nullptr);

@@ -36,7 +36,7 @@ private:
     sigset_t set_{};
 };
 
-/// Ends the process after `time` with status 0, even if a thread does not come back from its device.
-void end_within(Nanoseconds time);
+/// Ends the process after `time` with this status, even if a thread does not come back from its device.
+void end_within(Nanoseconds time, int status = 0);
 
 } // namespace frustumscreen

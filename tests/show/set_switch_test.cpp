@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <fstream>
 #include <thread>
 
 namespace frustumscreen::synthetic {
@@ -88,7 +89,7 @@ protected:
                      std::make_unique<LibraryWatch>(
                          settings, LibraryWatch::SetUp{folder, show->set_options(), show->expected_frames(),
                                                        std::move(installed.start), show->set().number,
-                                                       milliseconds(2)}));
+                                                       milliseconds(2), milliseconds(300)}));
     }
     void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
         now += length;
@@ -120,6 +121,17 @@ protected:
             std::this_thread::sleep_for(milliseconds(1));
         }
         return is_so();
+    }
+    /// The same without a step.
+    static bool await_there(const std::function<bool()>& is_so, Nanoseconds longest = seconds(10)) {
+        const MonotonicTime begin = monotonic_now();
+        while (monotonic_now() - begin < longest) {
+            if (is_so()) {
+                return true;
+            }
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return false;
     }
     bool await_switches(std::uint64_t number) {
         return await([&] { return sets->switches() >= number; });
@@ -255,6 +267,9 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
 
 TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     install(put(2, {3}), put(1, {0}));
+    const fs::path left = folder / "shown/verdict.json.part4194305"; // of no process
+    fs::create_directory(left.parent_path());
+    ASSERT_TRUE(write_file(left, {}));
     for (int begun = 1; begun <= most_starts; ++begun) {
         start();
         step();
@@ -266,6 +281,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     start();
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_FALSE(fs::exists(left));
     step();
     rest();
     EXPECT_EQ(sets->switches(), 0U);
@@ -295,6 +311,53 @@ TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
     start();
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(verdict().verdict, Verdict::Bad);
+}
+
+TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
+    install(put(2, {3}), put(1, {0}));
+    std::ofstream(folder / "shown") << "a file in the folder's place";
+    start();
+    EXPECT_EQ(show->set().number, 1U) << "its start cannot be counted";
+    visit();
+    ASSERT_TRUE(await([&] { return sets->status() && !sets->status()->trouble.empty(); }));
+    EXPECT_EQ(sets->switches(), 0U);
+    fs::remove(folder / "shown");
+    ASSERT_TRUE(await_switches(1));
+    EXPECT_EQ(show->set().number, 2U);
+    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
+}
+
+TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
+    install(put(2, {3}), put(1, {0}));
+    InstalledShow none = show_installed_set(
+        settings, options, [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
+            return fail(ErrorKind::DeviceLost, "the driver has no memory");
+        });
+    EXPECT_FALSE(none.show);
+    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    start();
+    EXPECT_EQ(show->set().number, 2U);
+}
+
+TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
+    const InstalledSet one = put(1, {0});
+    install(one);
+    start();
+    sets.reset();
+    settings.exhibit.words = folder / "none.fswords"; // of which a note is made
+    settings.exhibit.guidance = true;
+    LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
+                                    start_library(folder), 1, milliseconds(2)});
+    ::testing::internal::CaptureStderr();
+    install(put(2, {3}), one);
+    std::unique_ptr<ShownSet> coming;
+    ASSERT_TRUE(await_there([&] { return (coming = library.take()) != nullptr; }));
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find("signs without words"), std::string::npos);
+    coming->trouble = "the driver has no memory";
+    ASSERT_TRUE(library.give_back(coming));
+    ASSERT_TRUE(await_there([&] { return verdict().verdict == Verdict::Bad; }));
+    EXPECT_FALSE(await_there([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 
 TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {

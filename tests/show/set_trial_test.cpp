@@ -79,6 +79,20 @@ TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
     EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
 }
 
+TEST(SetTrial, IsNotBegunWithWhereItsStartCannotBeCounted) {
+    SetTrial trial(on_trial(), std::nullopt);
+    trial.note_kept(false);
+    EXPECT_EQ(trial.target().number, 7U);
+    trial.note_kept(true);
+    EXPECT_EQ(trial.target().number, 8U);
+    SetTrial alone({set_of(8), std::nullopt}, std::nullopt);
+    alone.note_kept(false);
+    EXPECT_EQ(alone.target().number, 8U);
+    SetTrial good(on_trial(), SetVerdict{8, Verdict::Good, 1, ""});
+    good.note_kept(false);
+    EXPECT_EQ(good.target().number, 8U);
+}
+
 TEST(SetTrial, WithoutAnotherSetABadOneStays) {
     SetTrial trial({set_of(8), std::nullopt}, std::nullopt);
     EXPECT_FALSE(trial.on_trial());

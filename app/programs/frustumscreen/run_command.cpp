@@ -270,7 +270,15 @@ void report(const Request& request, const LoopResult& result) {
     }
 }
 
-Result<void> run(const Request& request) {
+/// Says the error before anything is closed: a thread that hangs may hold that up until the process ends.
+int end_with(const Error& why) {
+    const int status = exit_status("frustumscreen", tl::unexpected<Error>(why));
+    end_within(longest_stop, status);
+    return status;
+}
+
+/// The exit status, or an error that is still to be said.
+Result<int> run(const Request& request) {
     leave_a_line_at_a_crash();
     const StopSignals stop_signals;
     const Journal journal("frustumscreen");
@@ -339,29 +347,28 @@ Result<void> run(const Request& request) {
     const Result<LoopResult> result =
         run_loop(**settings, **display, *inputs, **show, options, status_file, watch, start);
     manager.stopping();
-    if (!result) {
-        return tl::unexpected<Error>(result.error());
+    const bool excused = excuse && result && result->status.uptime_s >= to_seconds(excuse_length);
+    if (!result || excused) { // not told to stop
+        const Error& why = result ? *excuse : result.error();
+        return request.seconds == 0.0 ? Result<int>(end_with(why)) : tl::unexpected<Error>(why);
     }
     if (request.seconds == 0.0) {
         end_within(longest_stop);
-    }
-    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // not told to stop
-        return tl::unexpected<Error>(*excuse);
     }
     if (!request.out.empty()) {
         std::error_code failed;
         std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call of render
         if (Result<void> written = write_pictures(request.out, *result); !written) {
-            return written;
+            return tl::unexpected<Error>(written.error());
         }
         if (const auto* heard = dynamic_cast<const WavSound*>(inputs->sound.get())) {
             if (Result<void> written = heard->write(request.out / "sound.wav"); !written) {
-                return written;
+                return tl::unexpected<Error>(written.error());
             }
         }
     }
     report(request, *result);
-    return {};
+    return 0;
 }
 
 } // namespace
@@ -372,7 +379,8 @@ int run_command(int argc, char** argv) {
     if (const int status = read_arguments(argc, argv, request, done); done) {
         return status;
     }
-    return exit_status("frustumscreen", run(request));
+    const Result<int> status = run(request);
+    return status ? *status : exit_status("frustumscreen", tl::unexpected<Error>(status.error()));
 }
 
 } // namespace frustumscreen
