@@ -1,5 +1,7 @@
 #include "firmware_host/base/disk_tree.h"
 
+#include "firmware_host/base/descriptor.h"
+
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -18,26 +20,6 @@ namespace {
 
 constexpr mode_t file_mode = 0644; // the exhibit, another user, reads them
 constexpr mode_t folder_mode = 0755;
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~Descriptor() {
-        if (number_ >= 0) {
-            ::close(number_);
-        }
-    }
-    [[nodiscard]] int number() const { return number_; }
-    [[nodiscard]] int release() { return std::exchange(number_, -1); }
-
-private:
-    int number_;
-};
 
 FileResult<void> done(int returned) {
     return returned == 0 ? FileResult<void>() : file_fault(errno);

@@ -1,5 +1,6 @@
 #include "firmware_host/base/run_program.h"
 
+#include "firmware_host/base/descriptor.h"
 #include "firmware_host/base/printable.h"
 
 #include <fcntl.h>
@@ -26,25 +27,6 @@ namespace frustumscreen {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-class Descriptor {
-public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~Descriptor() {
-        if (number_ >= 0) {
-            ::close(number_);
-        }
-    }
-    [[nodiscard]] int number() const { return number_; }
-
-private:
-    int number_;
-};
 
 /// A file in memory, which a program can read however slowly.
 Descriptor memory_file(std::string_view text) {
