@@ -39,6 +39,7 @@ for part; do
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 minisign                          # signatures
                 python3-matplotlib                # the bench's plots
+                python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
                 shellcheck clang-format pyflakes3 # how it is written
             )

@@ -1,42 +1,33 @@
 #include "app/show/live_exhibit.h"
 
+#include "app/status/status_lines.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 namespace frustumscreen {
 
 namespace {
 
+/// What `frustumscreen status` says, and what only the exhibit itself knows.
 std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver, State before) {
-    const auto state = [](std::string_view device, const Sentence& sentence) {
-        return fmt::format("{}: {}", device, sentence.view().empty() ? "nothing to say" : sentence.view());
-    };
-    std::vector<std::string> lines{
-        fmt::format("FrustumScreen {}", FRUSTUMSCREEN_VERSION),
-        fmt::format("OpenGL: {}", driver),
-        state("display", status.display),
-        state("tracker", status.tracker),
-        state("panel", status.panel),
-        state("sound", status.sound),
-        fmt::format("state {}, before it {}; prop {}, head {}", status.state, name_of(before),
-                    status.prop_known ? "known" : "lost", status.head_known ? "known" : "not known"),
-        fmt::format("shows {} ({}), {} of {}, {} samples a pixel, error {:.2f} mm mean, {:.2f} mm at most in "
-                    "95 of 100 places",
-                    status.artifact, status.language, status.level, status.technique, status.samples,
-                    status.estimated_error_mm, status.p95_error_mm),
-        fmt::format("frames {:.1f} ms, 95 of 100 within {:.1f} ms; {} display times missed in {:.0f} s",
-                    status.median_ms, status.p95_ms, status.late, status.uptime_s)};
-    if (status.set) {
-        lines.push_back(sentence_of(*status.set));
+    static const Surroundings nobody_asked;
+    const nlohmann::json fields = nlohmann::json::parse(status_json(status));
+    std::vector<std::string> lines;
+    for (const StatusLine& line :
+         status_lines(fields, 0.0, status.surroundings ? *status.surroundings : nobody_asked,
+                      std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))) {
+        if (line.for_staff) {
+            lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));
+        }
     }
-    if (status.library_hangs) {
-        lines.emplace_back(library_hangs_sentence);
-    }
+    lines.push_back(fmt::format("OpenGL: {}; before this picture: {}", driver, name_of(before)));
     return lines;
 }
 

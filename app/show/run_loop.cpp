@@ -31,6 +31,10 @@ std::optional<Command> command_of(const PanelEvent& event) {
     }
 }
 
+std::string_view shown_artifact(const ShowState& state) {
+    return state.state != State::Fault ? state.artifact : std::string_view{};
+}
+
 double milliseconds_since(MonotonicTime start) {
     return 1e3 * to_seconds(monotonic_now() - start);
 }
@@ -45,7 +49,7 @@ public:
           head_is_followed_(settings.eye.tracked),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
-          presented_(start) {
+          presented_(start), artifact_since_(start) {
         samples_.reserve(1024);
         events_.reserve(64);
         commands_.reserve(64);
@@ -136,6 +140,10 @@ private:
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
         fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
+        if (const Sentence artifact(shown_artifact(state)); artifact != artifact_) {
+            artifact_ = artifact;
+            artifact_since_ = now;
+        }
         if (inputs_.panel) {
             inputs_.panel->light(state.lamps);
         }
@@ -148,6 +156,10 @@ private:
         shown_ = situation;
         shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
         result_.status.presented.settled = state.settled;
+        if (options_.screenshot != nullptr) {
+            watch_.enters("reads its picture back for the staff");
+            options_.screenshot->serve(display_);
+        }
         watch_.enters("rests until the next display time");
         take_still(now, state);
         return {};
@@ -228,7 +240,12 @@ private:
         status.set = state.set;
         status.library_hangs = state.library_hangs;
         status.state = name_of(state.state);
-        status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
+        status.artifact = shown_artifact(state);
+        status.shown_for_s = to_seconds(now - artifact_since_);
+        status.shown_since =
+            std::chrono::system_clock::now() -
+            std::chrono::duration_cast<std::chrono::system_clock::duration>(now - artifact_since_);
+        status.surroundings = status_file_.surroundings();
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
         status.import = state.import;
@@ -290,8 +307,10 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
-    std::vector<Command> commands_;            ///< of this frame
-    MonotonicTime presented_;                  ///< when the picture on show was
+    std::vector<Command> commands_; ///< of this frame
+    MonotonicTime presented_;       ///< when the picture on show was
+    Sentence artifact_;             ///< that is shown
+    MonotonicTime artifact_since_;
     std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;

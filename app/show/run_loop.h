@@ -11,6 +11,7 @@
 #include "app/show/inputs.h"
 #include "app/show/run_report.h"
 #include "app/show/run_watch.h"
+#include "app/show/screenshot.h"
 #include "app/show/show.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/result.h"
@@ -33,6 +34,7 @@ struct LoopOptions {
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
     const StopSignals* stop = nullptr; ///< one of them ends the loop
+    Screenshot* screenshot = nullptr;  ///< of the display's size; whoever asks it for a picture gets one
 };
 
 struct Still {

@@ -1,5 +1,6 @@
 #include "app/show/run_report.h"
 
+#include "app/pack/pack_file.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/quantile.h"
@@ -115,6 +116,10 @@ Sentence boot_id() {
     return Sentence(id);
 }
 
+std::string utc_text(std::chrono::system_clock::time_point time) {
+    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
 } // namespace
 
 PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
@@ -156,11 +161,14 @@ std::string status_json(const RunStatus& status) {
             left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
         }
     }
-    const std::time_t written_at = std::chrono::system_clock::to_time_t(status.written_at);
     const nlohmann::ordered_json json = {
-        {"written_at", fmt::format("{:%FT%TZ}", fmt::gmtime(written_at))},
+        {"written_at", utc_text(status.written_at)},
         {"monotonic_ns", status.written_at_monotonic.time_since_epoch().count()},
         {"boot_id", status.boot_id.view()},
+        {"versions",
+         {{"program", FRUSTUMSCREEN_VERSION},
+          {"pack_format", pack_format_version},
+          {"system", status.surroundings ? status.surroundings->system : std::string()}}},
         {"health", word_of(status.health)},
         {"presented", json_of(status.presented)},
         {"shown_code", json_of(status.shown_code)},
@@ -168,6 +176,8 @@ std::string status_json(const RunStatus& status) {
         {"set", json_of(status.set, status.library_hangs)},
         {"state", status.state},
         {"artifact", status.artifact},
+        {"shown_since", utc_text(status.shown_since)},
+        {"shown_for_s", rounded(status.shown_for_s)},
         {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},
         {"technique", status.technique},
         {"level", status.level},
@@ -258,6 +268,11 @@ void StatusFile::note_hang(bool hangs) {
     changed_.notify_one();
 }
 
+SharedSurroundings StatusFile::surroundings() {
+    const std::lock_guard lock(mutex_);
+    return surroundings_;
+}
+
 void StatusFile::work() {
     begin_device_thread("status");
     bool complained = false;
@@ -272,12 +287,15 @@ void StatusFile::work() {
         pending_ = false;
         lock.unlock();
         stamp(status);
+        status.surroundings = std::make_shared<const Surroundings>(
+            read_surroundings(file_, usual_watchdog_file, status_clock()));
         const Result<void> written = write_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
             complained = true;
         }
         lock.lock();
+        surroundings_ = std::move(status.surroundings);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "app/geometry/transform.h"
 #include "app/show/import_watch.h"
 #include "app/show/set_status.h"
+#include "app/status/known_exhibit.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
@@ -104,7 +105,9 @@ struct RunStatus {
     std::string_view technique; ///< as asked for: "auto" is the governor's choice
     std::string_view level;
     std::string_view language;
-    int samples = 0;                 ///< a pixel
+    std::chrono::system_clock::time_point shown_since; ///< of this artifact, by the wall clock
+    double shown_for_s = 0.0;                          ///< the same by the run's own
+    int samples = 0;                                   ///< a pixel
     double estimated_error_mm = 0.0; ///< mean, as measured by the bake, on the configured prop
     double p95_error_mm = 0.0;
     double median_ms = 0.0; ///< of the frames that were drawn
@@ -131,7 +134,8 @@ struct RunStatus {
     bool head_known = false;
     std::size_t loaded = 0; ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0;
-    SharedImport import; ///< what the importer says; none: nothing
+    SharedImport import;             ///< what the importer says; none: nothing
+    SharedSurroundings surroundings; ///< what others know; none: nobody has asked them yet
 };
 /// docs/status.md has the fields.
 [[nodiscard]] std::string status_json(const RunStatus& status);
@@ -143,7 +147,7 @@ void stamp(RunStatus& status);
 /// Resident memory of this process; 0 if the system does not say.
 [[nodiscard]] double resident_mib();
 
-/// Writes the latest status posted, by rename.
+/// Writes the latest status posted, by rename; and reads, as often, what others know of the exhibit.
 class StatusFile {
 public:
     explicit StatusFile(std::filesystem::path file); ///< an empty path: posts go nowhere
@@ -155,6 +159,8 @@ public:
     /// call.
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !file_.empty(); }
+    /// What was read last; none: nothing yet, or there is no file.
+    [[nodiscard]] SharedSurroundings surroundings();
 
 private:
     void work();
@@ -163,6 +169,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;
+    SharedSurroundings surroundings_;
     bool hangs_ = false;
     bool pending_ = false;
     bool closing_ = false;

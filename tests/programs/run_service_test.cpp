@@ -8,9 +8,11 @@
 #include <sys/ptrace.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <thread>
@@ -222,6 +224,54 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
     ::ptrace(PTRACE_DETACH, process, nullptr, nullptr);
     EXPECT_TRUE(comes("err.txt", "watchdog: the exhibit is heard of again")) << errors();
     EXPECT_TRUE(comes("status.json", "\"health\": \"well\""));
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(ending(), 0);
+}
+
+TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
+    start("", "replay",
+          {"--headless", "--seconds", "12", "--stills", "64", "--out", folder / "out", "--status-file",
+           folder / "status.json", "--staff-socket", folder / "staff.sock"});
+    ASSERT_TRUE(comes("status.json", "\"artifact\": \"Rings\"")) << errors();
+    const auto ask = [this](const std::string& name) {
+        const int status = std::system(
+            fmt::format(
+                "cd '{0}' && '{1}/frustumscreen' status --status-file status.json --watchdog-file none "
+                "--staff-socket staff.sock --screenshot {2}.png >{2}.txt 2>>err.txt",
+                folder.string(), FRUSTUMSCREEN_BIN_DIR, name)
+                .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    std::vector<std::string> shots;
+    for (const char* name :
+         {"first", "second"}) { // a second apart: the picture is at rest for one of them at least
+        ASSERT_EQ(ask(name), 0) << errors();
+        shots.push_back(text_of(fmt::format("{}.png", name).c_str()));
+        EXPECT_TRUE(shots.back().starts_with("\x89PNG\r\n"));
+    }
+    const std::string text = text_of("second.txt");
+    EXPECT_TRUE(text.starts_with("The exhibit runs and is well.\n")) << text;
+    EXPECT_NE(text.find("on the screen  \"Rings\" (en), for "), std::string::npos) << text;
+    EXPECT_NE(text.find("tracker        poses come from a file"), std::string::npos) << text;
+    EXPECT_EQ(ending(), 0) << errors();
+    // The run's own pictures are of the same frames, or of others at rest.
+    std::size_t same = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "out")) {
+        if (entry.path().extension() == ".png") {
+            const std::string still = text_of(("out" / entry.path().filename()).c_str());
+            same += std::count(shots.begin(), shots.end(), still) > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(same, 0U);
+    EXPECT_FALSE(fs::exists(folder / "staff.sock"));
+    EXPECT_EQ(ask("late"), 1);
+}
+
+TEST_F(RunService, AStaffSocketThatCannotBeMadeEndsNothing) {
+    start("", "replay", {"--headless", "--staff-socket", folder / "no-such-folder/staff.sock"});
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    EXPECT_TRUE(comes("err.txt", "the staff's socket cannot be made: No such file or directory")) << errors();
+    EXPECT_TRUE(fed_within(seconds(10)));
     ::kill(process, SIGTERM);
     EXPECT_EQ(ending(), 0);
 }

@@ -81,6 +81,10 @@ if command -v systemd-sysusers >/dev/null && command -v systemd-tmpfiles >/dev/n
         owner /var/lib/frustumscreen/library frustumscreen-import
         owner /var/lib/frustumscreen/library/shown frustumscreen
         owner /run/frustumscreen-import frustumscreen-import
+        owner /run/frustumscreen-staff frustumscreen
+        [[ $(stat -c %a "$root/run/frustumscreen-staff") == 2750 ]] || die "the staff's folder is open to others"
+        staff=$(sed -n 's/^frustumscreen-staff:x:\([0-9]*\):.*/\1/p' "$root/etc/group")
+        [[ $(stat -c %g "$root/run/frustumscreen-staff") == "$staff" ]] || die "the staff's folder is not the staff's"
     fi
 else
     skip "systemd-sysusers or systemd-tmpfiles is not installed"

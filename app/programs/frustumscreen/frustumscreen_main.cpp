@@ -7,6 +7,7 @@
 #include "app/programs/frustumscreen/render_command.h"
 #include "app/programs/frustumscreen/run_command.h"
 #include "app/programs/frustumscreen/states_command.h"
+#include "app/programs/frustumscreen/status_command.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +21,9 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen run|record|render|guide|states|plan|config [--help] ...\n"
+    fmt::print(to, "usage: frustumscreen run|status|record|render|guide|states|plan|config [--help] ...\n"
                    "  run     the exhibit\n"
+                   "  status  how the exhibit on this machine is, and its picture\n"
                    "  record  what the tracker sends, into a file\n"
                    "  render  a pose file into pictures, without devices\n"
                    "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
@@ -35,7 +37,8 @@ struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 7> commands{{{"run", run_command},
+constexpr std::array<Command, 8> commands{{{"run", run_command},
+                                           {"status", status_command},
                                            {"record", record_command},
                                            {"render", render_command},
                                            {"guide", guide_command},

@@ -2,6 +2,7 @@
 
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/staff_service.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
@@ -39,6 +40,7 @@ struct Request {
     std::filesystem::path config;
     std::filesystem::path out;
     std::filesystem::path status_file;
+    std::filesystem::path staff_socket;
     std::filesystem::path record;
     ArtifactShowOptions show;
     double seconds = 0.0; ///< 0 = until told to stop
@@ -65,6 +67,8 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     app.add_option("--status-file", request.status_file, "JSON, renewed every second");
+    app.add_option("--staff-socket", request.staff_socket,
+                   "a local socket on which the staff ask for the picture; see frustumscreen status");
     app.add_option("--record", request.record,
                    "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
@@ -342,6 +346,9 @@ Result<int> run(const Request& request) {
     options.stills = request.out.empty() ? 0 : request.stills;
     options.keep_rows = !request.out.empty();
     options.stop = &stop_signals;
+    Screenshot screenshot((*display)->width(), (*display)->height());
+    options.screenshot = request.staff_socket.empty() ? nullptr : &screenshot;
+    const std::unique_ptr<StaffSocket> staff = open_staff_socket(request.staff_socket, screenshot, journal);
     StatusFile status_file(request.status_file);
     RunWatch watch(manager, journal);
     const Result<LoopResult> result =

@@ -1,0 +1,42 @@
+#include "app/programs/frustumscreen/staff_service.h"
+
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view screenshot_question = "screenshot";
+constexpr std::size_t most_picture_bytes = 64U << 20;
+constexpr Nanoseconds longest_wait = std::chrono::seconds(10);
+
+} // namespace
+
+std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path, Screenshot& screenshot,
+                                               const Journal& journal) {
+    if (path.empty()) {
+        return nullptr;
+    }
+    Result<std::unique_ptr<StaffSocket>> socket = StaffSocket::open(
+        path, [&screenshot](std::string_view question, const std::stop_token& stop) -> Result<Bytes> {
+            if (question != screenshot_question) {
+                return bad_input(fmt::format("'{}' is no question; ask '{}'", printable(question, 64),
+                                             screenshot_question));
+            }
+            const Result<const Image8*> picture = screenshot.take(stop);
+            return picture ? Result<Bytes>(encode_png(**picture)) : tl::unexpected<Error>(picture.error());
+        });
+    if (!socket) {
+        journal.note(LogPriority::Warning, socket.error().message, {{"DEVICE", "staff"}});
+        return nullptr;
+    }
+    return std::move(*socket);
+}
+
+Result<Bytes> ask_for_screenshot(const std::filesystem::path& path) {
+    return ask_staff_socket(path, screenshot_question, most_picture_bytes, longest_wait);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,25 @@
+/// What the exhibit answers the staff over its local socket, and how they ask: docs/status.md.
+///
+/// Threads  the socket's own.
+#pragma once
+
+#include "app/show/screenshot.h"
+#include "firmware_host/service/journal.h"
+#include "firmware_host/service/staff_socket.h"
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace frustumscreen {
+
+inline constexpr std::string_view usual_staff_socket = "/run/frustumscreen-staff/exhibit.sock";
+
+/// `screenshot` outlives it. None: no path, or the socket cannot be made; the journal says why, and the exhibit goes on.
+[[nodiscard]] std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path,
+                                                             Screenshot& screenshot, const Journal& journal);
+
+/// PNG. Errors: as ask_staff_socket.
+[[nodiscard]] Result<Bytes> ask_for_screenshot(const std::filesystem::path& path);
+
+} // namespace frustumscreen

@@ -1,0 +1,64 @@
+#include "app/show/screenshot.h"
+
+#include "app/render/probe.h"
+#include "app/render/read_back.h"
+#include "firmware_host/display/display.h"
+
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_looks = std::chrono::milliseconds(5);
+
+} // namespace
+
+void Screenshot::serve(const Display& display) {
+    Turn asked = Turn::Asked;
+    if (turn_.load(std::memory_order_relaxed) != Turn::Asked ||
+        !turn_.compare_exchange_strong(asked, Turn::Copying)) {
+        return;
+    }
+    read_colour_into(display.framebuffer(), picture_);
+    erase_probe(picture_); // the code is for a watchdog and no part of the picture
+    turn_ = Turn::Done;
+}
+
+Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
+    while (monotonic_now() < earliest_ && !stop.stop_requested()) {
+        std::this_thread::sleep_for(between_looks);
+    }
+    Turn turn = Turn::Nobody;
+    turn_.compare_exchange_strong(turn,
+                                  Turn::Asked); // else a copy hung the last time, and may be done by now
+    if (!comes(monotonic_now() + patience, stop)) {
+        return fail(ErrorKind::Internal, "the exhibit presents no picture; it hangs, or is ending");
+    }
+    earliest_ = monotonic_now() + between_pictures;
+    turn_ = Turn::Nobody;
+    return &picture_;
+}
+
+/// A copy that hung the last time may be done by now, and is old. One that still hangs is waited for.
+void Screenshot::ask() {
+    for (const Turn from : {Turn::Nobody, Turn::Done}) {
+        Turn turn = from;
+        turn_.compare_exchange_strong(turn, Turn::Asked);
+    }
+}
+
+/// False: the question was taken back, but for a copy that has begun.
+bool Screenshot::comes(MonotonicTime until, const std::stop_token& stop) {
+    while (turn_.load() != Turn::Done) {
+        if (stop.stop_requested() || monotonic_now() >= until) {
+            Turn asked = Turn::Asked;
+            turn_.compare_exchange_strong(asked, Turn::Nobody);
+            return false;
+        }
+        std::this_thread::sleep_for(between_looks);
+    }
+    return true;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,85 @@
+#include "app/status/exhibit_verdict.h"
+
+#include "app/exhibit/states.h"
+#include "app/status/json_fields.h"
+#include "firmware_host/base/words_of_time.h"
+#include "firmware_host/service/watchdog_policy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::array healths{Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs,
+                             Health::Hangs};
+
+std::string health_sentence(const std::string& word) {
+    const auto* const known =
+        std::find_if(healths.begin(), healths.end(), [&](Health health) { return word_of(health) == word; });
+    return known != healths.end() ? std::string(sentence_of(*known))
+                                  : fmt::format("its health is '{}'", word);
+}
+
+/// Why nothing is known of now; empty: the status is of now.
+std::string why_not_running(const StatusDocument& status) {
+    if (status.fields.is_null()) {
+        return fmt::format("Nothing is known of the exhibit: {}", status.why);
+    }
+    if (status.other_boot) {
+        return "The exhibit does not run: its status is from before the machine was started";
+    }
+    if (!status.age_s) {
+        return "Nothing is known of the exhibit: its status does not say when it was written";
+    }
+    if (!status.fresh()) {
+        return fmt::format("The exhibit does not run, or cannot say how it is: its status is {} old",
+                           words_of_time(*status.age_s));
+    }
+    return {};
+}
+
+/// What the watchdog complains of; empty: nothing, or nobody knows.
+std::string watchdog_complaint(const StatusDocument& watchdog) {
+    if (!watchdog.fresh()) {
+        return {};
+    }
+    const JsonFields fields(watchdog.fields);
+    if (const JsonFields trouble = fields.at("trouble"); trouble.there()) {
+        return "The exhibit runs, and its watchdog says: " + trouble.text("sentence");
+    }
+    const std::string mode = fields.text("mode");
+    if (!mode.empty() && mode != watchdog_modes[0].word) {
+        return fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(mode));
+    }
+    return {};
+}
+
+} // namespace
+
+std::string_view sentence_of_mode(std::string_view word) {
+    const auto* const known = std::find_if(watchdog_modes.begin(), watchdog_modes.end(),
+                                           [&](const WatchdogMode& mode) { return mode.word == word; });
+    return known != watchdog_modes.end() ? known->sentence : word;
+}
+
+ExhibitVerdict verdict_of(const KnownExhibit& known) {
+    if (std::string why = why_not_running(known.status); !why.empty()) {
+        return {false, false, std::move(why)};
+    }
+    const JsonFields status(known.status.fields);
+    if (const std::string health = status.text("health"); health != word_of(Health::Well)) {
+        return {true, false, "The exhibit runs, and is not well: " + health_sentence(health)};
+    }
+    if (status.text("state") == name_of(State::Fault)) {
+        return {true, false, "The exhibit runs, and has no artifact that it can show"};
+    }
+    if (std::string complaint = watchdog_complaint(known.surroundings.watchdog); !complaint.empty()) {
+        return {true, false, std::move(complaint)};
+    }
+    return {true, true, "The exhibit runs and is well"};
+}
+
+} // namespace frustumscreen

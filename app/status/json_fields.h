@@ -1,0 +1,35 @@
+/// Looks into a JSON document that another program wrote: what is missing or of another type is nothing.
+///
+/// Threads  pure; any. The document outlives its fields.
+/// Errors   none. Texts come as one printable line.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+class JsonFields {
+public:
+    explicit JsonFields(const nlohmann::json& value) : value_(&value) {}
+
+    /// It is an object, perhaps an empty one.
+    [[nodiscard]] bool there() const { return value_ != nullptr && value_->is_object(); }
+    [[nodiscard]] JsonFields at(const char* key) const { return JsonFields(find(key)); }
+    /// Empty where it is no text.
+    [[nodiscard]] std::string text(const char* key) const;
+    [[nodiscard]] std::optional<double> number(const char* key) const;
+    [[nodiscard]] std::optional<bool> flag(const char* key) const;
+    [[nodiscard]] std::vector<JsonFields> list(const char* key) const;
+
+private:
+    explicit JsonFields(const nlohmann::json* value) : value_(value) {}
+    [[nodiscard]] const nlohmann::json* find(const char* key) const;
+
+    const nlohmann::json* value_; ///< null: nothing
+};
+
+} // namespace frustumscreen

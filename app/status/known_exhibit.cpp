@@ -1,0 +1,104 @@
+#include "app/status/known_exhibit.h"
+
+#include "app/pack/json_reader.h"
+#include "app/status/json_fields.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <fstream>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t most_status_bytes = 1U << 20;
+constexpr std::uintmax_t most_ends_bytes = 16U << 20;
+constexpr std::size_t most_depth = 16;
+
+std::string system_name() {
+    std::string name;
+    std::ifstream release("/etc/os-release");
+    for (std::string line; std::getline(release, line);) {
+        constexpr std::string_view key = "PRETTY_NAME=\"";
+        if (line.starts_with(key) && line.ends_with('"')) {
+            name = printable(std::string_view(line).substr(key.size(), line.size() - key.size() - 1));
+        }
+    }
+    utsname kernel{};
+    if (::uname(&kernel) == 0) {
+        name += fmt::format("{}{} {}", name.empty() ? "" : ", ", kernel.sysname, kernel.release);
+    }
+    return name;
+}
+
+} // namespace
+
+StatusClock status_clock() {
+    StatusClock clock{monotonic_now(), {}};
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), clock.boot_id);
+    return clock;
+}
+
+StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
+    StatusDocument document;
+    pack_format::Refusal refusal{{}, "the file"};
+    nlohmann::json fields = pack_format::parse_json(refusal, json, most_depth);
+    if (refusal.message || !fields.is_object()) {
+        document.why = "this is no status: " + printable(refusal.message.value_or("no object { ... }"), 200);
+        return document;
+    }
+    document.fields = std::move(fields);
+    const JsonFields status(document.fields);
+    const std::string boot = status.text("boot_id");
+    document.other_boot = !boot.empty() && !clock.boot_id.empty() && boot != clock.boot_id;
+    if (const std::optional<double> written_ns = status.number("monotonic_ns");
+        written_ns && !document.other_boot) {
+        const double age_s = 1e-9 * (static_cast<double>(clock.now.time_since_epoch().count()) - *written_ns);
+        if (age_s >= -0.1) { // it may have been written since the clock was read
+            document.age_s = std::max(age_s, 0.0);
+        }
+    }
+    return document;
+}
+
+StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock) {
+    const Result<Bytes> bytes = read_file(file, most_status_bytes);
+    if (!bytes) {
+        StatusDocument document;
+        document.why = printable(bytes.error().message, 300);
+        return document;
+    }
+    StatusDocument document = parse_status(as_text(*bytes), clock);
+    if (!document.why.empty()) {
+        document.why = printable(file.string(), 200) + ": " + document.why;
+    }
+    return document;
+}
+
+Surroundings read_surroundings(const std::filesystem::path& status_file,
+                               const std::filesystem::path& watchdog_file, const StatusClock& clock) {
+    Surroundings surroundings{read_status(watchdog_file, clock), {}, {}, {}, system_name()};
+    surroundings.monotonic_s = to_seconds(clock.now.time_since_epoch());
+    const std::filesystem::path ends = status_file.parent_path() / "ends";
+    std::error_code unknown;
+    if (!std::filesystem::exists(ends, unknown)) {
+        return surroundings;
+    }
+    const Result<Bytes> bytes = read_file(ends, most_ends_bytes);
+    if (bytes) {
+        surroundings.ends = parse_service_ends(as_text(*bytes));
+    } else {
+        surroundings.ends_trouble = printable(bytes.error().message, 300);
+    }
+    return surroundings;
+}
+
+KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
+                                const std::filesystem::path& watchdog_file, const StatusClock& clock) {
+    return {read_status(status_file, clock), read_surroundings(status_file, watchdog_file, clock)};
+}
+
+} // namespace frustumscreen

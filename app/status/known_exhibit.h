@@ -1,0 +1,68 @@
+/// What can be known of the exhibit from outside, with or without it: its status, its watchdog's, how its process ended.
+///
+/// Time     ages are by the monotonic clock and the kernel's name of this boot. The wall clock may be wrong.
+/// Threads  any; reads small files.
+/// Source   os-release(5), uname(2) for the system's name.
+/// Errors   none: `why` says what could not be read. A file of another program may hold anything.
+#pragma once
+
+#include "app/status/service_ends.h"
+#include "firmware_host/base/time.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+inline constexpr std::string_view usual_status_file = "/run/frustumscreen/status.json";
+inline constexpr std::string_view usual_watchdog_file = "/run/frustumscreen-watchdog/status.json";
+
+/// A status that is older is not of a program that runs: each is written once a second.
+inline constexpr double fresh_for_s = 5.0;
+
+/// A moment, by this machine's clocks.
+struct StatusClock {
+    MonotonicTime now;
+    std::string boot_id; ///< random(4); empty where the kernel does not say
+};
+[[nodiscard]] StatusClock status_clock();
+
+struct StatusDocument {
+    nlohmann::json fields;       ///< an object; null: nothing is known
+    std::string why;             ///< then one sentence
+    std::optional<double> age_s; ///< none: it does not say when it was written, or says what cannot be
+    bool other_boot = false;     ///< it was written before the machine was started
+    [[nodiscard]] bool fresh() const { return age_s && *age_s <= fresh_for_s; }
+};
+[[nodiscard]] StatusDocument parse_status(std::string_view json, const StatusClock& clock);
+[[nodiscard]] StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock);
+
+/// What others know of the exhibit's run; it never changes.
+struct Surroundings {
+    StatusDocument watchdog;
+    ServiceEnds ends;
+    std::string ends_trouble; ///< why their file could not be read; one that is not there has no ends
+    double monotonic_s = 0.0; ///< when it was read
+    std::string system;       ///< name and version of the operating system and of the kernel
+};
+using SharedSurroundings = std::shared_ptr<const Surroundings>;
+/// The ends' file lies beside the status file.
+[[nodiscard]] Surroundings read_surroundings(const std::filesystem::path& status_file,
+                                             const std::filesystem::path& watchdog_file,
+                                             const StatusClock& clock);
+
+struct KnownExhibit {
+    StatusDocument status;
+    Surroundings surroundings;
+};
+[[nodiscard]] KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
+                                              const std::filesystem::path& watchdog_file,
+                                              const StatusClock& clock);
+
+} // namespace frustumscreen

@@ -1,0 +1,52 @@
+/// How often and why the exhibit's process has ended since the machine was started.
+///
+/// File     a line for each end, appended by the service manager: the monotonic clock in seconds, and SERVICE_RESULT, EXIT_CODE
+///          and EXIT_STATUS of systemd.exec(5): `1234.56 watchdog killed KILL`.
+/// Threads  values; any.
+/// Errors   lines that are none of these are not counted.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// The words of SERVICE_RESULT, and what they say to a person; the last one stands for all others.
+struct ServiceResult {
+    std::string_view word;
+    std::string_view sentence;
+};
+inline constexpr std::array<ServiceResult, 11> service_results{{
+    {"success", "it was told to stop"},
+    {"exit-code", "it ended with an error"},
+    {"signal", "a signal killed it"},
+    {"core-dump", "it crashed"},
+    {"watchdog", "it no longer fed systemd's watchdog"},
+    {"timeout", "it took too long to start or to stop"},
+    {"oom-kill", "it took too much memory"},
+    {"protocol", "it ended before it was ready"},
+    {"resources", "the machine could not start it"},
+    {"start-limit-hit", "it ended too often"},
+    {"other", "for a reason of systemd's own"},
+}};
+
+struct ServiceEnd {
+    double monotonic_s = 0.0;
+    std::size_t result = 0;  ///< of service_results
+    std::string code;        ///< exited, killed, dumped; printable
+    std::string exit_status; ///< a number, or a signal's name; printable
+};
+
+struct ServiceEnds {
+    std::array<std::uint64_t, service_results.size()> counts{}; ///< for each of service_results
+    std::optional<ServiceEnd> last;
+    [[nodiscard]] std::uint64_t count() const;
+};
+
+[[nodiscard]] ServiceEnds parse_service_ends(std::string_view text);
+
+} // namespace frustumscreen

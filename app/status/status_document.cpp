@@ -1,0 +1,47 @@
+#include "app/status/status_document.h"
+
+#include "app/status/exhibit_verdict.h"
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rounded_or_null(const std::optional<double>& seconds) {
+    return seconds ? Json(std::round(*seconds * 1000.0) / 1000.0) : Json(nullptr);
+}
+
+Json json_of(const StatusDocument& document) {
+    return {{"age_s", rounded_or_null(document.age_s)},
+            {"why_unknown", document.why},
+            {"status", Json(document.fields)}};
+}
+
+Json json_of(const Surroundings& surroundings) {
+    const ServiceEnds& ends = surroundings.ends;
+    Json last = nullptr;
+    if (ends.last) {
+        last = {{"ago_s", rounded_or_null(surroundings.monotonic_s - ends.last->monotonic_s)},
+                {"result", service_results.at(ends.last->result).word},
+                {"code", ends.last->code},
+                {"exit_status", ends.last->exit_status}};
+    }
+    return {{"count", ends.count()}, {"last", last}, {"why_unknown", surroundings.ends_trouble}};
+}
+
+} // namespace
+
+std::string status_document(const KnownExhibit& known) {
+    const ExhibitVerdict verdict = verdict_of(known);
+    const Json document = {{"well", verdict.well},
+                           {"runs", verdict.runs},
+                           {"sentence", verdict.sentence},
+                           {"age_s", rounded_or_null(known.status.age_s)},
+                           {"exhibit", json_of(known.status)},
+                           {"watchdog", json_of(known.surroundings.watchdog)},
+                           {"ends", json_of(known.surroundings)}};
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,14 @@
+/// What is known of the exhibit as one JSON document under fixed keys: docs/status.md.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/status/known_exhibit.h"
+
+#include <string>
+
+namespace frustumscreen {
+
+[[nodiscard]] std::string status_document(const KnownExhibit& known);
+
+} // namespace frustumscreen

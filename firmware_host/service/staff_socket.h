@@ -1,0 +1,76 @@
+/// A local stream socket on which the staff ask the exhibit, one question for each connection.
+///
+/// Question `screenshot` and a line feed, 64 bytes at most, within a second.
+/// Answer   `ok N`, a line feed and N bytes; or `no SENTENCE` and a line feed. Then the connection is closed.
+/// Access   the file's mode is 0660 and its group its folder's, where the folder hands that on (setgid). Who connects must also be
+///          root, the exhibit's own user, or in the file's group, by what the kernel says of the process.
+/// Limits   one connection at a time, at most twenty a second, each at most some seconds long: a client that stalls, floods or
+///          sends what is no question holds up nobody but the next one.
+/// Threads  its own, of low priority, also for `answer`. It makes no promise to be heard of again.
+/// Errors   the socket cannot be made. What goes wrong with a client ends its connection and is said nowhere else.
+/// Source   unix(7): SO_PEERCRED; SO_PEERGROUPS of Linux 4.13.
+#pragma once
+
+#include "firmware_host/base/descriptor.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/base/time.h"
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <thread>
+
+namespace frustumscreen {
+
+class StaffSocket {
+public:
+    static constexpr std::size_t most_question_bytes = 64;
+    static constexpr Nanoseconds question_within = std::chrono::seconds(1);
+    static constexpr Nanoseconds answer_taken_within = std::chrono::seconds(5);
+    static constexpr Nanoseconds between_clients = std::chrono::milliseconds(50);
+
+    /// An error's message is the sentence. It returns soon after a stop is requested.
+    using Answer = std::function<Result<Bytes>(std::string_view question, const std::stop_token& stop)>;
+
+    [[nodiscard]] static Result<std::unique_ptr<StaffSocket>> open(const std::filesystem::path& path,
+                                                                   Answer answer);
+    ~StaffSocket();
+    StaffSocket(const StaffSocket&) = delete;
+    StaffSocket& operator=(const StaffSocket&) = delete;
+
+private:
+    StaffSocket(std::filesystem::path path, Descriptor listening, Descriptor stopped, gid_t group,
+                Answer answer);
+    void work(const std::stop_token& stop);
+    void serve(int client, const std::stop_token& stop) const;
+    [[nodiscard]] bool wait_for(int descriptor, short events, MonotonicTime until) const;
+    [[nodiscard]] Result<std::string> question_of(int client) const;
+    void send(int client, std::span<const std::byte> bytes, MonotonicTime until) const;
+
+    std::filesystem::path path_;
+    Descriptor listening_;
+    Descriptor stopped_; ///< an eventfd, readable once the thread is to stop
+    gid_t group_;        ///< of the socket's file
+    Answer answer_;
+    std::jthread thread_; ///< last: it uses all of the above
+};
+
+/// Asks and waits. Errors: nobody listens, no permission, the exhibit's own sentence, no answer in time, more than `most_bytes`.
+[[nodiscard]] Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
+                                             std::size_t most_bytes, Nanoseconds patience);
+
+/// A process at the other end, as the kernel names it.
+struct SocketPeer {
+    uid_t user = 0;
+    gid_t group = 0;
+    std::span<const gid_t> more_groups;
+};
+[[nodiscard]] bool is_staff(const SocketPeer& peer, uid_t own_user, gid_t staff_group);
+
+} // namespace frustumscreen

@@ -1,0 +1,212 @@
+// The staff's socket: what it answers, to whom, and clients that stall, flood, hang up or ask what is no question.
+#include "firmware_host/service/staff_socket.h"
+#include "firmware_host/service/unix_address.h"
+
+#include <grp.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+
+class StaffSocketTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = fs::temp_directory_path() / "staff_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+        path = folder / "s";
+    }
+    void TearDown() override {
+        server.reset();
+        fs::remove_all(folder);
+    }
+    void open() {
+        Result<std::unique_ptr<StaffSocket>> opened = StaffSocket::open(
+            path, [this](std::string_view question, const std::stop_token&) -> Result<Bytes> {
+                ++questions;
+                if (question == "big") {
+                    return Bytes(std::size_t{8} << 20, std::byte{7});
+                }
+                return question == "hello" ? Result<Bytes>(Bytes{std::byte{42}})
+                                           : bad_input("no\nsuch question");
+            });
+        ASSERT_TRUE(opened) << opened.error().message;
+        server = std::move(*opened);
+    }
+    [[nodiscard]] Descriptor connected() const {
+        Descriptor client(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        const UnixAddress address = *UnixAddress::of(path);
+        EXPECT_EQ(::connect(client.number(), address.get(), address.size()), 0);
+        return client;
+    }
+    /// All that comes until it is closed.
+    [[nodiscard]] static std::string rest(const Descriptor& client) {
+        std::string text;
+        char part[4096];
+        for (ssize_t got = 0; (got = ::recv(client.number(), part, sizeof part, 0)) > 0;) {
+            text.append(part, static_cast<std::size_t>(got));
+        }
+        return text;
+    }
+    [[nodiscard]] std::string answer_to(std::string_view sent) const {
+        const Descriptor client = connected();
+        static_cast<void>(::send(client.number(), sent.data(), sent.size(), MSG_NOSIGNAL));
+        return rest(client);
+    }
+    [[nodiscard]] bool still_answers() const { return answer_to("hello\n") == "ok 1\n*"; }
+
+    fs::path folder;
+    fs::path path;
+    std::unique_ptr<StaffSocket> server;
+    std::atomic<int> questions{0};
+};
+
+TEST_F(StaffSocketTest, AnswersEachQuestionInItsFrame) {
+    open();
+    EXPECT_EQ(answer_to("hello\n"), "ok 1\n*");
+    EXPECT_EQ(answer_to("what\n"), "no no?such question\n");
+    EXPECT_EQ(answer_to("hello\nhello\n"), "ok 1\n*");
+    const Result<Bytes> asked = ask_staff_socket(path, "big", std::size_t{9} << 20, seconds(60));
+    ASSERT_TRUE(asked) << asked.error().message;
+    EXPECT_EQ(*asked, Bytes(std::size_t{8} << 20, std::byte{7}));
+    EXPECT_FALSE(ask_staff_socket(path, "big", std::size_t{7} << 20, seconds(60)));
+}
+
+TEST_F(StaffSocketTest, ItsFileIsForItsOwnerAndItsFoldersGroup) {
+    constexpr gid_t other_group = 54321;
+    const bool may_give = ::chown(folder.c_str(), static_cast<uid_t>(-1), other_group) == 0;
+    ASSERT_EQ(::chmod(folder.c_str(), may_give ? 02750 : 0750), 0);
+    open();
+    struct stat file {};
+    ASSERT_EQ(::stat(path.c_str(), &file), 0);
+    EXPECT_TRUE(S_ISSOCK(file.st_mode));
+    EXPECT_EQ(file.st_mode & 07777U, 0660U);
+    if (may_give) {
+        EXPECT_EQ(file.st_gid, other_group);
+    }
+    server.reset();
+    EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(StaffSocketTest, SomebodyElseIsRefusedWhateverTheFilesModeIs) {
+    if (::geteuid() != 0) {
+        GTEST_SKIP() << "only root can be somebody else";
+    }
+    open();
+    fs::permissions(folder, fs::perms::all);
+    fs::permissions(path, fs::perms::all);
+    const auto asked_by = [this](uid_t user, gid_t group) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            if (::setgroups(0, nullptr) + ::setgid(group) + ::setuid(user) != 0) {
+                ::_exit(3);
+            }
+            const std::string answer = answer_to("hello\n");
+            ::_exit(answer == "ok 1\n*" ? 0 : answer.starts_with("no this is for the staff") ? 1 : 2);
+        }
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    EXPECT_EQ(asked_by(65534, 65534), 1);
+    EXPECT_EQ(asked_by(65534, ::getegid()), 0); // the file's group
+    EXPECT_EQ(questions, 1);
+}
+
+TEST(StaffSocket, WhoIsStaff) {
+    const gid_t groups[] = {7, 8, 900};
+    EXPECT_TRUE(is_staff({0, 5, {}}, 100, 900));
+    EXPECT_TRUE(is_staff({100, 5, {}}, 100, 900));
+    EXPECT_TRUE(is_staff({101, 900, {}}, 100, 900));
+    EXPECT_TRUE(is_staff({101, 5, groups}, 100, 900));
+    EXPECT_FALSE(is_staff({101, 100, groups}, 100, 901));
+}
+
+TEST_F(StaffSocketTest, WhatIsNoQuestionIsRefusedAndAskedOfNobody) {
+    open();
+    EXPECT_EQ(answer_to(std::string(64, 'x')), "no a question has at most 64 bytes\n");
+    for (const std::string& sent :
+         {std::string(1 << 20, 'x'), std::string(100, '\0'), std::string("\xff\xfe")}) {
+        const Descriptor client = connected();
+        // The rest of a flood is not taken: the connection is closed under it.
+        static_cast<void>(::send(client.number(), sent.data(), sent.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+        ::shutdown(client.number(), SHUT_WR);
+        EXPECT_FALSE(rest(client).starts_with("ok"));
+    }
+    EXPECT_EQ(questions, 0);
+    EXPECT_TRUE(still_answers());
+}
+
+TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
+    open();
+    const Descriptor silent = connected();
+    const Descriptor half = connected();
+    static_cast<void>(::send(half.number(), "hel", 3, MSG_NOSIGNAL));
+    EXPECT_TRUE(still_answers()); // after both
+    EXPECT_EQ(rest(silent), "no no question came within a second\n");
+    EXPECT_EQ(rest(half), "no no question came within a second\n");
+    const Descriptor deaf = connected(); // it asks for more than its socket holds, and takes nothing
+    static_cast<void>(::send(deaf.number(), "big\n", 4, MSG_NOSIGNAL));
+    EXPECT_TRUE(still_answers());
+    EXPECT_LT(rest(deaf).size(), std::size_t{8} << 20);
+}
+
+TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {
+    open();
+    const MonotonicTime end = monotonic_now() + seconds(1);
+    const UnixAddress address = *UnixAddress::of(path);
+    int taken = 0;
+    while (monotonic_now() < end) {
+        const Descriptor client(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+        taken += ::connect(client.number(), address.get(), address.size()) == 0 ? 1 : 0;
+        ::poll(nullptr, 0, 1);
+    }
+    EXPECT_GT(taken, 0);
+    EXPECT_LT(taken, 20 + 10); // twenty a second, and those that wait in the queue
+    EXPECT_EQ(questions, 0);
+    EXPECT_TRUE(still_answers());
+}
+
+TEST_F(StaffSocketTest, ASocketThatAKilledExhibitLeftIsTakenOverAndNothingElseIs) {
+    {
+        const Descriptor left(::socket(AF_UNIX, SOCK_STREAM, 0));
+        const UnixAddress address = *UnixAddress::of(path);
+        ASSERT_EQ(::bind(left.number(), address.get(), address.size()), 0);
+    }
+    ASSERT_TRUE(fs::exists(path));
+    open();
+    EXPECT_TRUE(still_answers());
+    const auto nobody = [](std::string_view, const std::stop_token&) -> Result<Bytes> { return Bytes(); };
+    EXPECT_FALSE(StaffSocket::open(path, nobody)); // another exhibit listens there
+    EXPECT_TRUE(still_answers());
+    const fs::path file = folder / "file";
+    std::ofstream(file) << "kept";
+    EXPECT_FALSE(StaffSocket::open(file, nobody));
+    EXPECT_TRUE(fs::is_regular_file(file));
+    EXPECT_FALSE(StaffSocket::open(folder / std::string(200, 'x'), nobody));
+    EXPECT_FALSE(StaffSocket::open(folder / "none" / "s", nobody));
+}
+
+TEST_F(StaffSocketTest, EndsWhileAClientStalls) {
+    open();
+    const Descriptor silent = connected();
+    server.reset();
+    EXPECT_EQ(rest(silent), ""); // closed, before or after it was taken
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,77 @@
+// The hand-over of the presented picture between the render thread and the one who asks.
+#include "app/render/probe.h"
+#include "app/show/screenshot.h"
+#include "firmware_host/display/surfaceless_display.h"
+
+#include <GLES3/gl31.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <future>
+
+namespace frustumscreen {
+namespace {
+
+class ScreenshotTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        Result<std::unique_ptr<SurfacelessDisplay>> made = SurfacelessDisplay::create(32, 16);
+        ASSERT_TRUE(made) << made.error().message;
+        display = std::move(*made);
+    }
+    /// Fills the picture with one colour that has the same code in linear light and in sRGB: off or full.
+    void draw(bool red, bool green, bool blue) const {
+        glBindFramebuffer(GL_FRAMEBUFFER, display->framebuffer());
+        glClearColor(red ? 1.0F : 0.0F, green ? 1.0F : 0.0F, blue ? 1.0F : 0.0F, 1.0F);
+        glClear(GL_COLOR_BUFFER_BIT);
+        ASSERT_TRUE(display->present(monotonic_now()));
+    }
+    /// Serves until somebody who asks on another thread has his answer.
+    [[nodiscard]] Result<Image8> asked() {
+        std::future<Result<Image8>> answer = std::async(std::launch::async, [this]() -> Result<Image8> {
+            const Result<const Image8*> taken = screenshot.take(std::stop_token());
+            return taken ? Result<Image8>(**taken) : tl::unexpected<Error>(taken.error());
+        });
+        while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+            screenshot.serve(*display);
+        }
+        return answer.get();
+    }
+
+    std::unique_ptr<SurfacelessDisplay> display;
+    Screenshot screenshot{32, 16};
+};
+
+TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
+    const MonotonicTime start = monotonic_now();
+    draw(true, false, true);
+    const Result<Image8> first = asked();
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_EQ(first->at(0, 0), glm::u8vec4(255, 0, 255, 255));
+    EXPECT_EQ(first->at(31, 15), glm::u8vec4(255, 0, 255, 255));
+    draw(false, false, false);
+    ASSERT_TRUE(write_probe(display->framebuffer(), 77, {}));
+    ASSERT_EQ(read_probe(display->framebuffer()), std::uint8_t{77});
+    const Result<Image8> second = asked();
+    ASSERT_TRUE(second) << second.error().message;
+    for (const glm::u8vec4& texel : second->texels) {
+        ASSERT_EQ(texel, glm::u8vec4(0, 0, 0, 255));
+    }
+    EXPECT_GE(monotonic_now() - start, Screenshot::between_pictures);
+}
+
+TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
+    draw(true, true, true);
+    screenshot.serve(*display); // nobody asked
+    const Result<const Image8*> none = screenshot.take(std::stop_token());
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().message, "the exhibit presents no picture; it hangs, or is ending");
+    screenshot.serve(*display); // the question was taken back
+    draw(false, true, false);
+    const Result<Image8> later = asked();
+    ASSERT_TRUE(later);
+    EXPECT_EQ(later->at(5, 5), glm::u8vec4(0, 255, 0, 255));
+}
+
+} // namespace
+} // namespace frustumscreen

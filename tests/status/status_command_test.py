@@ -1,0 +1,352 @@
+#!/usr/bin/env python3
+"""`frustumscreen status` on files that an exhibit, its watchdog and systemd could have left, and on hostile ones.
+
+status_command_test.py PROGRAM [unittest's arguments]
+"""
+
+import json
+import os
+import re
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+from prometheus_client.parser import text_string_to_metric_families
+
+PROGRAM = ""
+
+
+def boot_id():
+    return Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+
+
+def exhibit(**changes):
+    """A status as docs/status.md has it, written now."""
+    status = {
+        "written_at": "2026-05-01T10:00:00Z", "monotonic_ns": time.monotonic_ns(), "boot_id": boot_id(),
+        "versions": {"program": "1.2.3", "pack_format": 2, "system": "Debian GNU/Linux 12, Linux 6.1"},
+        "health": "well", "left_out": [{"pack": "cat.fspack", "reason": "it is damaged"}],
+        "set": {"number": 7, "packs": [{"file": "a", "id": "a", "title": "Amphora", "serial": 1}],
+                "newest": {"number": 8, "verdict": "bad", "on_trial": False, "starts": 3, "reason": "dog.fspack is damaged"},
+                "trouble": ""},
+        "state": "view", "artifact": "Amphora \"of\" Exekias", "shown_since": "2026-05-01T08:00:00Z", "shown_for_s": 7200.5,
+        "loaded": {"artifacts": 2, "bytes": 1048576}, "technique": "auto", "level": "level1", "samples": 4,
+        "language": "en", "estimated_error_mm": 0.25, "frame_ms": {"p50": 8.5, "p95": 12.0, "p99": 17.25},
+        "missed_deadlines": 3, "level_switches": 5, "frames": 100000, "drawn": 4000, "skipped": 6, "device_errors": 9,
+        "display": "lights HDMI-A-1", "tracker": "a VIPER sends",
+        "tracker_counts": {"connections": 2, "frames": 5000, "lost": 11, "broken": 1, "clock_drift_ppm": 25.0},
+        "panel": "", "sound": "its sound goes to default", "sound_underruns": 2, "recording": "", "import": None,
+        "prop_known": True, "head_known": False, "uptime_s": 36000.0, "resident_mib": 181.5}
+    status.update(changes)
+    return status
+
+
+def watchdog(**changes):
+    status = {
+        "written_at": "2026-05-01T10:00:00Z", "monotonic_ns": time.monotonic_ns(), "mode": "normal", "trouble": None, "step": None,
+        "climb": 0, "reboots_today": 1,
+        "faults": [{"at": "2026-05-01T09:00:00Z", "cause": "tracker_silent", "sentence": "the tracker is silent",
+                    "step": "reset-device", "helped": True},
+                   {"at": "2026-05-01T09:30:00Z", "cause": "no_picture", "sentence": "no picture is presented",
+                    "step": "restart-exhibit", "helped": False}]}
+    status.update(changes)
+    return status
+
+
+class Status(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def write(self, name, content):
+        data = content if isinstance(content, bytes) else json.dumps(content).encode()
+        (self.folder / name).write_bytes(data)
+
+    def run_status(self, *options):
+        return subprocess.run(
+            [PROGRAM, "status", "--status-file", self.folder / "status.json", "--watchdog-file", self.folder / "dog.json",
+             "--staff-socket", self.folder / "staff.sock", *options],
+            capture_output=True, timeout=60, check=False, env={**os.environ, "TZ": "UTC", "LC_ALL": "C.UTF-8"})
+
+    def text(self, expected_status):
+        done = self.run_status()
+        self.assertEqual(done.returncode, expected_status, done.stdout + done.stderr)
+        self.assertEqual(done.stderr, b"")
+        return done.stdout.decode()
+
+    def line(self, text, name):
+        found = [line for line in text.split("\n") if line.startswith(name + " ")]
+        self.assertEqual(len(found), 1, text)
+        return found[0][len(name):].strip()
+
+
+class Text(Status):
+    def test_a_well_exhibit_in_one_screen(self):
+        self.write("status.json", exhibit())
+        self.write("dog.json", watchdog())
+        now = time.monotonic()
+        self.write("ends", f"{now - 36010:.2f} success exited 0\n{now - 240:.2f} watchdog killed KILL\n".encode())
+        text = self.text(0)
+        self.assertEqual(text.split("\n")[0], "The exhibit runs and is well.")
+        self.assertLessEqual(text.count("\n"), 24)
+        self.assertIn("\"Amphora \"of\" Exekias\" (en), for 2 h 0 min, since ", self.line(text, "on the screen"))
+        self.assertEqual(self.line(text, "tracker"), "a VIPER sends")
+        self.assertEqual(self.line(text, "projector"), "lights HDMI-A-1")
+        self.assertEqual(self.line(text, "buttons"), "there are none")
+        self.assertIn("half of the pictures took 8.5 ms at most, 99 of 100 took 17.2 ms at most; 3 of 4000 took longer",
+                      self.line(text, "frame times"))
+        self.assertIn("9 errors of devices; tracker: 11 of 5000 samples lost", self.line(text, "errors"))
+        self.assertEqual(self.line(text, "packs"),
+                         "set 7, 1 pack: Amphora; the newest is set 8, bad: dog.fspack is damaged")
+        self.assertEqual(self.line(text, "left out"), "cat.fspack: it is damaged")
+        self.assertRegex(self.line(text, "starts"),
+                         r"^it runs for 10 h 0 min; it has ended 2 times, last 4 min ago: it no longer fed systemd's "
+                         r"watchdog \(killed KILL\)$")
+        self.assertIn("1 restart of the machine today", self.line(text, "watchdog"))
+        self.assertEqual(self.line(text, "last faults"),
+                         "2026-05-01T09:30:00Z no picture is presented; tried restart-exhibit, which did not help")
+        self.assertEqual(self.line(text, "versions"), "FrustumScreen 1.2.3, packs of format 2, Debian GNU/Linux 12, Linux 6.1")
+
+    def test_the_time_of_day_since_when_it_is_shown(self):
+        self.write("status.json", exhibit(shown_for_s=3 * 86400.0))
+        before = time.strftime("%Y-%m-%d", time.gmtime(time.time() - 3 * 86400))
+        self.assertIn(f"for 72 h 0 min, since {before} ", self.line(self.text(0), "on the screen"))
+
+    def test_without_a_watchdog_it_says_so(self):
+        self.write("status.json", exhibit())
+        self.assertRegex(self.line(self.text(0), "watchdog"), r"^nothing is known of it: .*dog.json: there is no such file$")
+
+    def test_nothing_is_known(self):
+        self.assertRegex(self.text(1), r"^Nothing is known of the exhibit: .*status.json: there is no such file\.\n")
+
+    def test_a_status_that_is_old(self):
+        self.write("status.json", exhibit(monotonic_ns=time.monotonic_ns() - 300 * 10**9))
+        text = self.text(1)
+        self.assertTrue(text.startswith(
+            "The exhibit does not run, or cannot say how it is: its status is 5 min old.\nWhat it said last:\n"), text)
+
+    def test_a_status_of_another_boot_is_old_however_its_clock_stands(self):
+        self.write("status.json", exhibit(boot_id="00000000-0000-0000-0000-000000000000"))
+        self.assertIn("its status is from before the machine was started", self.text(1))
+
+    def test_a_status_from_the_future_is_none_of_now(self):
+        self.write("status.json", exhibit(monotonic_ns=time.monotonic_ns() + 3600 * 10**9))
+        self.assertIn("does not say when it was written", self.text(1))
+
+    def test_the_wall_clock_is_not_asked(self):
+        self.write("status.json", exhibit(written_at="1970-01-01T00:00:00Z"))
+        self.assertIn("runs and is well", self.text(0))
+
+    def test_what_is_not_well(self):
+        for changes, words in (({"health": "hangs"}, "not well"), ({"health": "no_picture"}, "not well"),
+                               ({"health": "unheard of"}, "not well: its health is 'unheard of'"),
+                               ({"state": "fault", "artifact": ""}, "has no artifact that it can show")):
+            self.write("status.json", exhibit(**changes))
+            self.assertIn(words, self.text(1).split("\n")[0])
+
+    def test_what_the_watchdog_complains_of(self):
+        trouble = {"cause": "hot", "sentence": "the machine is hot", "since_s": 90}
+        for changes, words in (({"trouble": trouble}, "its watchdog says: the machine is hot"),
+                               ({"mode": "built_in"}, "its watchdog lets the exhibit show a built-in artifact")):
+            self.write("status.json", exhibit())
+            self.write("dog.json", watchdog(**changes))
+            self.assertIn(words, self.text(1).split("\n")[0])
+        self.write("dog.json", watchdog(trouble=trouble, monotonic_ns=time.monotonic_ns() - 10**12))
+        self.assertIn("runs and is well", self.text(0))  # what it said long ago is no complaint of now
+
+    def test_wrong_use(self):
+        for options in (("--json", "--prometheus"), ("--no-such-option",), ("word",)):
+            done = self.run_status(*options)
+            self.assertEqual((done.returncode, done.stdout), (2, b""))
+            self.assertEqual(done.stderr.count(b"\n\n"), 0)
+
+
+class Hostile(Status):
+    DOCUMENTS = (
+        b"", b"\x00", b"null", b"[]", b"3", b"{", b"{\"a\":1,\"a\":2}", b"[" * 100000, b"{\"a\":" * 5000, b"\xff\xfe{}",
+        b" " * (1 << 20) + b"{}")
+
+    def test_what_is_no_status_is_said_in_one_line(self):
+        for document in self.DOCUMENTS:
+            self.write("status.json", document)
+            self.write("dog.json", document)
+            text = self.text(1)
+            self.assertRegex(text.split("\n")[0], r"^Nothing is known of the exhibit: .*\.$")
+            self.assertLess(text.count("\n"), 6)
+
+    def test_no_type_and_no_value_ends_the_program(self):
+        values = (None, True, -1, 1e308, -1e308, 2**64 - 1, "", "x" * 100000, "\u202e\x1b[2J\x07\n\x9b", [], [[]], {}, {"a": []},
+                  [None, 3, "x", {"pack": 3, "title": {}, "at": 1}])
+        of_now = {"monotonic_ns": time.monotonic_ns(), "boot_id": boot_id()}
+        for value in values:  # in every field at once, and in each alone
+            self.write("dog.json", watchdog(**{key: value for key in watchdog()}))
+            self.check({key: value for key in exhibit()} | of_now)
+            self.write("dog.json", watchdog(**{key: value for key in watchdog() if key != "monotonic_ns"}))
+            self.check(exhibit())
+        for number, key in enumerate(exhibit()):
+            self.check(exhibit(**{key: values[number % len(values)]}))
+
+    def check(self, status):
+        self.write("status.json", status)
+        done = self.run_status()
+        self.assertIn(done.returncode, (0, 1), (status, done.stderr))
+        self.assertFalse(re.search(rb"[\x00-\x09\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80\xae", done.stdout), status)
+        list(text_string_to_metric_families(self.run_status("--prometheus").stdout.decode()))
+
+    def test_files_that_are_none(self):
+        os.mkfifo(self.folder / "status.json")  # reading it would wait for ever
+        (self.folder / "dog.json").mkdir()
+        (self.folder / "ends").symlink_to("/dev/zero")
+        self.assertIn("Nothing is known", self.text(1))
+
+    def test_ends_that_are_none(self):
+        self.write("status.json", exhibit())
+        self.write("ends", b"\n\nnan watchdog a b\nx signal killed SEGV\n5\n5 \n\x00\xff\n7 invented \x1b[2J x y z\n8 oom-kill killed KILL")
+        self.assertIn("it has ended 2 times, last", self.line(self.text(0), "starts"))
+
+
+class Json(Status):
+    def test_both_files_under_fixed_keys(self):
+        self.write("status.json", exhibit())
+        self.write("dog.json", watchdog())
+        self.write("ends", f"{time.monotonic() - 60:.2f} core-dump dumped ABRT\n".encode())
+        done = self.run_status("--json")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        known = json.loads(done.stdout)
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends"])
+        self.assertTrue(known["well"] and known["runs"])
+        self.assertTrue(0 <= known["age_s"] < 5)
+        self.assertEqual(known["exhibit"]["status"]["artifact"], "Amphora \"of\" Exekias")
+        self.assertEqual(known["watchdog"]["status"]["faults"], watchdog()["faults"])
+        self.assertEqual(known["ends"]["count"], 1)
+        self.assertEqual(known["ends"]["last"]["result"], "core-dump")
+        self.assertAlmostEqual(known["ends"]["last"]["ago_s"], 60, delta=30)
+
+    def test_the_keys_are_there_when_nothing_is_known(self):
+        done = self.run_status("--json")
+        self.assertEqual(done.returncode, 1)
+        known = json.loads(done.stdout)
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends"])
+        self.assertEqual((known["age_s"], known["exhibit"]["status"], known["ends"]["last"]), (None, None, None))
+        self.assertIn("there is no such file", known["exhibit"]["why_unknown"])
+
+
+class Prometheus(Status):
+    def families(self, expected_status):
+        done = self.run_status("--prometheus")
+        self.assertEqual(done.returncode, expected_status, done.stderr)
+        text = done.stdout.decode()
+        families = {family.name: family for family in text_string_to_metric_families(text)}
+        for family in families.values():
+            self.assertTrue(family.name.startswith("frustumscreen_"), family.name)
+            self.assertTrue(family.documentation and family.type in ("gauge", "counter"), family.name)
+            labels = {tuple(sorted(sample.labels)) for sample in family.samples}
+            self.assertEqual(len(labels), 1, family.name)
+            seen = [tuple(sample.labels.items()) for sample in family.samples]
+            self.assertEqual(len(seen), len(set(seen)), family.name)
+            for sample in family.samples:
+                self.assertEqual(sample.name.endswith("_total"), family.type == "counter", sample.name)
+                self.assertNotRegex(sample.name, r"_(ms|mib|mm|ppm|percent|minutes|hours)(_|$)")
+        self.assertEqual(len(re.findall("^# HELP ", text, re.M)), len(families))
+        self.assertEqual(len(re.findall("^# TYPE ", text, re.M)), len(families))
+        return families
+
+    def value(self, families, name, **labels):
+        found = [sample.value for sample in families["frustumscreen_" + name].samples if sample.labels == labels]
+        self.assertEqual(len(found), 1, name)
+        return found[0]
+
+    def test_the_numbers_in_base_units(self):
+        self.write("status.json", exhibit())
+        self.write("dog.json", watchdog())
+        self.write("ends", b"1 watchdog killed KILL\n2 watchdog killed KILL\n3 strange killed KILL\n")
+        families = self.families(0)
+        self.assertEqual(self.value(families, "up"), 1)
+        self.assertEqual(self.value(families, "well"), 1)
+        self.assertEqual(self.value(families, "frame_time_seconds", share="0.99"), 0.01725)
+        self.assertEqual(self.value(families, "resident_memory_bytes"), 181.5 * 2**20)
+        self.assertEqual(self.value(families, "estimated_error_meters"), 0.00025)
+        self.assertEqual(self.value(families, "tracker_clock_drift_ratio"), 25e-6)
+        self.assertEqual(self.value(families, "frames"), 100000)
+        self.assertEqual(self.value(families, "shown_seconds"), 7200.5)
+        self.assertEqual(self.value(families, "artifact_info", artifact="Amphora \"of\" Exekias"), 1)
+        self.assertEqual(self.value(families, "health", health="well"), 1)
+        self.assertEqual(sum(sample.value for sample in families["frustumscreen_state"].samples), 1)
+        self.assertEqual(self.value(families, "ends", result="watchdog"), 2)
+        self.assertEqual(self.value(families, "ends", result="other"), 1)
+        self.assertEqual(self.value(families, "ends", result="oom-kill"), 0)
+        self.assertEqual(self.value(families, "watchdog_reboots"), 1)
+        self.assertEqual(self.value(families, "watchdog_mode", mode="normal"), 1)
+
+    def test_an_exhibit_that_does_not_run_has_no_numbers_of_its_own(self):
+        self.write("status.json", exhibit(monotonic_ns=1))
+        families = self.families(1)
+        self.assertEqual(self.value(families, "up"), 0)
+        self.assertEqual(self.value(families, "watchdog_up"), 0)
+        self.assertNotIn("frustumscreen_frames", families)
+
+    def test_a_title_cannot_leave_its_label(self):
+        title = "a\"} 1\nfrustumscreen_up 5\n\\"
+        self.write("status.json", exhibit(artifact=title))
+        families = self.families(0)
+        self.assertEqual(self.value(families, "up"), 1)
+        self.assertEqual(families["frustumscreen_artifact_info"].samples[0].labels["artifact"], title.replace("\n", "?"))
+
+
+class Screenshot(Status):
+    """The asking side, against an exhibit that answers what it should not; tests/programs has the real one."""
+
+    def answered(self, answer):
+        listening = socket.socket(socket.AF_UNIX)
+        listening.bind(str(self.folder / "staff.sock"))
+        listening.listen()
+
+        def serve():
+            with listening, listening.accept()[0] as client:
+                self.question = client.recv(100)
+                try:
+                    client.sendall(answer)
+                except OSError:
+                    pass
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        self.write("status.json", exhibit())
+        done = self.run_status("--screenshot", self.folder / "shot.png")
+        thread.join()
+        (self.folder / "staff.sock").unlink()
+        return done
+
+    def test_the_answer_is_written_and_the_text_is_printed(self):
+        done = self.answered(b"ok 5\nhello")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertEqual(self.question, b"screenshot\n")
+        self.assertEqual((self.folder / "shot.png").read_bytes(), b"hello")
+        self.assertIn(b"runs and is well", done.stdout)
+
+    def test_no_other_answer_becomes_a_file(self):
+        for answer in (b"", b"ok 6\nhello", b"ok 4\nhello", b"ok -1\n", b"ok x\n", b"ok 99999999999999999999\n", b"hello" * 1000,
+                       b"no it \x1b[2J hangs\n"):
+            done = self.answered(answer)
+            self.assertEqual(done.returncode, 1, answer)
+            self.assertEqual(done.stderr.count(b"\n"), 1, done.stderr)
+            self.assertNotIn(b"\x1b", done.stderr)
+            self.assertFalse((self.folder / "shot.png").exists())
+            self.assertIn(b"runs and is well", done.stdout)
+
+    def test_nobody_listens(self):
+        self.write("status.json", exhibit())
+        done = self.run_status("--screenshot", self.folder / "shot.png")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"no exhibit listens there", done.stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
