@@ -201,6 +201,17 @@ TEST_F(StaffSocketTest, ASocketThatAKilledExhibitLeftIsTakenOverAndNothingElseIs
     EXPECT_FALSE(StaffSocket::open(folder / "none" / "s", nobody));
 }
 
+TEST_F(StaffSocketTest, WhoAsksAnExhibitThatHangsIsToldInTime) {
+    const Descriptor hanging(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const UnixAddress address = *UnixAddress::of(path);
+    ASSERT_EQ(::bind(hanging.number(), address.get(), address.size()), 0);
+    ASSERT_EQ(::listen(hanging.number(), 4), 0);
+    const Result<Bytes> none = ask_staff_socket(path, "hello", 10, std::chrono::milliseconds(300));
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().message,
+              path.string() + ": the exhibit does not answer in time; it hangs, or others ask it too");
+}
+
 TEST_F(StaffSocketTest, EndsWhileAClientStalls) {
     open();
     const Descriptor silent = connected();

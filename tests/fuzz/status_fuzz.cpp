@@ -1,0 +1,36 @@
+// The files that `frustumscreen status` reads: whatever they hold, it says printable lines, JSON, and one sample a line.
+#include "app/status/exhibit_verdict.h"
+#include "app/status/prometheus_text.h"
+#include "app/status/status_document.h"
+#include "app/status/status_lines.h"
+#include "firmware_host/base/printable.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace frustumscreen;
+
+namespace {
+
+void require_printable_lines(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        fuzz::require(end != std::string_view::npos, "the last line ends", text);
+        const std::string_view line = text.substr(0, end);
+        fuzz::require(line == printable(line, line.size()), "lines are printable", line);
+        text.remove_prefix(end + 1);
+    }
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(fuzz::text_of(data, size));
+    const StatusClock clock{MonotonicTime(std::chrono::seconds(1000)), "boot"};
+    const StatusDocument document = parse_status(text, clock);
+    const KnownExhibit known{document, {document, parse_service_ends(text), {}, 1000.0, "system"}};
+    fuzz::require(document.fields.is_null() != document.why.empty(), "something is known, or why not");
+    fuzz::require(verdict_of(known).runs || !verdict_of(known).well, "what does not run is not well");
+    require_printable_lines(status_text(known, 1'800'000'000));
+    require_printable_lines(prometheus_text(known));
+    fuzz::require(nlohmann::json::accept(status_document(known)), "it is JSON");
+    return 0;
+}
