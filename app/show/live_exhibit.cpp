@@ -17,11 +17,10 @@ namespace {
 
 /// What `frustumscreen status` says, and what only the exhibit itself knows.
 std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver, State before) {
-    static const Surroundings nobody_asked;
     const nlohmann::json fields = nlohmann::json::parse(status_json(status));
     std::vector<std::string> lines;
     for (const StatusLine& line :
-         status_lines(fields, 0.0, status.surroundings ? *status.surroundings : nobody_asked,
+         status_lines(fields, 0.0, status.surroundings.get(),
                       std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))) {
         if (line.for_staff) {
             lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));

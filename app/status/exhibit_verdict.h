@@ -5,6 +5,7 @@
 
 #include "app/status/known_exhibit.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace frustumscreen {

@@ -2,6 +2,8 @@
 
 #include "app/status/exhibit_verdict.h"
 
+#include <cmath>
+
 namespace frustumscreen {
 
 namespace {

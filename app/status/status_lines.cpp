@@ -56,7 +56,7 @@ std::string day_time(std::time_t now, double ago_s) {
     return same_day ? fmt::format("{:%H:%M}", local) : fmt::format("{:%Y-%m-%d %H:%M}", local);
 }
 
-std::string screen_line(const JsonFields& status, double age_s, std::time_t now) {
+std::string screen_line(const JsonFields& status, std::optional<double> age_s, std::time_t now) {
     const std::string state = status.text("state");
     const std::string artifact = status.text("artifact");
     std::string what = artifact.empty() ? "no artifact" : fmt::format("\"{}\"", artifact);
@@ -67,8 +67,8 @@ std::string screen_line(const JsonFields& status, double age_s, std::time_t now)
         what = artifact.empty() ? "the alignment pattern" : "the alignment pattern, over " + what;
     }
     if (const std::optional<double> shown_s = status.number("shown_for_s")) {
-        const double since_s = *shown_s + age_s;
-        what += fmt::format(", for {}, since {}", words_of_time(since_s), day_time(now, since_s));
+        const double since_s = *shown_s + age_s.value_or(0.0);
+        what += ", for " + words_of_time(since_s) + (age_s ? ", since " + day_time(now, since_s) : "");
     }
     return what;
 }
@@ -175,10 +175,11 @@ std::string stick_line(const JsonFields& status) {
     return fmt::format("{}; {}, {} refused", text, counted(packs.size(), "pack", "packs"), refused);
 }
 
-std::string starts_line(const JsonFields& status, double age_s, const Surroundings& around) {
+std::string starts_line(const JsonFields& status, std::optional<double> age_s, const Surroundings& around) {
     std::string text;
     if (const std::optional<double> up_s = status.number("uptime_s")) {
-        text = fmt::format("it runs for {}; ", words_of_time(*up_s + age_s));
+        text =
+            fmt::format("it {} for {}; ", age_s ? "runs" : "ran", words_of_time(*up_s + age_s.value_or(0.0)));
     }
     if (!around.ends_trouble.empty()) {
         return text + around.ends_trouble;
@@ -252,7 +253,7 @@ std::string versions_line(const JsonFields& status, const std::string& system) {
                : fmt::format("FrustumScreen {}, {}", FRUSTUMSCREEN_VERSION, system);
 }
 
-void add_exhibit(Lines& lines, const JsonFields& status, double age_s, std::time_t now) {
+void add_exhibit(Lines& lines, const JsonFields& status, std::optional<double> age_s, std::time_t now) {
     lines.add("on the screen", screen_line(status, age_s, now));
     lines.add("state", state_line(status));
     lines.add("picture", picture_line(status));
@@ -271,21 +272,22 @@ void add_exhibit(Lines& lines, const JsonFields& status, double age_s, std::time
 
 } // namespace
 
-std::vector<StatusLine> status_lines(const nlohmann::json& status, double age_s,
-                                     const Surroundings& surroundings, std::time_t now) {
+std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional<double> age_s,
+                                     const Surroundings* surroundings, std::time_t now) {
     const JsonFields fields(status);
     Lines lines;
     if (fields.there()) {
         add_exhibit(lines, fields, age_s, now);
     }
-    lines.add("starts", starts_line(fields, age_s, surroundings));
-    lines.add("watchdog", watchdog_line(surroundings.watchdog));
-    add_faults(lines, surroundings.watchdog);
-    lines.add("memory",
-              fields.number("resident_mib") ? fmt::format("{:.0f} MiB", *fields.number("resident_mib"))
-                                            : std::string(),
-              false);
-    lines.add("versions", versions_line(fields, surroundings.system));
+    if (surroundings != nullptr) {
+        lines.add("starts", starts_line(fields, age_s, *surroundings));
+        lines.add("watchdog", watchdog_line(surroundings->watchdog));
+        add_faults(lines, surroundings->watchdog);
+    }
+    if (const std::optional<double> memory_mib = fields.number("resident_mib")) {
+        lines.add("memory", fmt::format("{:.0f} MiB", *memory_mib), false);
+    }
+    lines.add("versions", versions_line(fields, surroundings != nullptr ? surroundings->system : ""));
     return lines.take();
 }
 
@@ -295,9 +297,9 @@ std::string status_text(const KnownExhibit& known, std::time_t now) {
     if (!verdict.runs && known.status.fields.is_object()) {
         text += "What it said last:\n";
     }
-    // The age of what is of no known time is left out of what follows.
     for (const StatusLine& line :
-         status_lines(known.status.fields, known.status.age_s.value_or(0.0), known.surroundings, now)) {
+         status_lines(known.status.fields, verdict.runs ? known.status.age_s : std::nullopt,
+                      &known.surroundings, now)) {
         fmt::format_to(std::back_inserter(text), "{:<14} {}\n", line.name, line.text);
     }
     return text;

@@ -7,6 +7,7 @@
 #include "app/status/known_exhibit.h"
 
 #include <ctime>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct StatusLine {
     std::string text;
     bool for_staff = true; ///< the staff's picture has it too
 };
-/// `age_s`: of the status, which is then taken as it is. `now`: the wall clock, for times of day alone.
-[[nodiscard]] std::vector<StatusLine> status_lines(const nlohmann::json& status, double age_s,
-                                                   const Surroundings& surroundings, std::time_t now);
+/// `age_s`: of the status; none: it is not of now. `surroundings`: none: nobody has asked yet. `now`: the wall clock, for times of day alone.
+[[nodiscard]] std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional<double> age_s,
+                                                   const Surroundings* surroundings, std::time_t now);
 
 /// One screen of text: the verdict, then the lines.
 [[nodiscard]] std::string status_text(const KnownExhibit& known, std::time_t now);

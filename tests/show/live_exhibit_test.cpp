@@ -125,6 +125,19 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     EXPECT_TRUE(frame().drawn);
 }
 
+TEST_F(Live, SaysWhatItsWatchdogSaysOfIt) {
+    frame(chord);
+    Surroundings around;
+    around.ends = parse_service_ends("5 watchdog killed KILL\n");
+    status.surroundings = std::make_shared<const Surroundings>(around);
+    show->tell(status);
+    EXPECT_TRUE(frame().drawn);
+    around.watchdog.fields = {{"faults", {{{"at", "2026-05-01T10:00:00Z"}, {"sentence", "it is hot"}}}}};
+    status.surroundings = std::make_shared<const Surroundings>(around);
+    show->tell(status);
+    EXPECT_TRUE(frame().drawn);
+}
+
 TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
     frame(chord);
     const Image8 before = read_colour(display->framebuffer(), 320, 200);

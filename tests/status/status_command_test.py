@@ -130,6 +130,8 @@ class Text(Status):
         text = self.text(1)
         self.assertTrue(text.startswith(
             "The exhibit does not run, or cannot say how it is: its status is 5 min old.\nWhat it said last:\n"), text)
+        self.assertTrue(self.line(text, "on the screen").endswith("(en), for 2 h 0 min"), text)
+        self.assertIn("it ran for 10 h 0 min", self.line(text, "starts"))
 
     def test_a_status_of_another_boot_is_old_however_its_clock_stands(self):
         self.write("status.json", exhibit(boot_id="00000000-0000-0000-0000-000000000000"))
