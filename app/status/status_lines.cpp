@@ -118,11 +118,11 @@ std::string errors_line(const JsonFields& status) {
 }
 
 std::string places_line(const JsonFields& status) {
-    const auto said = [&](const char* key, const char* yes, const char* no) {
-        return status.flag(key).value_or(false) ? yes : no;
+    const auto known = [&](const char* key) {
+        return status.flag(key).value_or(false) ? "known" : "not known";
     };
-    return fmt::format("the prop's place is {}, the visitor's head {}", said("prop_known", "known", "lost"),
-                       said("head_known", "too", "is not followed"));
+    return fmt::format("the prop's place is {}, the visitor's head is {}", known("prop_known"),
+                       known("head_known"));
 }
 
 std::string set_line(const JsonFields& status) {
@@ -255,7 +255,7 @@ std::string versions_line(const JsonFields& status, const std::string& system) {
 
 void add_exhibit(Lines& lines, const JsonFields& status, std::optional<double> age_s, std::time_t now) {
     lines.add("on the screen", screen_line(status, age_s, now));
-    lines.add("state", state_line(status));
+    lines.add("state", state_line(status), false);
     lines.add("picture", picture_line(status));
     lines.add("frame times", frames_line(status));
     lines.add("projector", or_else(status.text("display"), "nothing to say"));
@@ -293,7 +293,8 @@ std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional
 
 std::string status_text(const KnownExhibit& known, std::time_t now) {
     const ExhibitVerdict verdict = verdict_of(known);
-    std::string text = verdict.sentence + ".\n";
+    std::string text =
+        verdict.sentence + (verdict.runs ? ".\n" : "; systemctl status frustumscreen says more.\n");
     if (!verdict.runs && known.status.fields.is_object()) {
         text += "What it said last:\n";
     }

@@ -123,13 +123,14 @@ class Text(Status):
         self.assertRegex(self.line(self.text(0), "watchdog"), r"^nothing is known of it: .*dog.json: there is no such file$")
 
     def test_nothing_is_known(self):
-        self.assertRegex(self.text(1), r"^Nothing is known of the exhibit: .*status.json: there is no such file\.\n")
+        self.assertRegex(self.text(1), r"^Nothing is known of the exhibit: .*status.json: there is no such file; systemctl status frustumscreen says more\.\n")
 
     def test_a_status_that_is_old(self):
         self.write("status.json", exhibit(monotonic_ns=time.monotonic_ns() - 300 * 10**9))
         text = self.text(1)
         self.assertTrue(text.startswith(
-            "The exhibit does not run, or cannot say how it is: its status is 5 min old.\nWhat it said last:\n"), text)
+            "The exhibit does not run, or cannot say how it is: its status is 5 min old; systemctl status "
+            "frustumscreen says more.\nWhat it said last:\n"), text)
         self.assertTrue(self.line(text, "on the screen").endswith("(en), for 2 h 0 min"), text)
         self.assertIn("it ran for 10 h 0 min", self.line(text, "starts"))
 
