@@ -181,8 +181,9 @@ std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
 }
 
 Result<PublicKey> parse_public_key(std::string_view text) {
-    constexpr std::string_view wanted =
-        "this is not a minisign public key; its line has 56 letters and begins with RW";
+    constexpr std::string_view wanted = "this is not a minisign public key; take the file NAME.pub that "
+                                        "frustumscreen-pack keygen wrote, or its "
+                                        "line of 56 letters, which begins with RW";
     if (text.size() > most_public_key_bytes) {
         return bad_input(std::string(wanted));
     }

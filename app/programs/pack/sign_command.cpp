@@ -56,11 +56,14 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
     }
     if (before) {
         const Result<SignatureClaim> claim = read_signature_claim(*before);
-        if (claim && claim->serial >= request.now_s) {
+        if (claim && claim->serial > request.now_s) {
             return bad_input(
                 fmt::format("its signature has the serial {} already, and this computer's clock gives "
                             "{}; set the clock right, or name a higher one with --serial",
                             claim->serial, request.now_s));
+        }
+        if (claim && claim->serial == request.now_s) {
+            return request.now_s + 1; // it was signed within this second
         }
     }
     return request.now_s;
