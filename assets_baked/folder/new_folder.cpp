@@ -141,7 +141,8 @@ title = {title}
 
 # Up to three places of the artifact with a word on each. A point is given in the scan's own coordinates, as every
 # viewer of scans shows them, on the surface or close to it.
-# This scan reaches from {low} to {high}. Its middle stands below; write a point of the surface in its place.
+# This scan reaches from {low} to {high}.
+# Its middle stands below; write a point of the surface in its place.
 #[[hotspots]]
 #point = {middle}
 #labels = {{ en = "The handle", de = "Der Henkel" }}
