@@ -154,28 +154,36 @@ std::optional<Step> Ladder::next_for(Cause cause, const Means& means) const {
 }
 
 std::optional<Act> Ladder::climb(Cause cause, const Means& means) {
+    const bool would_rest_in_the_dark = is_dark(cause) && memory_.mode != Mode::Safe;
     if (!is_over(pause_after(memory_.climb))) {
-        return std::nullopt;
+        const bool is_long = pause_after(memory_.climb) > longest_dark_pause;
+        return would_rest_in_the_dark && is_long ? std::optional(take(Step::SafePicture, cause))
+                                                 : std::nullopt;
     }
     if (const std::optional<Step> next = next_for(cause, means)) {
         return take(*next, cause);
     }
-    if (!is_dark(cause)) {
-        memory_.given_up = static_cast<std::uint8_t>(memory_.given_up | bit(cause));
-        end_episode();
-        return std::nullopt;
+    if (would_rest_in_the_dark) {
+        return take(Step::SafePicture, cause); // again: it was left, and that did not help
     }
-    if (memory_.mode != Mode::Safe) {
-        return take(Step::SafePicture, cause); // again: it was left by a reboot that did not help
+    if (is_dark(cause)) {
+        return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
     }
-    return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
+    memory_.given_up = static_cast<std::uint8_t>(memory_.given_up | bit(cause));
+    end_episode();
+    return std::nullopt;
 }
 
 std::optional<Act> Ladder::leave_safe_picture(const Means& means) {
-    if (!is_over(pause_after(memory_.climb)) || !may_reboot(means)) {
+    if (!is_over(pause_after(memory_.climb))) {
         return std::nullopt;
     }
-    return take(Step::Reboot, memory_.cause.value_or(Cause::NoPicture));
+    const Cause cause = memory_.cause.value_or(Cause::NoPicture);
+    const std::optional<Step> next = next_for(cause, {means.last_good_set, false, means.reboot});
+    if (next) {
+        return take(*next, cause);
+    }
+    return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
 }
 
 std::optional<Act> Ladder::go_down() {

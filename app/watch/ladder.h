@@ -3,11 +3,13 @@
 /// Table    for each cause the steps that may mend it, gentlest first (`steps_for`). A step that helped is tried first the next
 ///          time for the same cause. A step is tried once; ten good minutes end the episode, and all may be tried again.
 /// Pauses   between two steps lie at least `settling` of the first one and `pause_after` as many steps as were taken; that
-///          doubles with each step, up to four hours, and halves with each ten good minutes.
+///          doubles with each step, up to four hours, and halves with each ten good minutes. Of a pause in the dark that is
+///          longer than `longest_dark_pause` nobody has anything: the safe picture comes at once, and the pause after it.
 /// Reboots  at most one in ten minutes and six in 24 hours, and only if that can be written down before.
 /// Given up a trouble that leaves the picture lit, once all its steps were in vain: it counts for nothing until it was away for
 ///          ten minutes.
-/// Safe     words for the staff stay until a reboot is allowed again; after a reboot the exhibit's own set is tried.
+/// Safe     words for the staff stay until the pause is over; then comes what was not tried yet, at last a reboot. After a reboot
+///          the exhibit's own set is tried. Where no reboot is allowed, they stay.
 /// Down     from the last good set and the built-in artifact the ladder leads back after ten good minutes; after twenty the next
 ///          time, and so on, up to a day.
 /// Time     `awake`: how long the kiosk has been on in all, over all boots. It never jumps, whatever the clock on the wall says,
@@ -72,6 +74,7 @@ class Ladder {
 public:
     static constexpr Awake good_for = std::chrono::minutes(10);
     static constexpr Awake longest_pause = std::chrono::hours(4);
+    static constexpr Awake longest_dark_pause = std::chrono::minutes(1);
     static constexpr Awake longest_return = std::chrono::hours(24);
     static constexpr Awake between_reboots = std::chrono::minutes(10);
     static constexpr Awake day = std::chrono::hours(24);

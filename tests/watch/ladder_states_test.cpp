@@ -89,7 +89,8 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
     const Awake waited = now - before.latest_at;
     const Awake due = Ladder::settling(*before.latest) + Ladder::pause_after(before.climb);
     const bool is_troubled = event.seen.trouble && !is_given_up(before, *event.seen.trouble);
-    const bool dark_and_due = is_troubled && is_dark(*event.seen.trouble) && waited >= due;
+    const bool dark_and_due = is_troubled && is_dark(*event.seen.trouble) &&
+                              waited >= std::min<Awake>(due, Ladder::settling(*before.latest) + minutes(1));
     if (!act) {
         return dark_and_due && before.mode != Mode::Safe ? "a dark kiosk is left dark" : nullptr;
     }
@@ -99,7 +100,10 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
     if (!act->cause) {
         return "a step without a cause";
     }
-    if (waited < due) {
+    const bool is_long = Ladder::pause_after(before.climb) > minutes(1);
+    const bool rests =
+        act->step == Step::SafePicture && is_long && waited >= Ladder::settling(*before.latest);
+    if (waited < due && !rests) {
         return "a step before the pause is over";
     }
     if (act->step == Step::Reboot) {
@@ -114,8 +118,8 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
         (act->step == Step::LastGoodSet && !event.means.last_good_set)) {
         return "a step that cannot be taken";
     }
-    if (before.mode == Mode::Safe && act->step != Step::Reboot && act->step != Step::ResetDevice) {
-        return "the safe picture is left without a reboot";
+    if (before.mode == Mode::Safe && (act->step == Step::RestartExhibit || act->step == Step::SafePicture)) {
+        return "the safe picture is left by what left the table dark";
     }
     const bool is_longest = before.climb == Ladder::highest_climb;
     if (after.climb != before.climb + (is_longest ? 0 : 1) ||
@@ -123,7 +127,8 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
          Ladder::pause_after(before.climb) < Ladder::longest_pause)) {
         return "the pause does not grow";
     }
-    const bool goes_down = static_cast<unsigned>(after.mode) < static_cast<unsigned>(before.mode);
+    const bool goes_down =
+        before.mode != Mode::Safe && static_cast<unsigned>(after.mode) < static_cast<unsigned>(before.mode);
     return goes_down && act->step != Step::Reboot ? "a step leads to a better mode without ten good minutes"
                                                   : nullptr;
 }
