@@ -280,7 +280,7 @@ def draw_ladder(path):
     panel = Panel("How long the table is dark, and how often", "at least so many seconds", "times a year")
     for k, policy in enumerate(different(row["policy"] for row in rows)):
         points = [(float(row["longer_than_s"]), float(row["times_a_year"])) for row in rows if row["policy"] == policy]
-        panel.series.append(Series(policy, points, k, ""))
+        panel.series.append(Series(policy, points, k, "", stepped=True))
     save_column(path.with_suffix(".svg"), [panel])
 
 
