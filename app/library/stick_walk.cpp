@@ -27,6 +27,12 @@ std::string in_small_letters(std::string_view name) {
     return small;
 }
 
+/// exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and signatures of such.
+bool looks_like_set_file(std::string_view name) {
+    const std::string small = in_small_letters(name);
+    return small.starts_with("exhibit") && small.find(".toml") != std::string::npos;
+}
+
 class Walk {
 public:
     Walk(FileTree& stick, const ImportLimits& limits, const std::function<bool()>& too_late)
@@ -45,6 +51,7 @@ private:
     const std::function<bool()>& too_late_;
     StickFiles found_;
     std::vector<std::string> folders_;
+    std::string misnamed_; ///< path; empty: none
     std::size_t entries_ = 0;
     std::optional<ImportFailure> failure_;
 };
@@ -68,6 +75,8 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         }
     } else if (folder.empty() && entry.name == exhibit_file_name) {
         found_.has_exhibit_file = true;
+    } else if (looks_like_set_file(entry.name) && (misnamed_.empty() || path < misnamed_)) {
+        misnamed_ = path;
     }
 }
 
@@ -118,6 +127,12 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
         return tl::unexpected<ImportFailure>(*failure_);
     }
     std::sort(found_.packs.begin(), found_.packs.end());
+    if (!misnamed_.empty() && !found_.has_exhibit_file) {
+        found_.misnamed = {printable(misnamed_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+                           fmt::format("it is not looked at; a set file is called {}, with its signature {} "
+                                       "beside it, and both lie in the stick's root",
+                                       exhibit_file_name, exhibit_signature_name)};
+    }
     return std::move(found_);
 }
 
