@@ -69,7 +69,8 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
 
 tl::unexpected<ImportFailure> changed() {
     return failed({ImportRefusal::Altered,
-                   "it was another one when it was read again; put it on another stick", false});
+                   "the stick held something else when it was read again; copy the pack onto another stick",
+                   false});
 }
 
 /// Returns the hash of what was written.

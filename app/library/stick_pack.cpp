@@ -122,10 +122,12 @@ void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
         clash(pack, fmt::format("{} on this stick", name));
         return;
     }
-    refuse(pack.told, {ImportRefusal::Older,
-                       fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
-                                   taken->pack.serial, pack.pack.serial),
-                       false});
+    refuse(pack.told,
+           {ImportRefusal::Older,
+            fmt::format("{} on this stick has the same id and is newer (serial {} against {}), so that one "
+                        "is taken",
+                        name, taken->pack.serial, pack.pack.serial),
+            false});
 }
 
 void refuse_all(std::vector<StickPack>& packs, const ImportFailure& failure) {

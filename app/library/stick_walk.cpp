@@ -97,8 +97,8 @@ bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
             fmt::format("the stick holds more than {} folders; put the packs on a stick of their own",
                         limits_.most_folders));
     } else if (found_.packs.size() + found_.refused.size() > limits_.most_packs) {
-        failure_ = too_much(
-            fmt::format("the stick holds more than {} packs; allowed are fewer", limits_.most_packs));
+        failure_ =
+            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.most_packs));
     }
     return !failure_;
 }
