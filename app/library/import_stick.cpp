@@ -32,8 +32,7 @@ class Import {
 public:
     Import(FileTree& stick, WritableTree& library, const ImportRequest& request,
            const ImportSurroundings& outside)
-        : stick_(stick), library_(library), request_(request), outside_(outside), began_(outside.now()),
-          in_vain_(request.limits) {
+        : stick_(stick), library_(library), request_(request), outside_(outside), in_vain_(request.limits) {
         report_.import_id = request.import_id;
         report_.stick = printable(request.stick);
     }
@@ -70,7 +69,7 @@ private:
     WritableTree& library_;
     const ImportRequest& request_;
     const ImportSurroundings& outside_;
-    MonotonicTime began_;
+    MonotonicTime began_{}; ///< looking; the kiosk's own disk is not the stick's fault
     ImportReport report_;
     std::vector<ImportedPack> refused_on_the_way_; ///< of which nothing is known but the name
     std::optional<ImportedPack> misnamed_;         ///< what may be meant as set file
@@ -208,6 +207,7 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
 }
 
 Outcome Import::look() {
+    began_ = outside_.now();
     tell(ImportStage::Found);
     tl::expected<StickFiles, ImportFailure> files =
         walk_stick(stick_, request_.limits, [this] { return is_too_late(); });

@@ -16,6 +16,15 @@ void be_there_already(StickPack& pack, std::string reason) {
     pack.told.reason = std::move(reason);
 }
 
+/// The name stands before the reason already: "exhibit.toml:2: is wrong" becomes "line 2: is wrong".
+std::string without_name(const std::string& reason, const std::string& name) {
+    if (!reason.starts_with(name + ":")) {
+        return reason;
+    }
+    const std::string rest = reason.substr(name.size() + 1);
+    return rest.starts_with(' ') ? rest.substr(1) : "line " + rest;
+}
+
 /// Which of the two is meant nobody can know, so this one is refused, and a set that it belongs to.
 void clash(StickPack& pack, std::string_view other) {
     pack.clashes = true;
@@ -75,7 +84,7 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
 void refuse(ImportedPack& told, const ImportFailure& failure) {
     told.outcome = ImportOutcome::Refused;
     told.refusal = failure.refusal;
-    told.reason = failure.reason;
+    told.reason = without_name(failure.reason, told.file);
 }
 
 ImportedPack removed_line(const InstalledPack& pack) {

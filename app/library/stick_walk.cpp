@@ -1,6 +1,7 @@
 #include "app/library/stick_walk.h"
 
 #include "app/library/exhibit_file.h"
+#include "app/library/stick_pack.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ private:
     void look_at(const std::string& folder, const FolderEntry& entry);
     bool visit(const std::string& folder, const FolderEntry& entry);
     void look_into(const std::string& folder);
-    void refuse(const std::string& path, ImportFailure failure);
+    void refuse(const std::string& path, const ImportFailure& failure);
 
     FileTree& stick_;
     const ImportLimits& limits_;
@@ -56,8 +57,9 @@ private:
     std::optional<ImportFailure> failure_;
 };
 
-void Walk::refuse(const std::string& path, ImportFailure failure) {
-    found_.refused.push_back({printable(path), "", ImportOutcome::Refused, failure.refusal, failure.reason});
+void Walk::refuse(const std::string& path, const ImportFailure& failure) {
+    frustumscreen::refuse(found_.refused.emplace_back(ImportedPack{printable(path), {}, {}, {}, {}}),
+                          failure);
 }
 
 void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
@@ -113,7 +115,7 @@ void Walk::look_into(const std::string& folder) {
     if (failure.whole) {
         failure_ = std::move(failure);
     } else {
-        refuse(folder, std::move(failure));
+        refuse(folder, failure);
     }
 }
 

@@ -53,6 +53,15 @@ TEST_F(ImportSet, ASetFileSaysOrderAndAttractTexts) {
     EXPECT_EQ(installed(kiosk).attract, texts) << "left out, they stay";
 }
 
+TEST_F(ImportSet, NamesTheFileOnce) {
+    museum.put_exhibit(stick, "order = []\nonyl = true\n", 1);
+    const ImportReport report = import();
+    EXPECT_TRUE(report.reason.starts_with("exhibit.toml:2: ")) << report.reason;
+    EXPECT_TRUE(line_of(report, "exhibit.toml").reason.starts_with("line 2: "));
+    stick.take_away("exhibit.toml.minisig");
+    EXPECT_TRUE(line_of(import(), "exhibit.toml").reason.starts_with("it is not signed"));
+}
+
 TEST_F(ImportSet, APackThatIsRefusedOnTheWayTearsTheSet) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("closed/b.fspack", museum.pack("b", 1));
