@@ -258,11 +258,11 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
         } else if (today && trusted.until && *today > *trusted.until) {
             refusal =
                 refused(SignatureFault::KeyEnded,
-                        fmt::format("it is signed with the key {}, whose last day was {}, and the clock here "
-                                    "says {}; sign it with a newer key, or set the clock right",
+                        fmt::format("it is signed with the key {}, whose last day was {}, and here it is {}; "
+                                    "sign it with a newer key, or set the clock right",
                                     name, text_of_day(*trusted.until), text_of_day(*today)));
         } else {
-            return Signer{trusted.name, read->serial, std::string(read->trusted_comment)};
+            return Signer{trusted.name, read->serial, std::string(read->trusted_comment), trusted.key};
         }
     }
     return refusal;
