@@ -1,8 +1,10 @@
 #include "firmware_host/display/kms_card.h"
 
+#include "firmware_host/display/atomic_kms.h"
 #include "firmware_host/display/connected_elsewhere.h"
 #include "firmware_host/display/kms_handles.h"
 #include "firmware_host/display/kms_properties.h"
+#include "firmware_host/display/legacy_kms.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -146,6 +148,23 @@ CardSeen KmsCard::look(bool thoroughly) const {
         seen.connectors.push_back(std::move(one));
     }
     return seen;
+}
+
+CardSeen look_for_projector(const KmsCard& card, OtherCards* others, const OutputRequest& request,
+                            bool thoroughly) {
+    CardSeen seen = card.look(thoroughly);
+    if (others != nullptr && seen.state == CardState::There && choose_connector(seen, request) == nullptr &&
+        others->have_projector()) {
+        seen.state = CardState::Elsewhere;
+    }
+    return seen;
+}
+
+std::unique_ptr<KmsDevice> make_kms_device(const KmsCard& card) {
+    if (card.is_atomic()) {
+        return std::make_unique<AtomicKms>(card);
+    }
+    return std::make_unique<LegacyKms>(card);
 }
 
 bool take_screen(int card) {

@@ -73,7 +73,7 @@ struct OutputRequest {
     double refresh_hz = 0.0; ///< 0 = any
     bool force = false; ///< use the mode even where the projector does not name it, and light the connector
                         ///< named even where it says that nothing is connected
-    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides
+    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides; 0 = any
     int picture_height = 0;
     double picture_hz = 60.0;
 };
