@@ -1,7 +1,7 @@
 # What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
-install(FILES systemd/frustumscreen.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-safe DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
     systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
     DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)
 foreach(unit frustumscreen-import@.service frustumscreen-import-refused@.service) # the same sandbox for both

@@ -100,4 +100,7 @@ enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTh
 /// Makes a timing where the projector's EDID has none; its clock is 0 if none can be made.
 [[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);
 
+/// Gives each projector that is there and names no mode, because its EDID is missing, those that most take.
+void add_usual_modes(CardSeen& card);
+
 } // namespace frustumscreen

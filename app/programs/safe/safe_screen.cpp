@@ -6,16 +6,6 @@
 
 namespace frustumscreen {
 
-void add_usual_modes(CardSeen& seen) {
-    for (ConnectorSeen& connector : seen.connectors) {
-        if (connector.plugged == Plugged::Yes && connector.modes.empty()) {
-            connector.modes = {make_mode(1280, 720, 60.0), make_mode(1920, 1080, 60.0),
-                               make_mode(1024, 768, 60.0)};
-            connector.modes.front().preferred = true;
-        }
-    }
-}
-
 Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
                                                      std::vector<std::string_view> languages) {
     Result<KmsCard> card = KmsCard::open(name, {});

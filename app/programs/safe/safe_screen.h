@@ -39,8 +39,4 @@ private:
     std::optional<CardSeen> seen_;
 };
 
-/// A projector without an EDID names no mode, or some that the kernel guessed: where there are none, these are tried, which most
-/// projectors take.
-void add_usual_modes(CardSeen& seen);
-
 } // namespace frustumscreen

@@ -87,12 +87,8 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
             if (!on) {
                 return tl::unexpected<Error>(on.error());
             }
-            teller.tell(screen->state());
-            if (*on) {
-                if (const Result<void> said = say_alive(arguments.alive, ++shown); !said) {
-                    teller.tell(said.error().message); // the picture matters more
-                }
-            }
+            const Result<void> said = *on ? say_alive(arguments.alive, ++shown) : Result<void>();
+            teller.tell(said ? screen->state() : said.error().message); // the picture goes on all the same
             fed = *on || !screen->lit(); // a lit projector that takes no pictures is what the watchdog is for
         }
         teller.ready();
