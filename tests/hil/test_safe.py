@@ -1,8 +1,8 @@
 """The safe picture: the exhibit gives it the screen, it follows the projector and its reason, and gives the screen back."""
 
+import pathlib
 import subprocess
 import tempfile
-import pathlib
 
 import screen
 from bench import CONNECTOR, HEIGHT, UNIT, WIDTH, eventually
@@ -25,25 +25,26 @@ class Safe(HilTest):
         self.bench.machine.write(REASON, FIRST)
         self.bench.machine.check(f"systemctl start {SAFE}")
 
-    def drawn(self, reason):
+    def drawn(self, reason, width=WIDTH, height=HEIGHT):
         """What the program draws on this machine, but for the last line: that says how long the computer runs."""
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "reason").write_text(reason, encoding="utf-8")
             subprocess.run([self.bench.program.parent / "frustumscreen-safe", "--png", f"{folder}/safe.png",
-                            "--size", f"{WIDTH}x{HEIGHT}", "--reason", f"{folder}/reason"], check=True)
+                            "--size", f"{width}x{height}", "--reason", f"{folder}/reason"], check=True)
             picture = screen.read_png(f"{folder}/safe.png")
         rows = screen.lit(picture)
         last = max(y for y, row in enumerate(rows) if row)
         while rows[last]:
             last -= 1
-        return picture.rgb[3 * WIDTH : 3 * WIDTH * last]
+        return picture.rgb[3 * width : 3 * width * last]
 
-    def assert_shown(self, reason):
-        meant = self.drawn(reason)
+    def assert_shown(self, reason, width=WIDTH, height=HEIGHT):
+        meant = self.drawn(reason, width, height)
 
         def shown():
             picture = self.bench.screendump()
-            return (picture.width, picture.height) == (WIDTH, HEIGHT) and picture.rgb[3 * WIDTH : 3 * WIDTH + len(meant)] == meant
+            begin = 3 * width  # the first row has the code
+            return (picture.width, picture.height) == (width, height) and picture.rgb[begin : begin + len(meant)] == meant
 
         eventually(shown, SHOWN_S, "its words are not on the screen as the program draws them")
         first = eventually(lambda: (self.bench.probe(),), SHOWN_S, "no code")[0]
@@ -95,3 +96,24 @@ class Safe(HilTest):
         self.bench.machine.check(f"kill -STOP {process}")
         eventually(lambda: self.process() not in (0, process), WATCHDOG_S, "systemd does not restart it")
         self.assert_shown(FIRST)
+
+    @long
+    def test_projector_at_another_card_and_its_modes(self):
+        machine = self.bench.machine
+        self.assert_shown(FIRST)
+        viewer = self.bench.second_viewer()
+        self.addCleanup(setattr, self.bench, "looked_at", "screen")
+        self.addCleanup(machine.run, f"systemctl stop {SAFE}; modprobe -r virtio_gpu")
+        self.addCleanup(viewer.close)
+        machine.check(f"echo off > {CONNECTOR}; modprobe virtio_gpu")
+        self.bench.looked_at = "second"
+        self.assert_shown(FIRST)
+        process = self.process()
+        for width, height in ((800, 600), (600, 800), (WIDTH, HEIGHT)):
+            viewer.resize(width, height)
+            self.assert_shown(FIRST, width, height)
+        viewer.resize(0, 0)
+        self.says("no projector is connected")
+        viewer.resize(WIDTH, HEIGHT)
+        self.assert_shown(FIRST)
+        self.assertEqual(self.process(), process, "it was restarted")
