@@ -46,11 +46,10 @@ Result<std::unique_ptr<ScanoutPair>> SafeScanout::make(int card, PixelSize size,
 FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
     Framebuffer& framebuffer = framebuffers_.at(static_cast<std::size_t>(which));
     DumbBuffer& buffer = framebuffer.buffer;
-    if (buffer.map()) { // only for now: what is mapped counts as this process's memory
-        if (framebuffer.drawn != picture_.text) {
-            draw(buffer);
-            framebuffer.drawn = picture_.text;
-        }
+    if (framebuffer.drawn != picture_.text && draw(buffer)) {
+        framebuffer.drawn = picture_.text;
+    }
+    if (buffer.map()) {
         std::array<std::uint8_t, probe_pixels> corner{};
         for (int k = 0; k < probe_pixels; ++k) {
             corner.at(static_cast<std::size_t>(k)) = probe_grey(picture_.code, k);
@@ -62,7 +61,7 @@ FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
     return buffer.shown();
 }
 
-void SafeScanout::draw(const DumbBuffer& buffer) const {
+bool SafeScanout::draw(DumbBuffer& buffer) const {
     const SafePage page = lay_out_safe_page(size_.width, size_.height, picture_.text, picture_.languages);
     const auto width = static_cast<std::size_t>(size_.width);
     std::vector<std::uint8_t> greys;
@@ -71,10 +70,15 @@ void SafeScanout::draw(const DumbBuffer& buffer) const {
         const auto rows = static_cast<std::size_t>(std::min(rows_at_once, size_.height - y));
         greys.resize(rows * width);
         draw_safe_rows(page, y, greys);
+        if (!buffer.map()) {
+            return false;
+        }
         for (std::size_t k = 0; k < rows; ++k) {
             write_row(buffer, y + static_cast<int>(k), std::span(greys).subspan(k * width, width), row);
         }
+        buffer.unmap(); // what was written counts as this process's memory for as long as it is mapped
     }
+    return true;
 }
 
 } // namespace frustumscreen

@@ -40,7 +40,7 @@ private:
     };
     SafeScanout(PixelSize size, const SafePicture& picture, DumbBuffer first, DumbBuffer second)
         : size_(size), picture_(picture), framebuffers_{{{std::move(first), {}}, {std::move(second), {}}}} {}
-    void draw(const DumbBuffer& buffer) const;
+    [[nodiscard]] bool draw(DumbBuffer& buffer) const;
 
     PixelSize size_;
     const SafePicture& picture_;
