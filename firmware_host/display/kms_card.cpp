@@ -61,8 +61,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
     Result<KmsCard> best =
-        fail(ErrorKind::DeviceLost,
-             fmt::format("display: no graphics card in {}; load its driver, or run with --headless", folder));
+        fail(ErrorKind::DeviceLost, fmt::format("display: no graphics card in {}; load its driver", folder));
     CardRank best_rank{};
     const std::vector<std::string> paths = card_paths();
     for (const std::string& path : paths) {
@@ -87,7 +86,7 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
         const bool refused = errno == EACCES || errno == EPERM;
         return fail(refused ? ErrorKind::BadConfiguration : ErrorKind::DeviceLost,
                     fmt::format("display: {} cannot be opened: {}; {}", path, std::strerror(errno),
-                                refused ? "the exhibit's user must be in the group video"
+                                refused ? "this user must be in the group video"
                                         : "is it the card's name, and is its driver loaded?"));
     }
     KmsCard card(file, path);

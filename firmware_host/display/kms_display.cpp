@@ -11,7 +11,11 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
                                                        const OutputRequest& request) {
     Result<KmsCard> card = KmsCard::open(card_name, request);
     if (!card) {
-        return tl::unexpected<Error>(card.error());
+        Error error = card.error();
+        if (error.kind == ErrorKind::DeviceLost && card_name.empty()) {
+            error.message += ", or run with --headless";
+        }
+        return tl::unexpected<Error>(std::move(error));
     }
     if (!take_screen(card->file())) {
         return fail(
