@@ -1,7 +1,9 @@
 # What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-watchdog DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
-install(FILES systemd/frustumscreen.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-watchdog frustumscreen-safe
+    DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service
+    systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
     systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
     systemd/frustumscreen-watchdog.service systemd/frustumscreen-step@.path systemd/frustumscreen-step@.service
     DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)

@@ -248,5 +248,36 @@ TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
     EXPECT_TRUE(refused.presenter.settled());
 }
 
+TEST(Presenter, APictureWithoutASizeIsDrawnInThePreferredModesSize) {
+    Exhibit exhibit{OutputRequest{}};
+    exhibit.kms.scales = true; // it would scale one that has a size
+    ConnectorSeen projector = a_projector();
+    projector.modes = {a_mode(640, 480, 60.0), a_mode(1920, 1080, 60.0, true)};
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(2);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{1920, 1080}));
+    EXPECT_EQ(exhibit.kms.screen->place, (PixelRectangle{0, 0, 1920, 1080}));
+    projector.modes.pop_back();
+    exhibit.presenter.connected(a_card({projector}));
+    exhibit.frames(3);
+    EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{640, 480}));
+}
+
+TEST(Presenter, WhoPresentsRarelyWaitsForTheFlip) {
+    Exhibit exhibit;
+    EXPECT_FALSE(exhibit.presenter.wait_until_shown()) << "there is no projector";
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frame();
+    EXPECT_TRUE(exhibit.presenter.wait_until_shown());
+    const FramebufferId before = exhibit.kms.screen->framebuffer;
+    exhibit.frame();
+    EXPECT_TRUE(exhibit.presenter.wait_until_shown());
+    EXPECT_NE(exhibit.kms.screen->framebuffer, before);
+    exhibit.kms.hangs = true;
+    exhibit.frame();
+    EXPECT_FALSE(exhibit.presenter.wait_until_shown());
+}
+
 } // namespace
 } // namespace frustumscreen
