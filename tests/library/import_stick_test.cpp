@@ -78,6 +78,7 @@ TEST_F(ImportStick, APackWhoseInstalledFileIsDamagedIsCopiedAgain) {
         EXPECT_NE(line_of(report, "a.fspack").reason.find("damaged or gone"), std::string::npos) << k;
         EXPECT_EQ(line_of(report, "again.fspack").outcome, ImportOutcome::AlreadyThere) << k;
         EXPECT_EQ(report.set_number, k + 2) << "else the exhibit would not open it again";
+        ASSERT_TRUE(kiosk.content(file)) << k;
         EXPECT_EQ(**kiosk.content(file), whole);
     }
     EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::AlreadyThere);
