@@ -91,7 +91,7 @@ TEST_F(KeptFiles, RubbishIsAKioskWithoutAPast) {
 }
 
 Fault fault(const std::string& detail) {
-    return {"2026-01-01T10:00:00Z", seconds(12), Cause::NoPicture, Step::RestartExhibit, detail};
+    return {"2026-01-01T10:00:00Z", seconds(12), Cause::NoPicture, Step::RestartExhibit, detail, {}};
 }
 
 TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
@@ -132,6 +132,20 @@ TEST_F(KeptFiles, FaultsAreWrittenAtMostOnceAMinute) {
     book.enter(fault("d"));
     book.keep(start_ + seconds(61), true);
     EXPECT_NE(content("faults").find("; d"), std::string::npos) << "at once, before a reboot";
+}
+
+TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
+    FaultBook book(folder_ / "faults");
+    book.enter(fault("a"));
+    EXPECT_FALSE(book.latest()[0].helped.has_value());
+    book.enter(fault("b"));
+    EXPECT_EQ(book.latest()[0].helped, false);
+    book.note_good();
+    Fault down = fault("");
+    down.cause.reset();
+    book.enter(down);
+    EXPECT_EQ(book.latest()[1].helped, true);
+    EXPECT_FALSE(book.latest()[2].helped.has_value());
 }
 
 TEST_F(KeptFiles, OrdersAreFiles) {

@@ -58,8 +58,9 @@ def main():
         time.sleep(0.1)
         status = json.loads((folder / "run/status.json").read_text(encoding="utf-8"))
         assert status["mode"] == "built_in" and status["step"]["name"] == "built_in", status
+        assert status["step"]["cause"] == "keeps_ending" and status["reboots_today"] == 0, status
         fault = status["faults"][0]
-        assert fault["cause"] == "keeps_ending" and fault["detail"] == "exit-code exited 1", fault
+        assert fault["cause"] == "keeps_ending" and fault["detail"] == "exit-code exited 1" and fault["helped"] is None, fault
         assert b"keeps_ending -> built_in" in (folder / "state/faults").read_bytes()
     wrong = subprocess.run([PROGRAM, "--start-patience", "x"], capture_output=True, text=True, check=False)
     assert wrong.returncode == 2 and wrong.stderr, wrong

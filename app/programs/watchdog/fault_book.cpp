@@ -52,12 +52,21 @@ FaultBook::FaultBook(const std::filesystem::path& file)
 
 void FaultBook::enter(Fault fault) {
     waiting_.push_back(line_of(next_++, fault));
+    if (!latest_.empty() && !latest_.back().helped && fault.cause) {
+        latest_.back().helped = false;
+    }
     latest_.push_back(std::move(fault));
     if (waiting_.size() > most_waiting) {
         waiting_.pop_front();
     }
     if (latest_.size() > most_latest) {
         latest_.pop_front();
+    }
+}
+
+void FaultBook::note_good() {
+    if (!latest_.empty() && !latest_.back().helped) {
+        latest_.back().helped = true;
     }
 }
 

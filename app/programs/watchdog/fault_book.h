@@ -24,7 +24,8 @@ struct Fault {
     Awake awake{0};
     std::optional<Cause> cause; ///< none: ten good minutes
     Step step = Step::RestartExhibit;
-    std::string detail; ///< what else is known, a few words
+    std::string detail;         ///< what else is known, a few words
+    std::optional<bool> helped; ///< ten good minutes came of it, or another step had to; none: not known yet
 };
 
 class FaultBook {
@@ -37,7 +38,10 @@ public:
 
     explicit FaultBook(const std::filesystem::path& file);
 
+    /// The step before it, unless it led down, did not help.
     void enter(Fault fault);
+    /// Ten good minutes have come of the latest step.
+    void note_good();
     /// Writes what waits, if it is time.
     void keep(MonotonicTime now, bool at_once);
     /// Of this run of the program; the latest is the last.

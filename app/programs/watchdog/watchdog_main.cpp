@@ -70,7 +70,12 @@ public:
         Means means = view_.means();
         means.reboot = memory_.can_write_now(now);
         const Awake awake = std::max(memory_.remembered(since_boot()).awake, ladder_.memory().awake);
+        const bool was_in_episode = ladder_.memory().cause.has_value();
         const std::optional<Act> act = ladder_.look(awake, seen, means);
+        if (was_in_episode && !ladder_.memory().cause && seen.lit && !seen.trouble) {
+            faults_.note_good();
+        }
+        trouble_since_ = seen.trouble ? trouble_since_.value_or(now) : std::optional<MonotonicTime>{};
         if (act) {
             take(*act, now);
         }
@@ -82,7 +87,7 @@ public:
 private:
     void take(const Act& act, MonotonicTime now) {
         const std::string_view cause = act.cause ? sentence_of(*act.cause) : "ten good minutes";
-        faults_.enter({wall_clock_text(), ladder_.memory().awake, act.cause, act.step, view_.last_end()});
+        faults_.enter({wall_clock_text(), ladder_.memory().awake, act.cause, act.step, view_.last_end(), {}});
         const std::string reason = fmt::format("{}; {}", cause, sentence_of(act.step));
         journal_.note(act.cause ? LogPriority::Warning : LogPriority::Notice, reason,
                       {{"STEP", word_of(act.step)}, {"CAUSE", act.cause ? word_of(*act.cause) : ""}});
@@ -103,6 +108,7 @@ private:
                                     boot_id_,
                                     ladder_.memory(),
                                     seen,
+                                    now - trouble_since_.value_or(now),
                                     ladder_.reboots_within_day(),
                                     outcome.failures,
                                     view_.last_end(),
@@ -127,6 +133,7 @@ private:
     Orders orders_;
     std::filesystem::path report_file_;
     Ladder ladder_;
+    std::optional<MonotonicTime> trouble_since_;
     std::string complaint_;
 };
 

@@ -18,6 +18,7 @@ struct WatchdogReport {
     std::string boot_id;
     LadderMemory memory;
     Seen seen;
+    Nanoseconds trouble_for{0}; ///< how long the trouble has been seen, if there is one
     std::size_t reboots_within_day = 0;
     std::uint32_t failures = 0; ///< of the exhibit's process since the boot
     std::string last_end;       ///< how it failed at last; empty: it did not
