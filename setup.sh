@@ -2,9 +2,9 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
-#                                            window: frustumscreen-window; tests: ./test, with window; fuzz: ./test fuzz;
-#                                            hil: ./test hil
+#   ./setup.sh [window|kiosk|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
+#                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
+#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk
 set -euo pipefail
 
 packages=(
@@ -32,6 +32,7 @@ packages=(
 for part; do
     case "$part" in
         window) packages+=(libsdl2-dev) ;;
+        kiosk) packages+=(fonts-noto-cjk) ;; # the safe picture's words, in all languages
         tests)
             packages+=(
                 libgtest-dev umockdev libumockdev-dev python3
@@ -52,7 +53,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|tests|fuzz|hil]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil]..." >&2
             exit 2
             ;;
     esac

@@ -1,8 +1,11 @@
 # What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
-install(FILES systemd/frustumscreen.service systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-watchdog frustumscreen-safe
+    DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service
+    systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
     systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
+    systemd/frustumscreen-watchdog.service systemd/frustumscreen-step@.path systemd/frustumscreen-step@.service
     DESTINATION /usr/lib/systemd/system COMPONENT kiosk EXCLUDE_FROM_ALL)
 foreach(unit frustumscreen-import@.service frustumscreen-import-refused@.service) # the same sandbox for both
     install(FILES systemd/frustumscreen-import.sandbox.conf
@@ -10,6 +13,13 @@ foreach(unit frustumscreen-import@.service frustumscreen-import-refused@.service
 endforeach()
 install(FILES systemd/70-frustumscreen.rules systemd/71-frustumscreen-stick.rules
     DESTINATION /usr/lib/udev/rules.d COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(PROGRAMS systemd/step DESTINATION /usr/lib/frustumscreen COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.system.conf
+    DESTINATION /usr/lib/systemd/system.conf.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.journald.conf
+    DESTINATION /usr/lib/systemd/journald.conf.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES systemd/frustumscreen.sysctl
+    DESTINATION /usr/lib/sysctl.d RENAME 60-frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.sysusers
     DESTINATION /usr/lib/sysusers.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.tmpfiles

@@ -64,13 +64,19 @@ endfunction()
 
 # The tests of what reads bytes from outside or shares memory between threads: under the sanitizers they run for every change.
 add_custom_target(outside)
+# Those of them that share memory between threads: under the thread sanitizer.
+add_custom_target(threads)
 
-# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE: it belongs to the above.
+# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above.
 function(frustumscreen_test name)
-    cmake_parse_arguments(TEST "OUTSIDE" "" "SOURCES;USES;LABELS" ${ARGN})
-    if(TEST_OUTSIDE)
+    cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;USES;LABELS" ${ARGN})
+    if(TEST_OUTSIDE OR TEST_THREADS)
         list(APPEND TEST_LABELS outside)
         add_dependencies(outside ${name})
+    endif()
+    if(TEST_THREADS)
+        list(APPEND TEST_LABELS threads)
+        add_dependencies(threads ${name})
     endif()
     add_executable(${name} ${TEST_SOURCES})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} GTest::gtest_main)

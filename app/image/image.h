@@ -59,6 +59,8 @@ using ImageFloat = Image<glm::vec3>;
 [[nodiscard]] Bytes encode_png(const Image16& image);
 /// Lossless; empty if WebP cannot hold it (nothing, or more than 16383 texels a side).
 [[nodiscard]] Bytes encode_webp(const Image8& image);
+/// For looking at: `quality` 0 to 100, alpha left out; empty as above.
+[[nodiscard]] Bytes encode_lossy_webp(const Image8& image, float quality);
 /// Errors: not a lossless still picture, damaged, larger than `limit_texels`.
 [[nodiscard]] Result<Image8> decode_webp8(std::span<const std::byte> bytes,
                                           std::int64_t limit_texels = 1 << 28);

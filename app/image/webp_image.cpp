@@ -21,19 +21,14 @@ struct FreePicture {
     }
 };
 
-} // namespace
-
-Bytes encode_webp(const Image8& image) {
-    WebPConfig config;
+/// `import` takes the texels as they lie in the image.
+Bytes encode(const Image8& image, const WebPConfig& config,
+             int (*import)(WebPPicture*, const std::uint8_t*, int)) {
     const std::unique_ptr<WebPPicture, FreePicture> picture(new WebPPicture{});
-    if (WebPConfigInit(&config) == 0 || WebPPictureInit(picture.get()) == 0 || image.texels.empty()) {
+    if (WebPPictureInit(picture.get()) == 0 || image.texels.empty()) {
         return {};
     }
-    config.lossless = 1;
-    config.exact = 1;    // colours stay where alpha is 0: filters mix them in
-    config.method = 4;   // half of the bytes of a quick PNG, 0.4 s a million texels;
-    config.quality = 50; // more effort saves 2 %
-    picture->use_argb = 1;
+    picture->use_argb = config.lossless;
     picture->width = image.width;
     picture->height = image.height;
     WebPMemoryWriter writer;
@@ -41,13 +36,34 @@ Bytes encode_webp(const Image8& image) {
     picture->writer = WebPMemoryWrite;
     picture->custom_ptr = &writer;
     Bytes bytes;
-    if (WebPPictureImportRGBA(picture.get(), &image.texels[0].x, 4 * image.width) != 0 &&
+    if (import(picture.get(), &image.texels[0].x, 4 * image.width) != 0 &&
         WebPEncode(&config, picture.get()) != 0) {
         const auto* begin = reinterpret_cast<const std::byte*>(writer.mem);
         bytes.assign(begin, begin + writer.size);
     }
     WebPMemoryWriterClear(&writer);
     return bytes;
+}
+
+} // namespace
+
+Bytes encode_webp(const Image8& image) {
+    WebPConfig config;
+    if (WebPConfigInit(&config) == 0) {
+        return {};
+    }
+    config.lossless = 1;
+    config.exact = 1;    // colours stay where alpha is 0: filters mix them in
+    config.method = 4;   // half of the bytes of a quick PNG, 0.4 s a million texels;
+    config.quality = 50; // more effort saves 2 %
+    return encode(image, config, WebPPictureImportRGBA);
+}
+
+Bytes encode_lossy_webp(const Image8& image, float quality) {
+    WebPConfig config;
+    return WebPConfigPreset(&config, WEBP_PRESET_PHOTO, quality) != 0
+               ? encode(image, config, WebPPictureImportRGBX)
+               : Bytes();
 }
 
 Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning) {

@@ -69,25 +69,28 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
 
 tl::unexpected<ImportFailure> changed() {
     return failed({ImportRefusal::Altered,
-                   "it was another one when it was read again; put it on another stick", false});
+                   "the stick held something else when it was read again; copy the pack onto another stick",
+                   false});
 }
 
 /// Returns the hash of what was written.
 tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, const StickPack& pack,
                                                     NewFile& to, std::size_t step_bytes,
-                                                    const CopyProgress& progress) {
+                                                    const CopyEars& ears) {
     Bytes step(std::min<std::uint64_t>(step_bytes, pack.pack.bytes));
     Sha256 hash;
     for (std::uint64_t at = 0; at < pack.pack.bytes; at += step.size()) {
         step.resize(std::min<std::uint64_t>(step.size(), pack.pack.bytes - at));
+        const MonotonicTime began = ears.now();
         if (const int fault = from.read(at, step); fault != 0) {
             return failed(stick_failure(pack.path, {fault}));
         }
+        const Nanoseconds reading = ears.now() - began;
         if (const FileResult<void> written = to.append(step); !written) {
             return failed(disk_failure(incoming_file_name, written.error()));
         }
         hash.add(step);
-        if (std::optional<ImportFailure> failure = progress(step.size())) {
+        if (std::optional<ImportFailure> failure = ears.copied(step.size(), reading)) {
             return failed(*std::move(failure));
         }
     }
@@ -99,7 +102,7 @@ tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, con
 
 tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree& library,
                                                    const StickPack& pack, std::size_t step_bytes,
-                                                   const CopyProgress& progress) {
+                                                   const CopyEars& ears) {
     const FileResult<std::unique_ptr<const FileContent>> from = stick.open(pack.path);
     if (!from) {
         return failed(stick_failure(pack.path, from.error()));
@@ -111,7 +114,7 @@ tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree
     if (!to) {
         return failed(disk_failure(incoming_file_name, to.error()));
     }
-    return copy_bytes(**from, pack, **to, step_bytes, progress);
+    return copy_bytes(**from, pack, **to, step_bytes, ears);
 }
 
 std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
@@ -125,7 +128,7 @@ std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
 /// From the copy alone.
 tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, const StickPack& pack,
                                                       const PackTrust& trust, std::size_t step_bytes,
-                                                      const CopyProgress& progress) {
+                                                      const CopyEars& ears) {
     int fault = 0;
     FileResult<WatchedPack> opened = open_watched(library, std::string(incoming_file_name), trust, fault);
     if (!opened) {
@@ -141,13 +144,12 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
     const std::uint64_t all = unpacked_bytes(opened->pack->reader.manifest());
     std::uint64_t unpacked = 0;
     std::uint64_t told = 0;
-    std::optional<ImportFailure> stopped; // the check itself goes on to the part's end
     const Result<void> good = check_parts(opened->pack->reader, [&](std::uint64_t bytes) {
         unpacked += bytes;
         const auto share = static_cast<double>(unpacked) / static_cast<double>(std::max(all, unpacked));
         const auto now = static_cast<std::uint64_t>(share * static_cast<double>(copied.bytes));
-        if (now >= told + std::min<std::uint64_t>(step_bytes, copied.bytes) && !stopped) {
-            stopped = progress(now - told);
+        if (now >= told + std::min<std::uint64_t>(step_bytes, copied.bytes)) {
+            ears.checked(now - told);
             told = now;
         }
     });
@@ -156,9 +158,6 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
     }
     if (!good) {
         return failed({ImportRefusal::Altered, good.error().message, false});
-    }
-    if (stopped) {
-        return failed(*std::move(stopped));
     }
     return copied;
 }
@@ -183,14 +182,12 @@ tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::s
 
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
                                                      const StickPack& pack, const PackTrust& trust,
-                                                     std::size_t step_bytes, const CopyProgress& progress) {
-    const tl::expected<std::string, ImportFailure> hash =
-        copy_file(stick, library, pack, step_bytes, progress);
+                                                     std::size_t step_bytes, const CopyEars& ears) {
+    const tl::expected<std::string, ImportFailure> hash = copy_file(stick, library, pack, step_bytes, ears);
     if (!hash) {
         return failed(hash.error());
     }
-    tl::expected<InstalledPack, ImportFailure> copied =
-        check_copy(library, pack, trust, step_bytes, progress);
+    tl::expected<InstalledPack, ImportFailure> copied = check_copy(library, pack, trust, step_bytes, ears);
     if (!copied) {
         return copied;
     }

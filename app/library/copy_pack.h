@@ -9,6 +9,7 @@
 #include "app/library/stick_pack.h"
 #include "app/pack/signed_pack.h"
 #include "firmware_host/base/file_tree.h"
+#include "firmware_host/base/time.h"
 
 #include <cstdint>
 #include <functional>
@@ -20,13 +21,19 @@ namespace frustumscreen {
 [[nodiscard]] tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
                                                                   const PackTrust& trust);
 
-/// Called now and then with bytes that were copied or checked (each of the pack's bytes counts once for either); a failure ends
-/// the work.
-using CopyProgress = std::function<std::optional<ImportFailure>(std::uint64_t bytes)>;
+/// What is heard while a pack is copied. A failure ends the work.
+struct CopyEars {
+    std::function<MonotonicTime()> now;
+    /// So many bytes were read from the stick and written, and the reading took this long.
+    std::function<std::optional<ImportFailure>(std::uint64_t bytes, Nanoseconds reading)> copied;
+    /// So many bytes of the copy were checked, as a share of the file: all of them in the end.
+    std::function<void(std::uint64_t bytes)> checked;
+};
 
-/// `pack`: as it was looked at. `step_bytes` are copied at a time. Its file and sha256 are filled in. The name is on the disk once the folder of packs was synced.
+/// `pack`: as it was looked at. `step_bytes` are copied at a time. Its file and sha256 are filled in. The name is on the disk once
+/// the folder of packs was synced.
 [[nodiscard]] tl::expected<InstalledPack, ImportFailure>
 copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const PackTrust& trust,
-          std::size_t step_bytes, const CopyProgress& progress);
+          std::size_t step_bytes, const CopyEars& ears);
 
 } // namespace frustumscreen

@@ -3,11 +3,10 @@
 #include "app/pack/pack_text.h"
 #include "app/pack/signature.h"
 #include "app/settings/language_tag.h"
-#include "app/settings/table_reader.h"
+#include "app/settings/toml_file.h"
 #include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
-#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +18,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
-constexpr std::ptrdiff_t most_dots = 5000;
 constexpr std::size_t most_keys = 16; ///< in one file
 constexpr std::size_t most_attract_texts = 64;
 constexpr std::size_t most_key_name_bytes = 100;
@@ -100,34 +97,16 @@ void read_all(TableReader& table, ExhibitFile& file) {
 
 Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
     ReadState state{std::string(exhibit_file_name), {}, {}, std::nullopt};
-    if (text.size() > most_exhibit_file_bytes) {
-        return bad_input(fmt::format("{}: is {} bytes; allowed are at most {}", exhibit_file_name,
-                                     text.size(), most_exhibit_file_bytes));
-    }
-    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
-        return bad_input(
-            located(state.file, static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8"));
-    }
-    if (std::count(text.begin(), text.end(), '.') > most_dots) {
-        return bad_input(fmt::format("{}: holds more than {} dots", exhibit_file_name, most_dots));
-    }
-    try {
-        const toml::table root = toml::parse(text);
-        ExhibitFile file;
+    ExhibitFile file;
+    read_toml(state, text, most_exhibit_file_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         read_all(keys, file);
         keys.finish();
-        if (state.error) {
-            return bad_input(*state.error);
-        }
-        return file;
-    } catch (const toml::parse_error& error) {
-        return bad_input(located(state.file, static_cast<std::uint32_t>(error.source().begin.line),
-                                 fmt::format("is not TOML: {}", printable(error.description(), 200))));
-    } catch (const std::exception& error) {
-        return bad_input(
-            located(state.file, 0, fmt::format("cannot be read: {}", printable(error.what(), 200))));
+    });
+    if (state.error) {
+        return bad_input(*state.error);
     }
+    return file;
 }
 
 } // namespace frustumscreen

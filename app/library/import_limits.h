@@ -12,7 +12,9 @@ struct ImportLimits {
     Nanoseconds look = std::chrono::seconds(60); ///< by the clock, until every pack's signature was looked at
     /// Of the processor, for packs that are refused in the end.
     Nanoseconds refused_work = std::chrono::milliseconds(1500);
-    /// So many bytes must come in each such time while something is copied.
+    int most_refused_copies = 3;        ///< whatever work they are: a pack that is damaged may be large
+    int most_refused_copies_of_one = 2; ///< of the same pack: then it is not tried again
+    /// So many bytes must come in each such time that reads of the stick take.
     Nanoseconds pace = std::chrono::seconds(30);
     std::uint64_t pace_bytes = 4U << 20U;
     std::size_t step_bytes = 128U << 10U;    ///< copied at a time; a stick reads on by itself as far as that

@@ -1,18 +1,26 @@
 #include "app/library/import_stick.h"
 
 #include "app/library/copy_pack.h"
+#include "app/library/copy_stage.h"
 #include "app/library/library_folder.h"
+#include "app/library/next_set_file.h"
 #include "app/library/set_plan.h"
 #include "app/library/signed_exhibit_file.h"
 #include "app/library/stick_walk.h"
+#include "app/library/trusted_keys.h"
 #include "firmware_host/base/printable.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace frustumscreen {
 
 namespace {
+
+constexpr Nanoseconds between_reports = std::chrono::milliseconds(100); ///< while something is copied
 
 using Outcome = tl::expected<void, ImportFailure>;
 
@@ -24,7 +32,7 @@ class Import {
 public:
     Import(FileTree& stick, WritableTree& library, const ImportRequest& request,
            const ImportSurroundings& outside)
-        : stick_(stick), library_(library), request_(request), outside_(outside), began_(outside.now()) {
+        : stick_(stick), library_(library), request_(request), outside_(outside), in_vain_(request.limits) {
         report_.import_id = request.import_id;
         report_.stick = printable(request.stick);
     }
@@ -35,52 +43,54 @@ public:
 private:
     Outcome all();
     Outcome read_library();
+    Outcome remember_day();
     Outcome look();
     Outcome read_exhibit_file(bool is_there);
     Outcome look_at_packs(const std::vector<std::string>& paths);
+    void weigh();
+    Outcome plan();
     Outcome look_for_room();
     Outcome forget_older_sets();
+    Outcome rewrite(SetFile next);
     Outcome copy();
-    Outcome copy_one(StickPack& pack);
     Outcome read_verdict_again();
     Outcome switch_set();
-    [[nodiscard]] bool is_judged(Verdict verdict) const {
-        return verdict_ && verdict_->number == known_.choice.set.number && verdict_->verdict == verdict;
-    }
-    /// Higher than any that the exhibit has judged, though set.txt may have been removed.
-    [[nodiscard]] std::uint64_t next_number() const {
-        return std::max(known_.choice.set.number, verdict_ ? verdict_->number : 0) + 1;
-    }
-    [[nodiscard]] std::optional<ImportFailure> progress(std::uint64_t bytes);
+    void progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
-    [[nodiscard]] PackTrust trust() const { return {keys_, request_.today, request_.unsigned_packs}; }
+    [[nodiscard]] std::optional<std::chrono::sys_days> today() const {
+        return day_here(request_.today, known_.latest_day);
+    }
+    [[nodiscard]] PackTrust trust() const { return {keys_, today(), request_.unsigned_packs}; }
+    [[nodiscard]] const InstalledSet& shown() const { return set_to_show(known_.choice, verdict_); }
     void tell(ImportStage stage);
     void fail_whole(const ImportFailure& failure);
-    void refuse_all(const ImportFailure& failure);
 
     FileTree& stick_;
     WritableTree& library_;
     const ImportRequest& request_;
     const ImportSurroundings& outside_;
-    MonotonicTime began_;
+    MonotonicTime began_{}; ///< looking; the kiosk's own disk is not the stick's fault
     ImportReport report_;
     std::vector<ImportedPack> refused_on_the_way_; ///< of which nothing is known but the name
+    std::optional<ImportedPack> misnamed_;         ///< what may be meant as set file
     std::vector<StickPack> packs_;
     std::vector<InstalledPack> removed_;
     std::optional<ImportedPack> exhibit_line_;
     std::optional<SignedExhibitFile> exhibit_;
     std::vector<TrustedKey> keys_;
+    std::vector<CarriedKey> carried_; ///< with those that the set file brings
     SetFile known_;
     bool may_clear_away_ = false; ///< known_ is on the disk
     bool is_unsure_ = false;      ///< known_ is shown, and may not be on the disk
     std::optional<SetVerdict> verdict_;
     bool shows_another_ = false; ///< since the first look
-    MonotonicTime pace_began_{};
-    std::uint64_t pace_bytes_ = 0;
+    WorkInVain in_vain_;
+    MonotonicTime told_{};
 };
 
 void Import::tell(ImportStage stage) {
     report_.stage = stage;
+    told_ = outside_.now();
     report_.packs.clear();
     if (exhibit_line_) {
         report_.packs.push_back(*exhibit_line_);
@@ -89,6 +99,9 @@ void Import::tell(ImportStage stage) {
         report_.packs.push_back(pack.told);
     }
     report_.packs.insert(report_.packs.end(), refused_on_the_way_.begin(), refused_on_the_way_.end());
+    if (misnamed_) {
+        report_.packs.push_back(*misnamed_);
+    }
     for (const InstalledPack& pack : removed_) {
         report_.packs.push_back(removed_line(pack));
     }
@@ -98,24 +111,16 @@ void Import::tell(ImportStage stage) {
 void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
-    if (!is_unsure_) {
-        refuse_all(failure);
-    }
-    tell(ImportStage::Failed);
-}
-
-/// Nothing is taken, and every line says so.
-void Import::refuse_all(const ImportFailure& failure) {
-    removed_.clear();
-    const ImportFailure of_each{failure.refusal, "nothing of this stick was taken: " + failure.reason, false};
-    for (StickPack& pack : packs_) {
-        if (pack.is_wanted()) {
-            refuse(pack.told, of_each);
+    if (!is_unsure_) { // every line says so
+        const ImportFailure of_each{failure.refusal, "nothing of this stick was taken: " + failure.reason,
+                                    false};
+        removed_.clear();
+        refuse_all(packs_, of_each);
+        if (exhibit_line_ && exhibit_line_->outcome != ImportOutcome::Refused) {
+            refuse(*exhibit_line_, of_each);
         }
     }
-    if (exhibit_line_ && exhibit_line_->outcome != ImportOutcome::Refused) {
-        refuse(*exhibit_line_, of_each);
-    }
+    tell(ImportStage::Failed);
 }
 
 Outcome Import::read_library() {
@@ -135,9 +140,18 @@ Outcome Import::read_library() {
     }
     may_clear_away_ = true;
     clear_away(library_, known_);
-    keys_ = request_.keys;
-    add_carried_keys(known_.keys, keys_);
-    return {};
+    carried_ = known_.keys;
+    keys_ = trusted_keys(request_.keys, carried_);
+    return remember_day();
+}
+
+/// Before the stick is looked at, so that one that is refused counts too. Where no key ends, the day is of no account.
+Outcome Import::remember_day() {
+    SetFile next = known_;
+    next.latest_day = latest_day(known_.latest_day, request_.today);
+    const bool ends =
+        std::any_of(keys_.begin(), keys_.end(), [](const TrustedKey& key) { return key.until.has_value(); });
+    return ends && !(next == known_) ? rewrite(std::move(next)) : Outcome();
 }
 
 Outcome Import::read_exhibit_file(bool is_there) {
@@ -145,19 +159,27 @@ Outcome Import::read_exhibit_file(bool is_there) {
         return {};
     }
     exhibit_line_.emplace().file = exhibit_file_name;
-    tl::expected<SignedExhibitFile, ImportFailure> read =
-        read_signed_exhibit_file(stick_, trust(), known_.exhibit_serial);
+    tl::expected<SignedExhibitFile, ImportFailure> read = read_signed_exhibit_file(stick_, trust(), known_);
+    if (read && read->signer) {
+        Result<std::vector<CarriedKey>> carried =
+            with_brought_keys(carried_, read->file.keys, *read->signer, request_.keys, today());
+        if (carried) {
+            carried_ = *std::move(carried);
+            keys_ = trusted_keys(request_.keys, carried_);
+        } else {
+            read = failed({ImportRefusal::WrongKey,
+                           fmt::format("{}: {}", exhibit_file_name, carried.error().message), true});
+        }
+    }
     if (!read) {
         refuse(*exhibit_line_, read.error());
         return failed(read.error());
     }
     exhibit_ = *std::move(read);
-    add_carried_keys(exhibit_->file.keys, keys_);
     return {};
 }
 
 Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
-    Nanoseconds in_vain{0};
     for (const std::string& path : paths) {
         const Nanoseconds before = outside_.work();
         tl::expected<StickPack, ImportFailure> pack = look_at_pack(stick_, path, trust());
@@ -175,8 +197,8 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
             return failed(pack.error());
         }
         refuse(refused.told, pack.error());
-        in_vain += outside_.work() - before;
-        if (in_vain > request_.limits.refused_work) {
+        in_vain_.add_look(outside_.work() - before);
+        if (in_vain_.is_too_much()) {
             return failed(too_much("the stick holds many files that look like packs and are none; put only "
                                    "packs on it"));
         }
@@ -185,6 +207,7 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
 }
 
 Outcome Import::look() {
+    began_ = outside_.now();
     tell(ImportStage::Found);
     tl::expected<StickFiles, ImportFailure> files =
         walk_stick(stick_, request_.limits, [this] { return is_too_late(); });
@@ -192,7 +215,27 @@ Outcome Import::look() {
         return failed(files.error());
     }
     refused_on_the_way_ = std::move(files->refused);
+    misnamed_ = std::move(files->misnamed);
     return read_exhibit_file(files->has_exhibit_file).and_then([&] { return look_at_packs(files->packs); });
+}
+
+/// Each installed file is read once, however often the stick has its pack.
+void Import::weigh() {
+    std::map<std::string, bool> sound;
+    weigh_packs(packs_, shown(), known_, [&](const InstalledPack& pack) {
+        const auto [file, is_new] = sound.try_emplace(pack.file);
+        if (is_new) {
+            file->second = is_sound(library_, pack, request_.limits.step_bytes);
+        }
+        return file->second;
+    });
+}
+
+/// Whether the set file allows the set at all is known before anything is copied, and looked at again after.
+Outcome Import::plan() {
+    const auto planned = plan_set(shown(), packs_, refused_on_the_way_,
+                                  exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
+    return planned ? Outcome() : failed(planned.error());
 }
 
 Outcome Import::look_for_room() {
@@ -223,9 +266,11 @@ Outcome Import::forget_older_sets() {
     SetFile next = known_;
     next.choice.last_good.reset();
     next.before.reset();
-    if (next == known_ || !is_judged(Verdict::Good)) {
-        return {};
-    }
+    return next == known_ || !is_judged(known_, verdict_, Verdict::Good) ? Outcome()
+                                                                         : rewrite(std::move(next));
+}
+
+Outcome Import::rewrite(SetFile next) {
     may_clear_away_ = false;
     if (const FileResult<void> switched = switch_to(library_, next); !switched) {
         return failed(disk_failure(set_file_name, switched.error()));
@@ -236,95 +281,56 @@ Outcome Import::forget_older_sets() {
     return {};
 }
 
-std::optional<ImportFailure> Import::progress(std::uint64_t bytes) {
-    report_.done_bytes = std::min(report_.done_bytes + bytes, report_.total_bytes);
-    pace_bytes_ += bytes;
-    const MonotonicTime now = outside_.now();
-    if (now - pace_began_ > request_.limits.pace) {
-        if (pace_bytes_ < request_.limits.pace_bytes) {
-            return too_slow();
-        }
-        pace_began_ = now;
-        pace_bytes_ = 0;
+/// A report has a line for each pack, so it is not made for each step.
+void Import::progress(std::uint64_t bytes) {
+    report_.done_bytes = std::min(bytes, report_.total_bytes);
+    if (outside_.now() - told_ >= between_reports) {
+        tell(ImportStage::Copying);
     }
-    tell(ImportStage::Copying);
-    return std::nullopt;
 }
 
 Outcome Import::copy() {
-    pace_began_ = outside_.now();
     if (report_.total_bytes > 0) {
         tell(ImportStage::Copying);
     }
-    std::uint64_t done = 0; // with the packs that are decided on, however far they came
-    for (const std::size_t k : copy_order(packs_)) {
-        StickPack& pack = packs_[k];
-        if (!pack.is_wanted()) {
-            continue;
-        }
-        done += 2 * pack.pack.bytes;
-        weigh_against_taken(pack, packs_);
-        if (pack.is_wanted()) {
-            const Outcome copied = copy_one(pack);
-            if (!copied) {
-                return copied;
-            }
-        }
-        report_.done_bytes = done;
-    }
-    const FileResult<void> synced =
-        done > 0 ? library_.sync_folder(std::string(packs_folder_name)) : FileResult<void>();
-    return synced ? Outcome() : failed(disk_failure(packs_folder_name, synced.error()));
-}
-
-Outcome Import::copy_one(StickPack& pack) {
-    const tl::expected<InstalledPack, ImportFailure> copied =
-        copy_pack(stick_, library_, pack, trust(), request_.limits.step_bytes,
-                  [this](std::uint64_t bytes) { return progress(bytes); });
-    if (copied) {
-        pack.pack = *copied;
-        pack.told.outcome = ImportOutcome::Taken;
-    } else if (copied.error().whole) {
-        return failed(copied.error());
-    } else {
-        refuse(pack.told, copied.error());
-    }
-    return {};
+    CopyStage stage(stick_, library_, request_.limits, outside_, in_vain_,
+                    [this](std::uint64_t bytes) { progress(bytes); });
+    return stage.run(packs_, trust());
 }
 
 /// Copying takes minutes, in which the exhibit may have come to a verdict.
 Outcome Import::read_verdict_again() {
-    const std::uint64_t weighed = set_to_show(known_.choice, verdict_).number;
+    const std::uint64_t weighed = shown().number;
     const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
     if (!verdict) {
         return failed(verdict.error());
     }
     verdict_ = *verdict;
-    shows_another_ = set_to_show(known_.choice, verdict_).number != weighed;
+    shows_another_ = shown().number != weighed;
     return {};
 }
 
 /// Serials and keys are kept even where the set stays as it is.
 Outcome Import::switch_set() {
-    const InstalledSet& shown = set_to_show(known_.choice, verdict_);
-    tl::expected<PlannedSet, ImportFailure> planned =
-        plan_set(shown, packs_, exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
+    tl::expected<PlannedSet, ImportFailure> planned = plan_set(
+        shown(), packs_, refused_on_the_way_, exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
     if (!planned) {
         return failed(planned.error());
     }
     SetFile next = known_;
     remember(next, packs_, exhibit_);
+    next.keys = carried_;
     if (next.serials.size() > most_accepted_serials || next.keys.size() > most_carried_keys) {
         return failed(
             too_much("the kiosk has taken as many different packs and keys as it can remember; call "
                      "a technician"));
     }
-    if (!(planned->set == shown)) {
-        next.choice.last_good = set_to_go_back_to(known_.choice, verdict_);
-        next.before =
-            is_judged(Verdict::Bad) ? shown : known_.choice.set; // on its last trial it is shown now
-        next.choice.set = std::move(planned->set);
-        next.choice.set.number = next_number();
+    // What was mended the exhibit opens only as another set.
+    const bool has_mended = std::any_of(packs_.begin(), packs_.end(), [](const StickPack& pack) {
+        return pack.mends && pack.told.outcome == ImportOutcome::Taken;
+    });
+    if (!(planned->set == shown()) || has_mended) {
+        replace_set(next, std::move(planned->set), verdict_);
     }
     if (!(next == known_)) {
         may_clear_away_ = false; // as long as nobody knows which of the two is on the disk
@@ -347,16 +353,10 @@ Outcome Import::switch_set() {
 }
 
 Outcome Import::all() {
-    // Whether the set file allows the set at all is known before anything is copied, and again after.
-    const auto plan = [this]() -> Outcome {
-        const auto planned = plan_set(set_to_show(known_.choice, verdict_), packs_,
-                                      exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
-        return planned ? Outcome() : failed(planned.error());
-    };
     return read_library()
         .and_then([this] { return look(); })
-        .and_then([&]() -> Outcome {
-            weigh_packs(packs_, set_to_show(known_.choice, verdict_), known_);
+        .and_then([this] {
+            weigh();
             return plan();
         })
         .and_then([this] { return look_for_room(); })

@@ -1,7 +1,9 @@
 #include "app/library/library_folder.h"
 
+#include "app/pack/sha256.h"
 #include "firmware_host/base/file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <set>
 #include <string>
@@ -67,6 +69,23 @@ tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& li
     }
     const Result<SetVerdict> verdict = parse_verdict(text.value_or(""));
     return verdict ? std::optional(*verdict) : std::nullopt;
+}
+
+bool is_sound(FileTree& library, const InstalledPack& pack, std::size_t step_bytes) {
+    const FileResult<std::unique_ptr<const FileContent>> file = library.open(pack.file);
+    if (!file || (*file)->bytes() != pack.bytes) {
+        return false;
+    }
+    Bytes step(std::min<std::uint64_t>(step_bytes, pack.bytes));
+    Sha256 hash;
+    for (std::uint64_t at = 0; at < pack.bytes; at += step.size()) {
+        step.resize(std::min<std::uint64_t>(step.size(), pack.bytes - at));
+        if ((*file)->read(at, step) != 0) {
+            return false;
+        }
+        hash.add(step);
+    }
+    return hash.hex() == pack.sha256;
 }
 
 FileResult<void> settle(WritableTree& library) {

@@ -21,6 +21,9 @@ inline constexpr std::string_view next_set_file_name = "set.txt.new";
 /// Nothing if there is none, or it is none: the exhibit has said nothing then. Errors: it cannot be read.
 [[nodiscard]] tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& library);
 
+/// Whether an installed pack's file is there and has its bytes: all of it is read.
+[[nodiscard]] bool is_sound(FileTree& library, const InstalledPack& pack, std::size_t step_bytes);
+
 /// Makes sure that what set.txt says now is on the disk, and that the folder for packs is.
 [[nodiscard]] FileResult<void> settle(WritableTree& library);
 /// Makes this the set, at once: the old one or this one is there at any time.

@@ -41,6 +41,8 @@ void file_fields(auto& fields, auto& file) {
     fields.object_or_null("last_good", file.choice.last_good, set);
     fields.object_or_null("before", file.before, set);
     fields.whole("exhibit_serial", file.exhibit_serial, no_limit);
+    fields.text("exhibit_sha256", file.exhibit_sha256);
+    fields.text("latest_day", file.latest_day);
     fields.objects("serials", file.serials, most_accepted_serials, [](auto& item, auto& each) {
         item.text("id", each.id);
         item.whole("serial", each.serial, no_limit);
@@ -49,6 +51,8 @@ void file_fields(auto& fields, auto& file) {
         item.text("name", key.name);
         item.text("public_key", key.public_key);
         item.text("until", key.until);
+        item.text("signer", key.signer);
+        item.text("since", key.since);
     });
 }
 
@@ -63,8 +67,9 @@ bool names_are_hashes(const InstalledSet& set) {
 
 bool SetFile::operator==(const SetFile& other) const {
     return choice.set == other.choice.set && choice.last_good == other.choice.last_good &&
-           before == other.before && exhibit_serial == other.exhibit_serial && serials == other.serials &&
-           keys == other.keys;
+           before == other.before && exhibit_serial == other.exhibit_serial &&
+           exhibit_sha256 == other.exhibit_sha256 && latest_day == other.latest_day &&
+           serials == other.serials && keys == other.keys;
 }
 
 bool is_sha256_text(std::string_view text) {

@@ -21,11 +21,13 @@ struct AcceptedSerial {
     std::uint64_t serial = 0;
     [[nodiscard]] bool operator==(const AcceptedSerial&) const = default;
 };
-/// A key that a signed set brought.
+/// A key that a signed set brought; trusted_keys.h says when it counts.
 struct CarriedKey {
     std::string name;
     std::string public_key; ///< as minisign writes it, one line
     std::string until;      ///< its last day, 2030-12-31; empty: it does not end
+    std::string signer{};   ///< public key of the one that signed the set
+    std::string since{};    ///< the day on which it came; empty: there was no clock
     [[nodiscard]] bool operator==(const CarriedKey&) const = default;
 };
 struct SetFile {
@@ -33,6 +35,8 @@ struct SetFile {
     /// What was shown before the last switch: its files stay, as the exhibit may still show them.
     std::optional<InstalledSet> before;
     std::uint64_t exhibit_serial = 0; ///< of the last signed exhibit.toml
+    std::string exhibit_sha256{};     ///< of that file; empty: there was none
+    std::string latest_day{};         ///< that was ever seen (trusted_keys.h); empty: none
     std::vector<AcceptedSerial> serials;
     std::vector<CarriedKey> keys;
     [[nodiscard]] bool operator==(const SetFile&) const;

@@ -28,15 +28,23 @@ void put_in(std::vector<InstalledPack>& set, const InstalledPack& pack) {
     }
 }
 
+tl::unexpected<ImportFailure> torn(const ImportedPack& refused) {
+    return no_set(refused.refusal, fmt::format("{} is refused ({}), and with {} the stick is taken whole or "
+                                               "not at all",
+                                               refused.file, refused.reason, exhibit_file_name));
+}
+
 /// A pack that is refused for another reason than that a newer one is there leaves a hole in the set.
-tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs, const ExhibitFile& file) {
+tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs,
+                                              std::span<const ImportedPack> unread, const ExhibitFile& file) {
+    if (!unread.empty()) {
+        return torn(unread.front());
+    }
     for (const StickPack& each : packs) {
         const std::string name = printable(each.path);
-        if (each.told.outcome == ImportOutcome::Refused && each.told.refusal != ImportRefusal::Older) {
-            return no_set(each.told.refusal,
-                          fmt::format("{} is refused, and {} says that the packs of this stick belong "
-                                      "together; nothing of it was taken",
-                                      name, exhibit_file_name));
+        const bool is_older = each.told.refusal == ImportRefusal::Older && !each.clashes;
+        if (each.told.outcome == ImportOutcome::Refused && !is_older) {
+            return torn(each.told);
         }
         if (names(file.remove, each.pack.id)) {
             return no_set(ImportRefusal::NotAPack,
@@ -83,6 +91,7 @@ tl::expected<void, ImportFailure> apply(const ExhibitFile& file, PlannedSet& pla
 } // namespace
 
 tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std::span<const StickPack> packs,
+                                                 std::span<const ImportedPack> unread,
                                                  const std::optional<ExhibitFile>& file) {
     PlannedSet planned{shown, {}};
     for (const StickPack& each : packs) {
@@ -91,7 +100,7 @@ tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std:
         }
     }
     if (file) {
-        if (const auto good = check_packs(packs, *file); !good) {
+        if (const auto good = check_packs(packs, unread, *file); !good) {
             return tl::unexpected<ImportFailure>(good.error());
         }
         if (const auto good = apply(*file, planned); !good) {

@@ -20,8 +20,11 @@ struct PlannedSet {
     std::vector<InstalledPack> removed;
 };
 
-/// Of `packs` those that are wanted come in. `file`: none: packs alone. Errors: why nothing of the stick is taken.
-[[nodiscard]] tl::expected<PlannedSet, ImportFailure>
-plan_set(const InstalledSet& shown, std::span<const StickPack> packs, const std::optional<ExhibitFile>& file);
+/// Of `packs` those that are wanted come in. `unread`: packs and folders of which nothing is known but that they are refused; any of
+/// them may hold what belongs to the set. `file`: none: packs alone. Errors: why nothing of the stick is taken.
+[[nodiscard]] tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown,
+                                                               std::span<const StickPack> packs,
+                                                               std::span<const ImportedPack> unread,
+                                                               const std::optional<ExhibitFile>& file);
 
 } // namespace frustumscreen

@@ -1,12 +1,11 @@
 #include "app/library/signed_exhibit_file.h"
 
 #include "app/pack/limits.h"
-#include "firmware_host/base/calendar_day.h"
+#include "app/pack/sha256.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <utility>
@@ -41,26 +40,53 @@ tl::expected<std::optional<std::string>, ImportFailure> read_text(FileTree& stic
     return text;
 }
 
-tl::expected<std::uint64_t, ImportFailure>
-serial_of(const std::string& text, const std::optional<std::string>& signature, const PackTrust& trust) {
+/// Nothing: it is unsigned, and allowed.
+tl::expected<std::optional<Signer>, ImportFailure>
+signer_of(const std::string& text, const std::optional<std::string>& signature, const PackTrust& trust) {
     if (!signature && trust.unsigned_packs == UnsignedPacks::Allow) {
-        return 0;
+        return std::nullopt;
     }
-    const tl::expected<Signer, SignatureRefusal> signer = check_signature(
-        as_bytes(text), signature ? std::optional<std::string_view>(*signature) : std::nullopt, trust.keys,
-        trust.today);
+    if (!signature) {
+        return failed({ImportRefusal::Unsigned,
+                       fmt::format("{}: it is not signed, as no {} lies beside it; sign it with "
+                                   "frustumscreen-pack sign, and put both on the stick",
+                                   exhibit_file_name, exhibit_signature_name),
+                       true});
+    }
+    tl::expected<Signer, SignatureRefusal> signer =
+        check_signature(as_bytes(text), *signature, trust.keys, trust.today);
     if (!signer) {
         ImportFailure failure = failure_of(signer.error());
         failure.reason = fmt::format("{}: {}", exhibit_file_name, failure.reason);
         return failed(std::move(failure));
     }
-    return signer->serial;
+    return *std::move(signer);
+}
+
+/// Errors: another one that counts was taken before.
+tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const SetFile& known) {
+    if (exhibit.serial() < known.exhibit_serial) {
+        return failed({ImportRefusal::Older,
+                       fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
+                                   "sign it anew to go back to it",
+                                   exhibit_file_name, exhibit.serial(), known.exhibit_serial),
+                       true});
+    }
+    if (exhibit.signer && exhibit.serial() == known.exhibit_serial &&
+        exhibit.sha256 != known.exhibit_sha256) {
+        return failed({ImportRefusal::Older,
+                       fmt::format("{}: it has the same serial {} as the one that was taken last, and other "
+                                   "contents; sign it again with a higher serial",
+                                   exhibit_file_name, exhibit.serial()),
+                       true});
+    }
+    return {};
 }
 
 } // namespace
 
 tl::expected<SignedExhibitFile, ImportFailure>
-read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, std::uint64_t highest) {
+read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known) {
     const auto text = read_text(stick, exhibit_file_name, most_exhibit_file_bytes);
     if (!text) {
         return failed(text.error());
@@ -69,82 +95,28 @@ read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, std::uint64_t 
     if (!signature) {
         return failed(signature.error());
     }
-    const tl::expected<std::uint64_t, ImportFailure> serial =
-        serial_of(text->value_or(""), *signature, trust);
-    if (!serial) {
-        return failed(serial.error());
+    const std::string bytes = text->value_or("");
+    tl::expected<std::optional<Signer>, ImportFailure> signer = signer_of(bytes, *signature, trust);
+    if (!signer) {
+        return failed(signer.error());
     }
-    if (*serial < highest) {
-        return failed({ImportRefusal::Older,
-                       fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
-                                   "sign it anew to go back to it",
-                                   exhibit_file_name, *serial, highest),
-                       true});
+    SignedExhibitFile exhibit{{}, *std::move(signer), sha256_hex(as_bytes(bytes))};
+    if (const auto counts = weigh(exhibit, known); !counts) {
+        return failed(counts.error());
     }
-    Result<ExhibitFile> file = parse_exhibit_file(text->value_or(""));
+    Result<ExhibitFile> file = parse_exhibit_file(bytes);
     if (!file) {
         return failed({ImportRefusal::NotAPack, file.error().message, true});
     }
-    if (!file->keys.empty() && *serial == 0) {
+    if (!file->keys.empty() && !exhibit.signer) {
         return failed(
             {ImportRefusal::Unsigned,
              fmt::format("{}: it brings keys and is unsigned; sign it with a key that the kiosk knows",
                          exhibit_file_name),
              true});
     }
-    return SignedExhibitFile{*std::move(file), *serial};
-}
-
-void add_carried_keys(const std::vector<CarriedKey>& carried, std::vector<TrustedKey>& keys) {
-    for (const CarriedKey& each : carried) {
-        const Result<PublicKey> key = parse_public_key(each.public_key);
-        const std::optional<std::chrono::sys_days> until = parse_day(each.until);
-        if (key && (until || each.until.empty())) {
-            keys.push_back({each.name, *key, until});
-        }
-    }
-}
-
-void remember(SetFile& known, const std::vector<StickPack>& packs,
-              const std::optional<SignedExhibitFile>& exhibit) {
-    for (const StickPack& each : packs) {
-        if (each.told.outcome != ImportOutcome::Taken || each.pack.id.empty() || each.pack.serial == 0) {
-            continue;
-        }
-        const auto place =
-            std::find_if(known.serials.begin(), known.serials.end(),
-                         [&](const AcceptedSerial& serial) { return serial.id == each.pack.id; });
-        if (place == known.serials.end()) {
-            known.serials.push_back({each.pack.id, each.pack.serial});
-        } else {
-            place->serial = std::max(place->serial, each.pack.serial);
-        }
-    }
-    if (!exhibit) {
-        return;
-    }
-    known.exhibit_serial = std::max(known.exhibit_serial, exhibit->serial);
-    for (const CarriedKey& key : exhibit->file.keys) {
-        const auto place = std::find_if(known.keys.begin(), known.keys.end(), [&](const CarriedKey& other) {
-            return other.public_key == key.public_key;
-        });
-        if (place == known.keys.end()) {
-            known.keys.push_back(key);
-        } else {
-            *place = key;
-        }
-    }
-}
-
-InstalledSet set_to_go_back_to(const SetChoice& choice, const std::optional<SetVerdict>& verdict) {
-    const bool is_judged = verdict && verdict->number == choice.set.number;
-    if (is_judged && verdict->verdict == Verdict::Good) {
-        return choice.set;
-    }
-    if (choice.last_good) {
-        return *choice.last_good;
-    }
-    return is_judged && verdict->verdict == Verdict::Bad ? InstalledSet() : choice.set;
+    exhibit.file = *std::move(file);
+    return exhibit;
 }
 
 } // namespace frustumscreen

@@ -16,6 +16,26 @@ void be_there_already(StickPack& pack, std::string reason) {
     pack.told.reason = std::move(reason);
 }
 
+/// The name stands before the reason already: "exhibit.toml:2: is wrong" becomes "line 2: is wrong".
+std::string without_name(const std::string& reason, const std::string& name) {
+    if (!reason.starts_with(name + ":")) {
+        return reason;
+    }
+    const std::string rest = reason.substr(name.size() + 1);
+    return rest.starts_with(' ') ? rest.substr(1) : "line " + rest;
+}
+
+/// Which of the two is meant nobody can know, so this one is refused, and a set that it belongs to.
+void clash(StickPack& pack, std::string_view other) {
+    pack.clashes = true;
+    refuse(pack.told,
+           {ImportRefusal::Older,
+            fmt::format("it has the same id and the same serial {} as {}, and other contents; sign it again "
+                        "with a higher serial",
+                        pack.pack.serial, other),
+            false});
+}
+
 const InstalledPack* find_same(const InstalledSet& set, const InstalledPack& pack) {
     const auto same = std::find_if(set.packs.begin(), set.packs.end(),
                                    [&](const InstalledPack& each) { return is_same_artifact(each, pack); });
@@ -28,12 +48,20 @@ std::uint64_t highest_serial(const SetFile& known, const std::string& id) {
     return accepted != known.serials.end() && !id.empty() ? accepted->serial : 0;
 }
 
-void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known) {
+bool holds_the_same(const InstalledPack& a, const InstalledPack& b) {
+    return a.serial == b.serial && a.manifest_sha256 == b.manifest_sha256;
+}
+
+void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known, const IsSound& is_sound) {
     const InstalledPack& pack = candidate.pack;
     const InstalledPack* installed = find_same(shown, pack);
-    if (installed != nullptr && installed->serial == pack.serial &&
-        installed->manifest_sha256 == pack.manifest_sha256) {
-        be_there_already(candidate, "it is installed already");
+    if (installed != nullptr && holds_the_same(*installed, pack)) {
+        if (is_sound(*installed)) {
+            be_there_already(candidate, "it is installed already");
+        } else {
+            candidate.mends = true;
+            candidate.told.reason = "its file on the kiosk's disk was damaged or gone, and is replaced";
+        }
         return;
     }
     const std::uint64_t highest = highest_serial(known, pack.id);
@@ -47,12 +75,7 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
                     : "it is unsigned, and a signed one of the same id was taken before; sign it",
                 false});
     } else if (installed != nullptr && pack.serial > 0 && installed->serial == pack.serial) {
-        refuse(candidate.told,
-               {ImportRefusal::Older,
-                fmt::format("it is another pack with the same id and the same serial {} as the "
-                            "one that is installed; sign it with a higher serial",
-                            pack.serial),
-                false});
+        clash(candidate, "the one that is installed");
     }
 }
 
@@ -61,7 +84,7 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
 void refuse(ImportedPack& told, const ImportFailure& failure) {
     told.outcome = ImportOutcome::Refused;
     told.refusal = failure.refusal;
-    told.reason = failure.reason;
+    told.reason = without_name(failure.reason, told.file);
 }
 
 ImportedPack removed_line(const InstalledPack& pack) {
@@ -73,10 +96,11 @@ bool is_same_artifact(const InstalledPack& a, const InstalledPack& b) {
     return a.id == b.id && (!a.id.empty() || a.manifest_sha256 == b.manifest_sha256);
 }
 
-void weigh_packs(std::vector<StickPack>& packs, const InstalledSet& shown, const SetFile& known) {
+void weigh_packs(std::vector<StickPack>& packs, const InstalledSet& shown, const SetFile& known,
+                 const IsSound& is_sound) {
     for (StickPack& pack : packs) {
         if (pack.told.outcome == ImportOutcome::Pending) {
-            weigh(pack, shown, known);
+            weigh(pack, shown, known, is_sound);
         }
     }
 }
@@ -98,14 +122,29 @@ void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
         return;
     }
     const std::string name = printable(taken->path);
-    if (taken->pack.serial == pack.pack.serial && taken->pack.manifest_sha256 == pack.pack.manifest_sha256) {
+    if (holds_the_same(taken->pack, pack.pack)) {
+        pack.is_double = true;
         be_there_already(pack, fmt::format("it is the same as {} on this stick", name));
         return;
     }
-    refuse(pack.told, {ImportRefusal::Older,
-                       fmt::format("{} on this stick has the same id and counts (serial {} against {})", name,
-                                   taken->pack.serial, pack.pack.serial),
-                       false});
+    if (taken->pack.serial == pack.pack.serial) {
+        clash(pack, fmt::format("{} on this stick", name));
+        return;
+    }
+    refuse(pack.told,
+           {ImportRefusal::Older,
+            fmt::format("{} on this stick has the same id and is newer (serial {} against {}), so that one "
+                        "is taken",
+                        name, taken->pack.serial, pack.pack.serial),
+            false});
+}
+
+void refuse_all(std::vector<StickPack>& packs, const ImportFailure& failure) {
+    for (StickPack& pack : packs) {
+        if (pack.is_wanted() || pack.is_double) {
+            refuse(pack.told, failure);
+        }
+    }
 }
 
 } // namespace frustumscreen

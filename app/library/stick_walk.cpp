@@ -1,6 +1,7 @@
 #include "app/library/stick_walk.h"
 
 #include "app/library/exhibit_file.h"
+#include "app/library/stick_pack.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,12 @@ std::string in_small_letters(std::string_view name) {
     return small;
 }
 
+/// exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and signatures of such.
+bool looks_like_set_file(std::string_view name) {
+    const std::string small = in_small_letters(name);
+    return small.starts_with("exhibit") && small.find(".toml") != std::string::npos;
+}
+
 class Walk {
 public:
     Walk(FileTree& stick, const ImportLimits& limits, const std::function<bool()>& too_late)
@@ -38,19 +45,21 @@ private:
     void look_at(const std::string& folder, const FolderEntry& entry);
     bool visit(const std::string& folder, const FolderEntry& entry);
     void look_into(const std::string& folder);
-    void refuse(const std::string& path, ImportFailure failure);
+    void refuse(const std::string& path, const ImportFailure& failure);
 
     FileTree& stick_;
     const ImportLimits& limits_;
     const std::function<bool()>& too_late_;
     StickFiles found_;
     std::vector<std::string> folders_;
+    std::string misnamed_; ///< path; empty: none
     std::size_t entries_ = 0;
     std::optional<ImportFailure> failure_;
 };
 
-void Walk::refuse(const std::string& path, ImportFailure failure) {
-    found_.refused.push_back({printable(path), "", ImportOutcome::Refused, failure.refusal, failure.reason});
+void Walk::refuse(const std::string& path, const ImportFailure& failure) {
+    frustumscreen::refuse(found_.refused.emplace_back(ImportedPack{printable(path), {}, {}, {}, {}}),
+                          failure);
 }
 
 void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
@@ -68,6 +77,8 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         }
     } else if (folder.empty() && entry.name == exhibit_file_name) {
         found_.has_exhibit_file = true;
+    } else if (looks_like_set_file(entry.name) && (misnamed_.empty() || path < misnamed_)) {
+        misnamed_ = path;
     }
 }
 
@@ -88,8 +99,8 @@ bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
             fmt::format("the stick holds more than {} folders; put the packs on a stick of their own",
                         limits_.most_folders));
     } else if (found_.packs.size() + found_.refused.size() > limits_.most_packs) {
-        failure_ = too_much(
-            fmt::format("the stick holds more than {} packs; allowed are fewer", limits_.most_packs));
+        failure_ =
+            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.most_packs));
     }
     return !failure_;
 }
@@ -104,7 +115,7 @@ void Walk::look_into(const std::string& folder) {
     if (failure.whole) {
         failure_ = std::move(failure);
     } else {
-        refuse(folder, std::move(failure));
+        refuse(folder, failure);
     }
 }
 
@@ -118,6 +129,12 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
         return tl::unexpected<ImportFailure>(*failure_);
     }
     std::sort(found_.packs.begin(), found_.packs.end());
+    if (!misnamed_.empty() && !found_.has_exhibit_file) {
+        found_.misnamed = {printable(misnamed_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+                           fmt::format("it is not looked at; a set file is called {}, with its signature {} "
+                                       "beside it, and both lie in the stick's root",
+                                       exhibit_file_name, exhibit_signature_name)};
+    }
     return std::move(found_);
 }
 

@@ -1,6 +1,7 @@
 /// Which files of a stick are looked at: `*.fspack` in its root or one folder down, and the set file in its root.
 ///
 /// Passed over  names that begin with a dot (macOS's `._*` twins among them), recycle bins, what systems keep for themselves.
+/// Misnamed     a set file that is called nearly so, or lies in a folder, is told, where there is none that is called so.
 /// Errors       a stick with too many entries, one that cannot be read or takes too long: the stick as a whole.
 /// Threads      one caller.
 #pragma once
@@ -11,6 +12,7 @@
 #include "firmware_host/base/file_tree.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ namespace frustumscreen {
 struct StickFiles {
     std::vector<std::string> packs;    ///< paths, in the order of their names
     std::vector<ImportedPack> refused; ///< folders that cannot be read, packs that are no files
+    std::optional<ImportedPack>
+        misnamed; ///< of what may be meant as set file, the first by name; none if there is one
     bool has_exhibit_file = false;
 };
 

@@ -11,7 +11,7 @@ namespace frustumscreen::pack_format {
 inline constexpr std::uint64_t most_pack_bytes = std::uint64_t{2} << 30;
 inline constexpr std::uint64_t most_manifest_bytes = 16U << 20;
 inline constexpr std::uint64_t most_part_bytes = std::uint64_t{1} << 29;  ///< one part, unpacked
-inline constexpr std::uint64_t most_parts_bytes = std::uint64_t{1} << 30; ///< all of them, unpacked
+inline constexpr std::uint64_t most_parts_bytes = std::uint64_t{2} << 30; ///< all of them, unpacked
 inline constexpr std::uint64_t most_signature_bytes = 64U << 10;
 inline constexpr std::size_t most_name_bytes = 100;
 

@@ -94,7 +94,7 @@ Result<void> apply_password(Hidden& hidden, std::string_view password, const Rec
 /// Into `record`, which cannot be moved: it is wiped where it stands.
 Result<void> read_record(std::string_view text, Record& record) {
     constexpr std::string_view wanted =
-        "this is not a minisign secret key; frustumscreen-pack keygen makes one";
+        "this is not a minisign secret key; name the file NAME.key that frustumscreen-pack keygen wrote";
     if (text.size() > most_file_bytes) {
         return bad_input(std::string(wanted));
     }

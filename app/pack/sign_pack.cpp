@@ -2,27 +2,47 @@
 
 #include "app/pack/manifest.h"
 #include "app/pack/zip_archive.h"
+#include "firmware_host/base/streamed_file.h"
 
 namespace frustumscreen {
 
 using namespace pack_format;
 
-Result<Bytes> with_signature(std::span<const std::byte> pack, std::string_view signature) {
-    Result<ZipReader> from = ZipReader::open(pack);
+namespace {
+
+Result<void> copy_with_signature(Result<ZipReader> from, ZipWriter& to, std::string_view signature) {
     if (!from) {
         return tl::unexpected<Error>(from.error());
     }
-    ZipWriter to;
     for (const ZipEntry& entry : from->entries()) {
         if (entry.name == signature_name) {
             continue;
         }
         if (const Result<void> copied = to.copy(*from, entry); !copied) {
-            return tl::unexpected<Error>(copied.error());
+            return copied;
         }
     }
     to.add(std::string(signature_name), as_bytes(signature), Packing::Stored);
-    return to.finish();
+    return {};
+}
+
+} // namespace
+
+Result<Bytes> with_signature(std::span<const std::byte> pack, std::string_view signature) {
+    ZipWriter to;
+    return copy_with_signature(ZipReader::open(pack), to, signature).and_then([&] { return to.finish(); });
+}
+
+Result<void> write_with_signature(OpenFile pack, std::string_view signature,
+                                  const std::filesystem::path& file) {
+    return write_file_with(file, [&](int descriptor) {
+        ZipWriter to(descriptor);
+        const Result<void> written =
+            copy_with_signature(ZipReader::open(std::move(pack)), to, signature).and_then([&] {
+                return to.finish_file();
+            });
+        return written ? Result<void>() : at(file.string(), written.error());
+    });
 }
 
 } // namespace frustumscreen

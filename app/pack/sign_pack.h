@@ -1,12 +1,14 @@
 /// Puts a signature into a pack's container.
 ///
-/// Threads  pure; any.
+/// Threads  one caller.
 /// Errors   as ZipReader: the pack must have been verified before.
 #pragma once
 
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/open_file.h"
 #include "firmware_host/base/result.h"
 
+#include <filesystem>
 #include <span>
 #include <string_view>
 
@@ -14,5 +16,8 @@ namespace frustumscreen {
 
 /// The pack with `signature` as its last entry, in place of the one that it may have. All other entries stay as they are packed.
 [[nodiscard]] Result<Bytes> with_signature(std::span<const std::byte> pack, std::string_view signature);
+/// The same from a file into `file`, which may be the same one, by rename and in little memory. Messages begin with its name.
+[[nodiscard]] Result<void> write_with_signature(OpenFile pack, std::string_view signature,
+                                                const std::filesystem::path& file);
 
 } // namespace frustumscreen

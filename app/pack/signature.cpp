@@ -181,8 +181,9 @@ std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
 }
 
 Result<PublicKey> parse_public_key(std::string_view text) {
-    constexpr std::string_view wanted =
-        "this is not a minisign public key; its line has 56 letters and begins with RW";
+    constexpr std::string_view wanted = "this is not a minisign public key; take the file NAME.pub that "
+                                        "frustumscreen-pack keygen wrote, or its "
+                                        "line of 56 letters, which begins with RW";
     if (text.size() > most_public_key_bytes) {
         return bad_input(std::string(wanted));
     }
@@ -257,11 +258,11 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
         } else if (today && trusted.until && *today > *trusted.until) {
             refusal =
                 refused(SignatureFault::KeyEnded,
-                        fmt::format("it is signed with the key {}, whose last day was {}, and the clock here "
-                                    "says {}; sign it with a newer key, or set the clock right",
+                        fmt::format("it is signed with the key {}, whose last day was {}, and here it is {}; "
+                                    "sign it with a newer key, or set the clock right",
                                     name, text_of_day(*trusted.until), text_of_day(*today)));
         } else {
-            return Signer{trusted.name, read->serial, std::string(read->trusted_comment)};
+            return Signer{trusted.name, read->serial, std::string(read->trusted_comment), trusted.key};
         }
     }
     return refusal;

@@ -76,6 +76,7 @@ struct Signer {
     std::string key; ///< its name
     std::uint64_t serial = 0;
     std::string trusted_comment;
+    PublicKey public_key;
 };
 /// `signature`: the bytes of a `.minisig` file; none: Unsigned. `today`: none: no key has ended.
 [[nodiscard]] tl::expected<Signer, SignatureRefusal>

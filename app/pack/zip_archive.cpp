@@ -5,11 +5,13 @@
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <unzip.h>
 #include <zip.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 
 namespace frustumscreen::pack_format {
@@ -53,6 +55,33 @@ struct GrowingBytes final : ArchiveBytes {
     [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
         bytes.resize(std::max<std::size_t>(bytes.size(), offset + in.size()));
         std::memcpy(bytes.data() + offset, in.data(), in.size());
+        return true;
+    }
+};
+
+struct WrittenFile final : ArchiveBytes {
+    explicit WrittenFile(int descriptor) : file(descriptor) {}
+    int file;
+    std::uint64_t end = 0;
+    int fault = 0; ///< errno
+
+    [[nodiscard]] std::uint64_t size() const override { return end; }
+    /// The library only writes, and goes back to write.
+    [[nodiscard]] bool read(std::uint64_t /*offset*/, std::span<std::byte> /*out*/) override { return false; }
+    [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
+        while (!in.empty()) {
+            const ssize_t written = ::pwrite(file, in.data(), in.size(), static_cast<off_t>(offset));
+            if (written < 0 && errno == EINTR) {
+                continue;
+            }
+            if (written <= 0) {
+                fault = written < 0 ? errno : EIO;
+                return false;
+            }
+            offset += static_cast<std::uint64_t>(written);
+            in = in.subspan(static_cast<std::size_t>(written));
+        }
+        end = std::max(end, offset);
         return true;
     }
 };
@@ -204,7 +233,10 @@ Result<void> check_entry(const ZipEntry& entry, const unz_file_info64& info) {
 
 } // namespace
 
-ZipWriter::ZipWriter() : file_(std::make_unique<GrowingBytes>()) {
+ZipWriter::ZipWriter() : ZipWriter(std::make_unique<GrowingBytes>()) {}
+ZipWriter::ZipWriter(int descriptor) : ZipWriter(std::make_unique<WrittenFile>(descriptor)) {}
+
+ZipWriter::ZipWriter(std::unique_ptr<ArchiveBytes> file) : file_(std::move(file)) {
     zlib_filefunc64_def functions = functions_over(*file_);
     zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &functions);
     good_ = zip_ != nullptr;
@@ -256,10 +288,22 @@ Result<void> ZipWriter::copy(ZipReader& from, const ZipEntry& entry) {
     return good ? Result<void>() : from.damaged(entry);
 }
 
-Result<Bytes> ZipWriter::finish() {
+bool ZipWriter::close() {
     const bool closed = zip_ != nullptr && zipClose(zip_, nullptr) == ZIP_OK;
     zip_ = nullptr;
-    if (!good_ || !closed) {
+    return good_ && closed;
+}
+
+Result<void> ZipWriter::finish_file() {
+    if (!close()) {
+        const int fault = static_cast<const WrittenFile&>(*file_).fault;
+        return bad_input(fmt::format("cannot be written: {}", std::strerror(fault != 0 ? fault : EIO)));
+    }
+    return {};
+}
+
+Result<Bytes> ZipWriter::finish() {
+    if (!close()) {
         return fail(ErrorKind::Internal, "the ZIP library could not write the pack in memory");
     }
     return std::move(static_cast<GrowingBytes&>(*file_).bytes);

@@ -1,4 +1,4 @@
-/// A ZIP container: what a pack needs of it and no more. It is written in memory, and read from memory or piece by
+/// A ZIP container: what a pack needs of it and no more. It is written in memory or to a file, and read from memory or piece by
 /// piece from a file.
 ///
 /// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
@@ -31,7 +31,10 @@ enum class Packing { Stored, Deflated };
 /// Dates are fixed, so that the same entries give the same bytes.
 class ZipWriter {
 public:
+    /// In memory.
     ZipWriter();
+    /// Into an empty file that is open for reading and writing; it must outlive the writer.
+    explicit ZipWriter(int descriptor);
     ~ZipWriter();
     ZipWriter(const ZipWriter&) = delete;
     ZipWriter& operator=(const ZipWriter&) = delete;
@@ -41,8 +44,12 @@ public:
     [[nodiscard]] Result<void> copy(ZipReader& from, const ZipEntry& entry);
     /// The archive; call once, last. Errors: Internal, when the library failed on the way.
     [[nodiscard]] Result<Bytes> finish();
+    /// The same for a file. Errors: it could not be written; the system's reason.
+    [[nodiscard]] Result<void> finish_file();
 
 private:
+    explicit ZipWriter(std::unique_ptr<ArchiveBytes> file);
+    [[nodiscard]] bool close();
     std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     bool good_ = true;

@@ -17,10 +17,9 @@ int samples_of(const OfflineOptions& options, const PackDescription& pack) {
     return options.samples > 0 ? options.samples : usual;
 }
 
-} // namespace
-
-Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutline& pack,
-                               const OfflineOptions& options) {
+/// What is needed of a pack for the options.
+Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pack) {
+    const auto& [settings, options] = setup;
     SceneRequest request;
     request.technique = options.technique;
     request.live = false;
@@ -38,12 +37,39 @@ Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutlin
     return plan;
 }
 
+} // namespace
+
+Result<OfflineScene> load_offline(const std::filesystem::path& file,
+                                  const std::function<Result<OfflineSetup>(const PackOutline&)>& setup_of) {
+    std::optional<OfflineSetup> setup;
+    ScenePlan plan;
+    Result<VerifiedPack> pack =
+        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            Result<OfflineSetup> made = setup_of(outline);
+            if (!made) {
+                return tl::unexpected<Error>(made.error());
+            }
+            Result<ScenePlan> planned = plan_offline(*made, outline);
+            if (!planned) {
+                return tl::unexpected<Error>(planned.error());
+            }
+            setup = *std::move(made);
+            plan = *std::move(planned);
+            return plan.levels;
+        });
+    if (!pack) {
+        return tl::unexpected<Error>(pack.error());
+    }
+    return OfflineScene{*std::move(setup), std::move(plan), *std::move(pack)};
+}
+
 OfflineRenderer::OfflineRenderer(const ScenePlan& plan)
     : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop),
       light_(plan.light) {}
 
-Result<std::unique_ptr<OfflineRenderer>>
-OfflineRenderer::create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options) {
+Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineScene& scene) {
+    const auto& [setup, plan, pack] = scene;
+    const OfflineOptions& options = setup.options;
     std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
     const int width = made->projector_.width;
     const int height = made->projector_.height;

@@ -14,6 +14,8 @@
 #include "app/settings/settings.h"
 #include "firmware_host/display/surfaceless_display.h"
 
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,9 +35,20 @@ struct OfflineOptions {
     std::vector<KnownView> views;
 };
 
-/// What is needed of a pack for the options, from its outline.
-[[nodiscard]] Result<ScenePlan> plan_offline(const CheckedSettings& settings, const PackOutline& pack,
-                                             const OfflineOptions& options);
+struct OfflineSetup {
+    CheckedSettings settings;
+    OfflineOptions options;
+};
+/// A pack's file, of which just what its pictures need was read.
+struct OfflineScene {
+    OfflineSetup setup;
+    ScenePlan plan;
+    VerifiedPack pack;
+};
+/// `setup_of` says how it is drawn, from its outline.
+[[nodiscard]] Result<OfflineScene>
+load_offline(const std::filesystem::path& file,
+             const std::function<Result<OfflineSetup>(const PackOutline&)>& setup_of);
 
 struct OfflinePicture {
     Image8 colour;
@@ -45,10 +58,8 @@ struct OfflinePicture {
 
 class OfflineRenderer {
 public:
-    /// `plan`: made by plan_offline for the same options; the pack must have its levels; it need not outlive
-    /// the call.
-    [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>>
-    create(const VerifiedPack& pack, const ScenePlan& plan, const OfflineOptions& options);
+    /// The scene need not outlive the call.
+    [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
 
     [[nodiscard]] OfflinePicture draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m);
 

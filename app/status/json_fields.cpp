@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t longest_text = 300; ///< bytes; the exhibit's own sentences have 240 at most
 
+std::string text_of(const nlohmann::json& value) {
+    return printable(value.get_ref<const std::string&>(), longest_text);
+}
+
 } // namespace
 
 const nlohmann::json* JsonFields::find(const char* key) const {
@@ -22,9 +26,7 @@ const nlohmann::json* JsonFields::find(const char* key) const {
 
 std::string JsonFields::text(const char* key) const {
     const nlohmann::json* value = find(key);
-    return value != nullptr && value->is_string()
-               ? printable(value->get_ref<const std::string&>(), longest_text)
-               : std::string();
+    return value != nullptr && value->is_string() ? text_of(*value) : std::string();
 }
 
 std::optional<double> JsonFields::number(const char* key) const {
@@ -49,6 +51,16 @@ std::vector<JsonFields> JsonFields::list(const char* key) const {
         }
     }
     return items;
+}
+
+std::vector<std::string> JsonFields::texts(const char* key) const {
+    std::vector<std::string> texts;
+    for (const JsonFields& item : list(key)) {
+        if (item.value_->is_string()) {
+            texts.push_back(text_of(*item.value_));
+        }
+    }
+    return texts;
 }
 
 } // namespace frustumscreen

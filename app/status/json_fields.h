@@ -24,6 +24,8 @@ public:
     [[nodiscard]] std::optional<double> number(const char* key) const;
     [[nodiscard]] std::optional<bool> flag(const char* key) const;
     [[nodiscard]] std::vector<JsonFields> list(const char* key) const;
+    /// Those of a list that are texts.
+    [[nodiscard]] std::vector<std::string> texts(const char* key) const;
 
 private:
     explicit JsonFields(const nlohmann::json* value) : value_(value) {}

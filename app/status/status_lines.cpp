@@ -217,14 +217,28 @@ std::string watchdog_line(const StatusDocument& watchdog) {
 }
 
 std::string fault_line(const JsonFields& fault) {
-    const std::string step = fault.text("step");
-    std::string ending = step.empty() ? std::string() : "; tried " + step;
-    if (const std::optional<bool> helped = fault.flag("helped"); helped && !step.empty()) {
-        ending += *helped ? ", which helped" : ", which did not help";
+    std::string text = fmt::format("{} {}", fault.text("at"), or_else(fault.text("sentence"), "?"));
+    if (const std::string done = or_else(fault.text("done"), fault.text("step").c_str()); !done.empty()) {
+        text += ": " + done;
+        if (const std::optional<bool> helped = fault.flag("helped")) {
+            text += *helped ? ", which helped" : ", which did not help";
+        }
     }
-    const std::string sentence = fault.text("sentence");
-    return fmt::format("{} {}{}", fault.text("at"), sentence.empty() ? fault.text("cause") : sentence,
-                       ending);
+    const std::string detail = fault.text("detail");
+    return detail.empty() ? text : fmt::format("{} ({})", text, detail);
+}
+
+/// What it sees and does nothing about.
+std::string notes_line(const StatusDocument& watchdog) {
+    std::string text;
+    if (watchdog.fresh()) {
+        std::vector<std::string> notes = JsonFields(watchdog.fields).texts("notes");
+        notes.resize(std::min(notes.size(), most_told));
+        for (const std::string& note : notes) {
+            text += (text.empty() ? "" : "; ") + note;
+        }
+    }
+    return text;
 }
 
 void add_faults(Lines& lines, const StatusDocument& watchdog) {
@@ -235,15 +249,15 @@ void add_faults(Lines& lines, const StatusDocument& watchdog) {
     if (faults.empty()) {
         lines.add("last faults", "none");
     }
-    // The newest one comes first, whichever way the file has them: the times are of one form.
-    std::stable_sort(faults.begin(), faults.end(),
-                     [](const JsonFields& a, const JsonFields& b) { return a.text("at") > b.text("at"); });
+    // The newest one comes first, whichever way the file has them. No one sets the clock that it counts by.
+    std::stable_sort(faults.begin(), faults.end(), [](const JsonFields& a, const JsonFields& b) {
+        return a.number("awake_s").value_or(0.0) > b.number("awake_s").value_or(0.0);
+    });
     for (std::size_t k = 0; k < std::min(faults.size(), most_told); ++k) {
         lines.add(k == 0 ? "last faults" : "", fault_line(faults[k]));
     }
 }
 
-/// The exhibit's; of one that says nothing, this program's.
 std::string versions_line(const JsonFields& status, const std::string& system) {
     const JsonFields versions = status.at("versions");
     return versions.there()
@@ -282,6 +296,7 @@ std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional
     if (surroundings != nullptr) {
         lines.add("starts", starts_line(fields, age_s, *surroundings));
         lines.add("watchdog", watchdog_line(surroundings->watchdog));
+        lines.add("machine", notes_line(surroundings->watchdog));
         add_faults(lines, surroundings->watchdog);
     }
     if (const std::optional<double> memory_mib = fields.number("resident_mib")) {

@@ -3,12 +3,11 @@
 #include "app/pack/limits.h"
 #include "app/pack/pack_text.h"
 #include "app/settings/language_tag.h"
-#include "app/settings/table_reader.h"
+#include "app/settings/toml_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
-#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +21,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // as the manifest
-/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
-constexpr std::size_t most_dots = 5000;
 constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
 struct InnerKey {
@@ -143,7 +140,8 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.require(table.has("point"), "point", "is missing; write it as [x, y, z] in the scan's coordinates");
     hotspot.place = table.place("point");
     table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
-    for (auto& [language, text] : labels) {
+    for (auto& [written, text] : labels) {
+        std::string language = written;
         if (!read_language(table, "labels", language)) {
             return;
         }
@@ -155,7 +153,7 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
         table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
         text = std::string(trimmed(text));
         table.require(!text.empty(), "labels", fmt::format("in {} is empty; write what there is", language));
-        hotspot.labels.push_back({language, std::move(text)});
+        hotspot.labels.push_back({std::move(language), std::move(text)});
     }
 }
 
@@ -237,67 +235,12 @@ void refuse_misplaced_key(const toml::table& root, std::span<const std::string> 
     }
 }
 
-/// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
-std::size_t end_of_text(std::string_view text, std::size_t at) {
-    const auto after = [&](std::string_view end, std::size_t from) {
-        const std::size_t found = text.find(end, from);
-        return found == std::string_view::npos ? text.size() : found + end.size();
-    };
-    if (text[at] == '#') {
-        return after("\n", at);
-    }
-    if (text[at] == '\'') {
-        const bool many_lines = text.substr(at, 3) == "'''";
-        return many_lines ? after("'''", at + 3) : std::min(after("'", at + 1), after("\n", at + 1));
-    }
-    if (text[at] != '"') {
-        return at;
-    }
-    const std::string_view quotes = text.substr(at, 3) == "\"\"\"" ? "\"\"\"" : "\"";
-    for (at += quotes.size(); at < text.size(); ++at) {
-        if (text.substr(at, quotes.size()) == quotes) {
-            return at + quotes.size();
-        }
-        if (text[at] == '\n' && quotes.size() == 1) {
-            return at;
-        }
-        at += text[at] == '\\' ? 1 : 0; // and what it escapes
-    }
-    return text.size();
-}
-
-/// Those of keys and numbers; sentences may have as many as they like.
-std::size_t dots_outside_texts(std::string_view text) {
-    std::size_t dots = 0;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = end_of_text(text, at);
-        dots += end == at && text[at] == '.' ? 1 : 0;
-        at = std::max(end, at + 1);
-    }
-    return dots;
-}
-
 } // namespace
 
 Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::filesystem::path& file) {
     ReadState state{printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
-    if (text.size() > largest_file_bytes) {
-        return bad_input(
-            located(state.file, 0,
-                    fmt::format("is {} bytes; allowed are at most {}", text.size(), largest_file_bytes)));
-    }
-    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
-        return bad_input(
-            located(state.file, static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8"));
-    }
-    if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
-        return bad_input(located(
-            state.file, 0,
-            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots)));
-    }
-    try {
-        const toml::table root = toml::parse(text);
-        ArtifactFile read;
+    ArtifactFile read;
+    read_toml(state, text, largest_file_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         refuse_single_tables(root, state);
         refuse_misspelt_tables(root, state);
@@ -305,17 +248,11 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         refuse_misplaced_key(root, keys.known(), state);
         keys.finish();
         keys.require(!read.scan.empty(), "scan", "is missing; name the file of the scan in this folder");
-        if (state.error) {
-            return bad_input(*state.error);
-        }
-        return read;
-    } catch (const toml::parse_error& error) {
-        return bad_input(located(state.file, static_cast<std::uint32_t>(error.source().begin.line),
-                                 fmt::format("is not TOML: {}", printable(error.description(), 200))));
-    } catch (const std::exception& error) {
-        return bad_input(
-            located(state.file, 0, fmt::format("cannot be read: {}", printable(error.what(), 200))));
+    });
+    if (state.error) {
+        return bad_input(*state.error);
     }
+    return read;
 }
 
 Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder) {

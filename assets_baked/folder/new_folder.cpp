@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <system_error>
 
@@ -141,23 +142,29 @@ title = {title}
 # Up to three places of the artifact with a word on each. A point is given in the scan's own coordinates, as every
 # viewer of scans shows them, on the surface or close to it.
 # This scan reaches from {low} to {high}.
+# Its middle stands below; write a point of the surface in its place.
 #[[hotspots]]
 #point = {middle}
 #labels = {{ en = "The handle", de = "Der Henkel" }}
 )";
 
-std::string words_of(const glm::dvec3& v) {
+std::string words_of(glm::dvec3 v, double longest) {
+    for (int axis = 0; axis < 3; ++axis) {
+        v[axis] = std::abs(v[axis]) < 1e-5 * longest ? 0.0 : v[axis]; // 4e-09 says nothing to a person
+    }
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }
 
 } // namespace
 
 std::string new_artifact_text(const ScanFacts& scan, const std::string& title, const std::string& id) {
+    const glm::dvec3 size = scan.high - scan.low;
+    const double longest = std::max({size.x, size.y, size.z});
     return fmt::format(head, fmt::arg("scan", toml_string(scan.file.filename().string())),
                        fmt::arg("id", toml_string(id)), fmt::arg("up", scan.default_up),
-                       fmt::arg("title", toml_string(title)), fmt::arg("low", words_of(scan.low)),
-                       fmt::arg("high", words_of(scan.high)),
-                       fmt::arg("middle", words_of(0.5 * (scan.low + scan.high))));
+                       fmt::arg("title", toml_string(title)), fmt::arg("low", words_of(scan.low, longest)),
+                       fmt::arg("high", words_of(scan.high, longest)),
+                       fmt::arg("middle", words_of(0.5 * (scan.low + scan.high), longest)));
 }
 
 Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {

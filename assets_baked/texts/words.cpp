@@ -1,16 +1,15 @@
 #include "assets_baked/texts/words.h"
 
 #include "app/pack/glyph_runs.h"
+#include "app/settings/toml_file.h"
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/check_text.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
-#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -21,8 +20,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 20;
-/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
-constexpr std::ptrdiff_t most_dots = 5000;
 constexpr std::size_t most_word_bytes = 1000;
 constexpr std::size_t most_named_keys = 5; ///< in one sentence
 
@@ -212,26 +209,17 @@ std::vector<std::string> builtin_word_languages() {
 }
 
 Result<WrittenWords> parse_words(std::string_view toml, const std::string& file) {
-    if (toml.size() > most_file_bytes || std::count(toml.begin(), toml.end(), '.') > most_dots) {
-        return bad_input(fmt::format("{}: has {} bytes; allowed are {}, with {} dots", file, toml.size(),
-                                     most_file_bytes, most_dots));
-    }
-    if (const std::optional<std::size_t> line = line_that_is_not_utf8(toml)) {
-        return bad_input(fmt::format("{}:{}: is not UTF-8; save the file as UTF-8", file, *line));
-    }
-    try {
-        const toml::table root = toml::parse(toml);
-        WrittenWords words;
+    ReadState state{file, {}, {}, std::nullopt};
+    WrittenWords words;
+    read_toml(state, toml, most_file_bytes, [&](const toml::table& root) {
         WordsReader reader(file, words);
         reader.read(root, "");
-        if (reader.error()) {
-            return bad_input(*reader.error());
-        }
-        return words;
-    } catch (const toml::parse_error& error) {
-        return bad_input(fmt::format("{}:{}: is not TOML: {}", file, error.source().begin.line,
-                                     printable(error.description(), 200)));
+        state.error = reader.error();
+    });
+    if (state.error) {
+        return bad_input(*std::move(state.error));
     }
+    return words;
 }
 
 Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& folder,

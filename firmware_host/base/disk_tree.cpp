@@ -42,7 +42,12 @@ public:
         }
         return {};
     }
-    FileResult<void> sync() override { return done(::fsync(file_.number())); }
+    FileResult<void> sync() override {
+        const FileResult<void> synced = done(::fsync(file_.number()));
+        // Who reads it now is to see what the disk has, not what was meant to be written. This is advice: it may fail.
+        static_cast<void>(::posix_fadvise(file_.number(), 0, 0, POSIX_FADV_DONTNEED));
+        return synced;
+    }
 
 private:
     Descriptor file_;

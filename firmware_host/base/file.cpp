@@ -1,6 +1,7 @@
 #include "firmware_host/base/file.h"
 
 #include "firmware_host/base/open_file.h"
+#include "firmware_host/base/streamed_file.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -44,8 +45,10 @@ public:
             }
             bytes = bytes.subspan(static_cast<std::size_t>(written));
         }
-        return ::fsync(descriptor_) == 0;
+        return sync();
     }
+    [[nodiscard]] bool sync() const { return ::fsync(descriptor_) == 0; }
+    [[nodiscard]] int descriptor() const { return descriptor_; }
     [[nodiscard]] bool keep_as(const std::filesystem::path& target) {
         if (::rename(path_.c_str(), target.c_str()) != 0) {
             return false;
@@ -95,6 +98,20 @@ Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     TemporaryFile file(path);
     if (!file.is_open() || !file.write(bytes) || !file.keep_as(path)) {
+        return bad_input(path.string() + ": cannot be written: " + system_reason());
+    }
+    return {};
+}
+
+Result<void> write_file_with(const std::filesystem::path& path,
+                             const std::function<Result<void>(int descriptor)>& write) {
+    TemporaryFile file(path);
+    if (file.is_open()) {
+        if (Result<void> written = write(file.descriptor()); !written) {
+            return written;
+        }
+    }
+    if (!file.is_open() || !file.sync() || !file.keep_as(path)) {
         return bad_input(path.string() + ": cannot be written: " + system_reason());
     }
     return {};

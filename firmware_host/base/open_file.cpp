@@ -59,7 +59,8 @@ Result<OpenFile> OpenFile::open(const std::filesystem::path& path, std::uint64_t
         return bad_input(path.string() + ": cannot be read: " + std::strerror(failed));
     }
     if (!S_ISREG(status.st_mode)) {
-        return bad_input(path.string() + ": this is not a regular file");
+        return bad_input(path.string() + (S_ISDIR(status.st_mode) ? ": this is a folder; name a file"
+                                                                  : ": this is no ordinary file"));
     }
     if (bytes > limit_bytes) {
         return bad_input(path.string() + ": " + std::to_string(bytes) + " bytes; at most " +

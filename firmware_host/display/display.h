@@ -35,7 +35,7 @@ public:
     [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return now + period;
     }
-    /// Reads the first pixels of the top row, at most `code_pixels`, as they are shown now, RGBA codes.
+    /// Reads the first pixels of the top row, at most `probe_pixels`, as they are shown now, RGBA codes.
     /// False: nothing is shown; what was presented is in the framebuffer.
     [[nodiscard]] virtual bool read_shown(std::span<std::byte> /*rgba*/) const { return false; }
     /// What was presented is shown, or there is no screen that could show it.

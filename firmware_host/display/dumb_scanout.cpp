@@ -1,19 +1,13 @@
 #include "firmware_host/display/dumb_scanout.h"
 
-#include "firmware_host/display/kms_framebuffer.h"
+#include "firmware_host/display/dumb_buffer.h"
 #include "firmware_host/display/read_back.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
-
-extern "C" {
-#include <xf86drm.h>
-#include <xf86drmMode.h>
-}
+#include <vector>
 
 namespace frustumscreen {
 
@@ -32,18 +26,10 @@ public:
     [[nodiscard]] bool read(int which, std::span<std::byte> rgba) const override;
 
 private:
-    struct Buffer {
-        std::uint32_t handle = 0;
-        std::uint32_t stride = 0;
-        std::span<std::byte> memory; ///< mapped
-        FramebufferId shown = 0;
-    };
-    [[nodiscard]] bool make(Buffer& buffer) const;
-
     const CardScreen& screen_;
     PixelSize size_;
     std::optional<ReadBack> read_back_;
-    std::array<Buffer, 2> buffers_;
+    std::vector<DumbBuffer> buffers_; ///< two
 };
 
 Result<void> DumbScanoutPair::make() {
@@ -53,59 +39,33 @@ Result<void> DumbScanoutPair::make() {
         return tl::unexpected<Error>(read_back.error());
     }
     read_back_ = std::move(*read_back);
-    for (Buffer& buffer : buffers_) {
-        if (!make(buffer)) {
+    for (int k = 0; k < 2; ++k) {
+        std::optional<DumbBuffer> buffer = DumbBuffer::create(screen_.card(), size_);
+        if (!buffer || !buffer->map()) {
             return fail(
                 ErrorKind::BadConfiguration,
                 fmt::format("the graphics card has no memory for {} x {} pixels", size_.width, size_.height));
         }
+        buffers_.push_back(*std::move(buffer));
     }
     return {};
-}
-
-bool DumbScanoutPair::make(Buffer& buffer) const {
-    std::uint64_t bytes = 0;
-    std::uint64_t offset = 0;
-    if (drmModeCreateDumbBuffer(screen_.card(), static_cast<std::uint32_t>(size_.width),
-                                static_cast<std::uint32_t>(size_.height), 32, 0, &buffer.handle,
-                                &buffer.stride, &bytes) != 0 ||
-        drmModeMapDumbBuffer(screen_.card(), buffer.handle, &offset) != 0) {
-        return false;
-    }
-    void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, screen_.card(),
-                                static_cast<off_t>(offset));
-    if (mapped == MAP_FAILED) {
-        return false;
-    }
-    buffer.memory = {static_cast<std::byte*>(mapped), bytes};
-    buffer.shown = add_framebuffer(screen_.card(), size_, buffer.handle, buffer.stride);
-    return buffer.shown != 0;
 }
 
 DumbScanoutPair::~DumbScanoutPair() {
     const CopyingNow copying(screen_);
     read_back_.reset();
-    for (const Buffer& buffer : buffers_) {
-        remove_framebuffer(screen_.card(), buffer.shown);
-        if (!buffer.memory.empty()) {
-            ::munmap(buffer.memory.data(), buffer.memory.size());
-        }
-        if (buffer.handle != 0) {
-            drmModeDestroyDumbBuffer(screen_.card(), buffer.handle);
-        }
-    }
 }
 
 FramebufferId DumbScanoutPair::fill(int which, const PixelRectangle& part) {
-    const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
+    const DumbBuffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     if (const CopyingNow copying(screen_); copying.current()) {
-        read_back_->fill(screen_.copy(), screen_.picture(), part, buffer.memory, buffer.stride);
+        read_back_->fill(screen_.copy(), screen_.picture(), part, buffer.memory(), buffer.stride());
     }
-    return buffer.shown;
+    return buffer.shown();
 }
 
 bool DumbScanoutPair::read(int which, std::span<std::byte> rgba) const {
-    const std::span<const std::byte> row = buffers_.at(static_cast<std::size_t>(which)).memory;
+    const std::span<const std::byte> row = buffers_.at(static_cast<std::size_t>(which)).memory();
     for (std::size_t k = 0; k + 4 <= std::min(rgba.size(), row.size()); k += 4) {
         rgba[k] = row[k + 2];
         rgba[k + 1] = row[k + 1];

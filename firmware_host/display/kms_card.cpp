@@ -1,8 +1,10 @@
 #include "firmware_host/display/kms_card.h"
 
+#include "firmware_host/display/atomic_kms.h"
 #include "firmware_host/display/connected_elsewhere.h"
 #include "firmware_host/display/kms_handles.h"
 #include "firmware_host/display/kms_properties.h"
+#include "firmware_host/display/legacy_kms.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -59,8 +61,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
     Result<KmsCard> best =
-        fail(ErrorKind::DeviceLost,
-             fmt::format("display: no graphics card in {}; load its driver, or run with --headless", folder));
+        fail(ErrorKind::DeviceLost, fmt::format("display: no graphics card in {}; load its driver", folder));
     CardRank best_rank{};
     const std::vector<std::string> paths = card_paths();
     for (const std::string& path : paths) {
@@ -85,7 +86,7 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
         const bool refused = errno == EACCES || errno == EPERM;
         return fail(refused ? ErrorKind::BadConfiguration : ErrorKind::DeviceLost,
                     fmt::format("display: {} cannot be opened: {}; {}", path, std::strerror(errno),
-                                refused ? "the exhibit's user must be in the group video"
+                                refused ? "this user must be in the group video"
                                         : "is it the card's name, and is its driver loaded?"));
     }
     KmsCard card(file, path);
@@ -146,6 +147,23 @@ CardSeen KmsCard::look(bool thoroughly) const {
         seen.connectors.push_back(std::move(one));
     }
     return seen;
+}
+
+CardSeen look_for_projector(const KmsCard& card, OtherCards* others, const OutputRequest& request,
+                            bool thoroughly) {
+    CardSeen seen = card.look(thoroughly);
+    if (others != nullptr && seen.state == CardState::There && choose_connector(seen, request) == nullptr &&
+        others->have_projector()) {
+        seen.state = CardState::Elsewhere;
+    }
+    return seen;
+}
+
+std::unique_ptr<KmsDevice> make_kms_device(const KmsCard& card) {
+    if (card.is_atomic()) {
+        return std::make_unique<AtomicKms>(card);
+    }
+    return std::make_unique<LegacyKms>(card);
 }
 
 bool take_screen(int card) {

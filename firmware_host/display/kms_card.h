@@ -6,8 +6,10 @@
 #pragma once
 
 #include "firmware_host/base/result.h"
+#include "firmware_host/display/kms_device.h"
 #include "firmware_host/display/kms_mode.h"
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +60,14 @@ private:
     OutputRequest request_;
     std::vector<std::string> looked_at_; ///< connected ones at the last look, which found no projector
 };
+
+/// What is connected to `card`, and, where nothing there can be lit, whether `others` have a projector; null: this card was asked
+/// for.
+[[nodiscard]] CardSeen look_for_projector(const KmsCard& card, OtherCards* others,
+                                          const OutputRequest& request, bool thoroughly);
+
+/// Atomic commits where the driver has them. `card` must outlive the result.
+[[nodiscard]] std::unique_ptr<KmsDevice> make_kms_device(const KmsCard& card);
 
 /// Makes this process the one that may set modes on an open card; true if no other process is. The kernel
 /// lets only the first process that opened the card do so, and one that was it before (drm_auth.c,

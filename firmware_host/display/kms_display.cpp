@@ -1,8 +1,5 @@
 #include "firmware_host/display/kms_display.h"
 
-#include "firmware_host/display/atomic_kms.h"
-#include "firmware_host/display/legacy_kms.h"
-
 #include <GLES3/gl31.h>
 #include <fmt/format.h>
 
@@ -10,22 +7,15 @@
 
 namespace frustumscreen {
 
-namespace {
-
-std::unique_ptr<KmsDevice> make_device(const KmsCard& card) {
-    if (card.is_atomic()) {
-        return std::make_unique<AtomicKms>(card);
-    }
-    return std::make_unique<LegacyKms>(card);
-}
-
-} // namespace
-
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name,
                                                        const OutputRequest& request) {
     Result<KmsCard> card = KmsCard::open(card_name, request);
     if (!card) {
-        return tl::unexpected<Error>(card.error());
+        Error error = card.error();
+        if (error.kind == ErrorKind::DeviceLost && card_name.empty()) {
+            error.message += ", or run with --headless";
+        }
+        return tl::unexpected<Error>(std::move(error));
     }
     if (!take_screen(card->file())) {
         return fail(
@@ -46,19 +36,14 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
                        const OutputRequest& request)
     : card_(std::move(card)), request_(request),
       other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), request)) : std::nullopt),
-      screen_(std::move(screen)), kms_(make_device(card_)),
+      screen_(std::move(screen)), kms_(make_kms_device(card_)),
       presenter_(
           *kms_, [this](PixelSize size) { return screen_->make_pair(size); }, request),
-      watch_([this](bool thoroughly) { return look(thoroughly); }, make_udev_hotplug()) {}
-
-CardSeen KmsDisplay::look(bool thoroughly) {
-    CardSeen seen = card_.look(thoroughly);
-    if (other_cards_ && seen.state == CardState::There && choose_connector(seen, request_) == nullptr &&
-        other_cards_->have_projector()) {
-        seen.state = CardState::Elsewhere;
-    }
-    return seen;
-}
+      watch_(
+          [this](bool thoroughly) {
+              return look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, request_, thoroughly);
+          },
+          make_udev_hotplug()) {}
 
 Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
     glFinish(); // without a projector too: the exhibit's pace and its watchdog do not depend on one

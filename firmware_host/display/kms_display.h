@@ -47,8 +47,6 @@ public:
 
 private:
     KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputRequest& request);
-    /// What is connected, on the watch's thread.
-    [[nodiscard]] CardSeen look(bool thoroughly);
 
     KmsCard card_;
     OutputRequest request_;

@@ -167,4 +167,13 @@ ModeTiming make_mode(int width, int height, double refresh_hz) {
     return mode;
 }
 
+void add_usual_modes(CardSeen& card) {
+    for (ConnectorSeen& connector : card.connectors) {
+        if (connector.plugged == Plugged::Yes && connector.modes.empty()) {
+            connector.modes = {hd_720, hd_1080, make_mode(1024, 768, usual_refresh_hz)};
+            connector.modes.front().preferred = true;
+        }
+    }
+}
+
 } // namespace frustumscreen

@@ -73,7 +73,7 @@ struct OutputRequest {
     double refresh_hz = 0.0; ///< 0 = any
     bool force = false; ///< use the mode even where the projector does not name it, and light the connector
                         ///< named even where it says that nothing is connected
-    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides
+    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides; 0 = any
     int picture_height = 0;
     double picture_hz = 60.0;
 };
@@ -99,5 +99,8 @@ enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTh
 
 /// Makes a timing where the projector's EDID has none; its clock is 0 if none can be made.
 [[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);
+
+/// Gives each projector that is there and names no mode, because its EDID is missing, those that most take.
+void add_usual_modes(CardSeen& card);
 
 } // namespace frustumscreen

@@ -14,11 +14,6 @@ struct PixelSize {
     [[nodiscard]] bool operator==(const PixelSize&) const = default;
 };
 
-/// How many pixels of the picture's top row bear a code that a watchdog reads. They are shown pixel for pixel
-/// at the screen's top left, however the picture is scaled (the same as `probe_pixels` of
-/// app/render/probe.h).
-inline constexpr int code_pixels = 8;
-
 /// Both sizes at least 1 x 1.
 [[nodiscard]] inline PixelRectangle letterbox(PixelSize picture, PixelSize screen) {
     const auto scaled = [](int length, int numerator, int denominator) {

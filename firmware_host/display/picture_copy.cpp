@@ -1,5 +1,6 @@
 #include "firmware_host/display/picture_copy.h"
 
+#include "firmware_host/base/probe_code.h"
 #include "firmware_host/display/egl_context.h"
 #include "firmware_host/gl/gl_program.h"
 
@@ -118,7 +119,7 @@ PixelRectangle PictureCopy::draw(const PictureFramebuffer& picture, PixelSize ta
     if (same) {
         return drawn;
     }
-    const PixelRectangle code{0, 0, std::min({code_pixels, size.width, target.width}), 1};
+    const PixelRectangle code{0, 0, std::min({probe_pixels, size.width, target.width}), 1};
     draw(picture, {true, top, in_target({0, 0, size.width, size.height}), in_target(code)});
     return united(drawn, code);
 }

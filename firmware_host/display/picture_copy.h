@@ -1,7 +1,7 @@
 /// Copies the exhibit's picture into what a screen shows.
 ///
 /// On a screen of the picture's size every sRGB code arrives unchanged. On another the picture is scaled as
-/// large as it fits, with black around it, and the first `code_pixels` of its top row are written unchanged
+/// large as it fits, with black around it, and the first `probe_pixels` of its top row are written unchanged
 /// into the screen's top left corner.
 ///
 /// Scaling interpolates codes and not light, as a card's own scaler does: where the processor draws, this

@@ -84,6 +84,11 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     return expected;
 }
 
+bool Presenter::wait_until_shown() {
+    wait_for_flip();
+    return lit_ && lit_->shown && !queued_;
+}
+
 bool Presenter::read_shown(std::span<std::byte> rgba) const {
     return lit_ && lit_->shown && scanout_ &&
            scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
@@ -192,7 +197,8 @@ void Presenter::light() {
 bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     const PixelSize picture{request_.picture_width, request_.picture_height};
     const PixelSize screen{mode.width, mode.height};
-    if (card_scales_ && !(picture == screen)) {
+    const bool has_size = picture.width > 0 && picture.height > 0;
+    if (has_size && card_scales_ && !(picture == screen)) {
         if (light(connector, mode, picture)) {
             return true;
         }

@@ -2,7 +2,7 @@
 ///
 /// Without a projector, pictures are accepted and not shown; when one comes, the next picture lights it.
 ///
-/// A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
+/// A picture without a size of its own is drawn in the mode's. A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
 /// picture is scaled on its way into memory.
 ///
 /// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
@@ -40,6 +40,9 @@ public:
     /// the part of the picture that changed since the call before. `may_set`: this is a good moment to set a
     /// mode, because nobody else is asking the card.
     [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
+
+    /// Waits at most `flip_patience`; true: the picture presented last is on the screen.
+    [[nodiscard]] bool wait_until_shown();
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
     /// The first picture is shown, or it is known that no projector takes one now.

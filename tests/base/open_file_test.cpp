@@ -77,9 +77,9 @@ TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
 
 TEST_F(OpenFileTest, says_why_it_cannot_be_had) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    EXPECT_NE(refusal("pipe").find("this is not a regular file"), std::string::npos)
+    EXPECT_NE(refusal("pipe").find("this is no ordinary file"), std::string::npos)
         << "and does not wait for it";
-    EXPECT_NE(refusal(".").find("this is not a regular file"), std::string::npos);
+    EXPECT_NE(refusal(".").find("this is a folder"), std::string::npos);
     EXPECT_NE(refusal("nothing").find("there is no such file"), std::string::npos);
     EXPECT_NE(refusal("digits", 9).find("10 bytes; at most 9 are allowed"), std::string::npos);
 }

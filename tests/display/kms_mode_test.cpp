@@ -191,5 +191,18 @@ TEST(KmsMode, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
     EXPECT_LT(CardRank::NothingCertain, CardRank::WithoutTheConnectorNamed);
 }
 
+TEST(KmsMode, AProjectorWithoutAnEdidGetsUsualModesAndNoOtherIsTouched) {
+    ConnectorSeen off = with({});
+    off.plugged = Plugged::No;
+    CardSeen card = a_card({with({}), with({a_mode(640, 480, 60.0)}), off});
+    add_usual_modes(card);
+    const auto modes = modes_to_try(card.connectors[0], {});
+    ASSERT_EQ(modes.size(), 3U);
+    EXPECT_EQ(modes.front().width, 1280);
+    EXPECT_EQ(modes.front().clock_khz, 74250U) << "CTA-861's format 4";
+    EXPECT_EQ(card.connectors[1].modes.size(), 1U);
+    EXPECT_TRUE(card.connectors[2].modes.empty());
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -1,3 +1,4 @@
+#include "firmware_host/base/probe_code.h"
 #include "tests/display/copying.h"
 
 #include <GLES3/gl31.h>
@@ -37,7 +38,7 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
             const bool inside = y >= 10 && y < 90;
             for (int x = 0; x < 128; ++x) {
                 const Texel& texel = screen[static_cast<std::size_t>(128 * y + x)];
-                if ((top == TopRow::First ? y : 99 - y) == 0 && x < code_pixels) {
+                if ((top == TopRow::First ? y : 99 - y) == 0 && x < probe_pixels) {
                     continue;
                 }
                 EXPECT_NEAR(texel[0], inside ? 200 : 0, 1) << x << ", " << y;
@@ -49,9 +50,9 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
 }
 
 TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
-    // app/render/probe.h: greys of code 1 and 2. The rest is bright, so that interpolation would show.
+    // base/probe_code.h: greys of code 1 and 2. The rest is bright, so that interpolation would show.
     const PictureFramebuffer picture = picture_of(64, 40, [](int x, int y) {
-        const auto code = static_cast<unsigned char>(y > 0 || x >= code_pixels ? 250 : x % 3 == 0 ? 2 : 1);
+        const auto code = static_cast<unsigned char>(y > 0 || x >= probe_pixels ? 250 : x % 3 == 0 ? 2 : 1);
         return Texel{code, code, code, 255};
     });
     const PixelRectangle away{30, 20, 5, 5};
@@ -63,7 +64,7 @@ TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
                 const std::vector<Texel> screen = copied(picture, size, top, part);
                 const int row = top == TopRow::First ? 0 : size.height - 1;
                 const bool there = part == whole || !(size == PixelSize{64, 40});
-                for (int x = 0; there && x < std::min(code_pixels, size.width); ++x) {
+                for (int x = 0; there && x < std::min(probe_pixels, size.width); ++x) {
                     const unsigned char code = x % 3 == 0 ? 2 : 1;
                     EXPECT_EQ(screen[static_cast<std::size_t>(size.width * row + x)],
                               (Texel{code, code, code, 255}))
@@ -73,7 +74,7 @@ TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
         }
     }
     const std::vector<Texel> larger = copied(picture, {128, 80}, TopRow::First);
-    EXPECT_GT(larger[2 * code_pixels + 1][0], 2) << "the picture goes on beside it";
+    EXPECT_GT(larger[2 * probe_pixels + 1][0], 2) << "the picture goes on beside it";
     EXPECT_GT(larger[128][0], 2) << "and below";
 }
 
@@ -86,7 +87,7 @@ TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
             const std::vector<Texel> some = copied(picture, size, top, part);
             const PixelRectangle place = letterbox({64, 40}, size);
             const PixelRectangle there = part_on_screen(part, {64, 40}, place);
-            const PixelRectangle code{0, 0, size == PixelSize{64, 40} ? 0 : code_pixels, 1};
+            const PixelRectangle code{0, 0, size == PixelSize{64, 40} ? 0 : probe_pixels, 1};
             EXPECT_EQ(drawn_, code.empty() ? there : united(there, code));
             int inside = 0;
             for (int row = 0; row < size.height; ++row) {
@@ -115,7 +116,7 @@ TEST_F(Copying, ScalesCodes) {
         return Texel{code, code, code, 255};
     });
     const std::vector<Texel> screen = copied(picture, {64, 32}, TopRow::First);
-    for (std::size_t k = code_pixels; k < screen.size(); ++k) {
+    for (std::size_t k = probe_pixels; k < screen.size(); ++k) {
         EXPECT_NEAR(screen[k][0], 127.5, 1.0);
     }
 }

@@ -179,6 +179,7 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
          ":4: texts[0].recording has no description beside it"},
         {"hotspots = 5", ":2: hotspots is 5"},
         {"[[texts]]\nlanguage = \"en\"\ntext = \"not closed", "is not TOML"},
+        {"title = Jug", "write each key once, as key = 1.5 or key = \"text\""},
         {"[texts]\nlanguage = \"en\"",
          ":2: [texts] has one bracket too few on each side; write [[texts]], once for each language"},
         {"[hotspots]\npoint = [0, 0, 0]", ":2: [hotspots] has one bracket too few"},

@@ -11,9 +11,9 @@ for option; do
     esac
 done
 if $build; then
-    ./setup.sh hil
+    ./setup.sh hil kiosk
     printf '== building (release)\n'
     cmake/build.sh release --without tests --without window \
-        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-bake frustumscreen-artifact
+        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-safe frustumscreen-bake frustumscreen-artifact
 fi
 exec tests/hil/run_tests.py "$@"

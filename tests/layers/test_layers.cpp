@@ -142,7 +142,7 @@ const std::vector<Guard> guards = {
     {"draco/", {"assets_baked/bake/"}},
     {"tiny_obj_loader", {"assets_baked/bake/"}},
     {"meshoptimizer", {"assets_baked/bake/", "app/bench/"}},
-    {"toml++", {"app/settings/", "assets_baked/texts/"}},
+    {"toml++", {"app/settings/", "assets_baked/texts/", "assets_baked/safe/"}},
     {"pango/", {"assets_baked/texts/"}},
     {"fontconfig/", {"assets_baked/texts/"}},
     {"hb", {}},

@@ -97,6 +97,31 @@ TEST_F(ImportProgram, TakesListsAndSaysWhatItDid) {
     EXPECT_EQ(parse_import_report(text("out.txt"))->packs.size(), 3U);
 }
 
+TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
+    const SecretKey next = SecretKey::make();
+    const std::string set =
+        fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2035-12-31\"\n",
+                    public_key_line(next.public_key()));
+    put("stick/exhibit.toml", as_bytes(set));
+    put("stick/exhibit.toml.minisig", as_bytes(museum.key.sign(as_bytes(set), "serial:1")));
+    ASSERT_EQ(import(), 0) << text("err.txt");
+    const json alone = listed()["keys"];
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_EQ(alone[0]["name"], "2031");
+    EXPECT_EQ(alone[0]["id"], text_of_key_id(next.public_key().id));
+    EXPECT_EQ(alone[0]["from"], text_of_key_id(museum.key.public_key().id));
+    EXPECT_TRUE(alone[0]["counts"].is_null()) << "without the settings nobody knows";
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys --json"), 0);
+    const json both = json::parse(text("out.txt"))["keys"];
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_EQ(both[0]["name"], "museum");
+    EXPECT_EQ(both[1]["counts"], true);
+    put("keys/museum.pub", as_bytes(write_public_key(SecretKey::make().public_key())));
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
+    EXPECT_NE(text("out.txt").find("until 2035-12-31"), std::string::npos) << text("out.txt");
+    EXPECT_NE(text("out.txt").find("does not count any more"), std::string::npos) << text("out.txt");
+}
+
 TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
     EXPECT_EQ(run("frustumscreen-import --from stick"), 2);
     EXPECT_EQ(run("frustumscreen-import --from stick --into library"), 2);

@@ -1,5 +1,5 @@
 // What becomes of a stick: taken, there already, refused, removed; and what is kept for the exhibit meanwhile.
-#include "tests/library/museum.h"
+#include "tests/library/stick_fixture.h"
 
 #include <cerrno>
 
@@ -8,51 +8,7 @@ namespace {
 
 using namespace testing_disk;
 
-/// One byte of a part is another, and the container's checksum is right.
-Bytes with_another_part(const Bytes& pack) {
-    Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
-    pack_format::ZipWriter other;
-    for (const pack_format::ZipEntry& entry : zip->entries()) {
-        Bytes part = zip->read(entry).value();
-        if (entry.name == "padding.bin") {
-            part[0] ^= std::byte{1};
-        }
-        other.add(entry.name, part, pack_format::Packing::Stored);
-    }
-    return other.finish().value();
-}
-
-class ImportStick : public ::testing::Test {
-protected:
-    ImportReport import() {
-        ImportReport report = import_quietly(stick, kiosk, request);
-        EXPECT_EQ(inspector.fault_of(kiosk), "");
-        return report;
-    }
-    static std::vector<std::string> ids(VolatileDisk& disk) { return ids_of(installed(disk)); }
-    std::size_t pack_files() {
-        std::size_t count = 0;
-        EXPECT_TRUE(kiosk.list("packs", [&](const FolderEntry&) {
-            ++count;
-            return true;
-        }));
-        return count;
-    }
-    void expect_refused(const std::string& file, ImportRefusal refusal, const std::string& words) {
-        const ImportReport report = import();
-        const ImportedPack& line = line_of(report, file);
-        EXPECT_EQ(line.outcome, ImportOutcome::Refused);
-        EXPECT_EQ(line.refusal, refusal);
-        EXPECT_NE(line.reason.find(words), std::string::npos) << line.reason;
-        EXPECT_TRUE(samples::is_one_line(line.reason)) << line.reason;
-        EXPECT_EQ(line.title, refusal == ImportRefusal::Older ? line.title : "");
-    }
-
-    Museum museum;
-    ImportRequest request = request_of(museum);
-    VolatileDisk stick, kiosk;
-    Inspector inspector;
-};
+class ImportStick : public StickTest {};
 
 TEST_F(ImportStick, TakesPacksFromTheRootAndOneFolderDown) {
     stick.put("b.FSPACK", museum.pack("b", 1));
@@ -100,6 +56,41 @@ TEST_F(ImportStick, TheSameStickTwiceChangesNothing) {
     EXPECT_EQ(as_text(**kiosk.content("set.txt")), text);
 }
 
+TEST_F(ImportStick, APackWhoseInstalledFileIsDamagedIsCopiedAgain) {
+    stick.put("a.fspack", museum.pack("a", 1, 3000));
+    stick.put("again.fspack", museum.pack("a", 1, 3000));
+    import();
+    const std::string file = installed(kiosk).packs.at(0).file;
+    const Bytes whole = **kiosk.content(file);
+    Bytes altered = whole;
+    altered[whole.size() / 2] ^= std::byte{1};
+    const std::vector<std::optional<Bytes>> damages{std::nullopt, Bytes(), altered,
+                                                    Bytes(whole.begin(), whole.end() - 1)};
+    for (std::size_t k = 0; k < damages.size(); ++k) {
+        if (damages[k]) {
+            kiosk.put(file, *damages[k]);
+        } else {
+            kiosk.take_away(file);
+        }
+        const ImportReport report = import();
+        EXPECT_EQ(report.stage, ImportStage::Done);
+        EXPECT_EQ(line_of(report, "a.fspack").outcome, ImportOutcome::Taken) << k;
+        EXPECT_NE(line_of(report, "a.fspack").reason.find("damaged or gone"), std::string::npos) << k;
+        EXPECT_EQ(line_of(report, "again.fspack").outcome, ImportOutcome::AlreadyThere) << k;
+        EXPECT_EQ(report.set_number, k + 2) << "else the exhibit would not open it again";
+        ASSERT_TRUE(kiosk.content(file)) << k;
+        EXPECT_EQ(**kiosk.content(file), whole);
+    }
+    EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::AlreadyThere);
+    // Where the stick's own copy is damaged too, the set stays as it is, and nothing says that it was mended.
+    kiosk.take_away(file);
+    stick.take_away("again.fspack");
+    stick.put("a.fspack", with_another_part(whole));
+    const ImportReport report = import_quietly(stick, kiosk, request);
+    EXPECT_EQ(line_of(report, "a.fspack").refusal, ImportRefusal::Altered);
+    EXPECT_EQ(report.set_number, damages.size() + 1);
+}
+
 TEST_F(ImportStick, AnEmptyStickIsAllRight) {
     EXPECT_EQ(import().stage, ImportStage::Done);
     EXPECT_FALSE(kiosk.content("set.txt"));
@@ -140,8 +131,9 @@ TEST_F(ImportStick, RefusesWhatWasAlteredOrIsNoPack) {
     }
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{});
     EXPECT_EQ(pack_files(), 0U);
+    stick.take_away("altered.fspack");
     stick.put("whole.fspack", museum.pack("a", 1, 3000));
-    EXPECT_EQ(line_of(import(), "whole.fspack").outcome, ImportOutcome::Taken) << "of three with one id";
+    EXPECT_EQ(line_of(import(), "whole.fspack").outcome, ImportOutcome::Taken) << "of two with one id";
 }
 
 TEST_F(ImportStick, NeverTakesALowerSerialThanOnceTaken) {
@@ -180,6 +172,15 @@ TEST_F(ImportStick, OfTwoWithOneIdTakesTheNewer) {
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 3"});
 }
 
+TEST_F(ImportStick, OneSerialIsOnePack) {
+    stick.put("1.fspack", museum.pack("a", 3));
+    stick.put("2.fspack", museum.pack("a", 3, 100));
+    const ImportReport report = import();
+    EXPECT_EQ(line_of(report, "1.fspack").outcome, ImportOutcome::Taken);
+    EXPECT_EQ(line_of(report, "2.fspack").refusal, ImportRefusal::Older);
+    EXPECT_NE(line_of(report, "2.fspack").reason.find("other contents"), std::string::npos);
+}
+
 TEST_F(ImportStick, ANewerPackStandsInTheOlderOnesPlace) {
     for (const std::string id : {"a", "b", "c"}) {
         stick.put(id + ".fspack", museum.pack(id, 1));
@@ -188,81 +189,6 @@ TEST_F(ImportStick, ANewerPackStandsInTheOlderOnesPlace) {
     stick.put("b.fspack", museum.pack("b", 2));
     import();
     EXPECT_EQ(ids(kiosk), (std::vector<std::string>{"a 1", "b 2", "c 1"}));
-}
-
-TEST_F(ImportStick, ASetFileIsTakenWholeOrNotAtAll) {
-    stick.put("a.fspack", museum.pack("a", 1));
-    stick.put("b.fspack", Museum::unsigned_pack("b", "b"));
-    museum.put_exhibit(stick, "order = [\"a\"]\n", 1);
-    const ImportReport torn = import();
-    EXPECT_EQ(torn.stage, ImportStage::Failed);
-    EXPECT_EQ(torn.refusal, ImportRefusal::Unsigned);
-    EXPECT_EQ(line_of(torn, "a.fspack").outcome, ImportOutcome::Refused);
-    EXPECT_EQ(ids(kiosk), std::vector<std::string>{});
-    stick.put("b.fspack", museum.pack("b", 1));
-    EXPECT_EQ(import().stage, ImportStage::Done);
-    EXPECT_EQ(ids(kiosk), (std::vector<std::string>{"a 1", "b 1"}));
-    museum.put_exhibit(stick, "order = [\"a\", \"missing\"]\n", 2);
-    EXPECT_NE(import().reason.find("\"missing\""), std::string::npos);
-    museum.put_exhibit(stick, "order = [\"a\"]\nonly = true\n", 2);
-    EXPECT_NE(import().reason.find("\"b\""), std::string::npos);
-    stick.take_away("b.fspack");
-    const ImportReport only = import();
-    EXPECT_EQ(line_of(only, "b").outcome, ImportOutcome::Removed);
-    EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"});
-    museum.put_exhibit(stick, "order = [\"a\"]\n", 1);
-    EXPECT_EQ(import().refusal, ImportRefusal::Older);
-    stick.put("exhibit.toml", "order = [\"b\"]\n");
-    EXPECT_EQ(import().refusal, ImportRefusal::Altered);
-    stick.take_away("exhibit.toml.minisig");
-    EXPECT_EQ(import().refusal, ImportRefusal::Unsigned);
-}
-
-TEST_F(ImportStick, ASetFileSaysOrderAndAttractTexts) {
-    for (const std::string id : {"a", "b", "c"}) {
-        stick.put(id + ".fspack", museum.pack(id, 1));
-    }
-    museum.put_exhibit(stick, "order = [\"c\", \"a\"]\n[attract]\nen = \"Come near\"\nde-ch = \"Grüezi\"\n",
-                       1);
-    import();
-    EXPECT_EQ(ids(kiosk), (std::vector<std::string>{"c 1", "a 1", "b 1"}));
-    const std::vector<AttractText> texts{{"de-CH", "Grüezi"}, {"en", "Come near"}};
-    EXPECT_EQ(installed(kiosk).attract, texts);
-    museum.put_exhibit(stick, "order = [\"b\"]\n", 2);
-    import();
-    EXPECT_EQ(installed(kiosk).attract, texts) << "left out, they stay";
-}
-
-TEST_F(ImportStick, NewKeysComeSignedByOldOnes) {
-    const SecretKey next = SecretKey::make();
-    const std::string text =
-        fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2040-12-31\"\n",
-                    public_key_line(next.public_key()));
-    stick.put("a.fspack", Museum::signed_by(next, Museum::unsigned_pack("a", "a"), 1));
-    stick.put("exhibit.toml", text);
-    stick.put("exhibit.toml.minisig", next.sign(as_bytes(text), "serial:1"));
-    EXPECT_EQ(import().refusal, ImportRefusal::WrongKey) << "a key does not vouch for itself";
-    museum.put_exhibit(stick, text, 1);
-    EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::Taken) << "on the same stick";
-    stick.take_away("exhibit.toml");
-    stick.put("b.fspack", Museum::signed_by(next, Museum::unsigned_pack("b", "b"), 1));
-    EXPECT_EQ(line_of(import(), "b.fspack").outcome, ImportOutcome::Taken) << "and from then on";
-    request.today = std::chrono::sys_days(std::chrono::year(2041) / 1 / 1);
-    stick.put("c.fspack", Museum::signed_by(next, Museum::unsigned_pack("c", "c"), 1));
-    expect_refused("c.fspack", ImportRefusal::WrongKey, "2040-12-31");
-}
-
-TEST_F(ImportStick, AKeyAloneIsNoNewSet) {
-    stick.put("a.fspack", museum.pack("a", 1));
-    import();
-    museum.put_exhibit(stick,
-                       fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\n",
-                                   public_key_line(SecretKey::make().public_key())),
-                       1);
-    const ImportReport report = import();
-    EXPECT_EQ(line_of(report, "exhibit.toml").outcome, ImportOutcome::Taken);
-    EXPECT_EQ(report.set_number, 1U) << "the exhibit has nothing to try";
-    EXPECT_EQ(read_set_file(kiosk)->keys.size(), 1U);
 }
 
 TEST_F(ImportStick, KeepsTheLastGoodSetWhileANewOneIsOnTrial) {
@@ -310,65 +236,6 @@ TEST_F(ImportStick, NeedsRoomForAllOfItAndAMargin) {
     EXPECT_EQ(import().stage, ImportStage::Done);
 }
 
-TEST_F(ImportStick, CountsWhatAStickMayHold) {
-    request.limits.most_entries = 10;
-    request.limits.most_packs = 3;
-    request.limits.most_folders = 2;
-    for (int k = 0; k < 4; ++k) {
-        stick.put(fmt::format("{}.fspack", k), "x");
-    }
-    EXPECT_EQ(import().refusal, ImportRefusal::TooMuch);
-    VolatileDisk folders;
-    for (int k = 0; k < 3; ++k) {
-        folders.put(fmt::format("{}/x", k), "x");
-    }
-    EXPECT_EQ(import_quietly(folders, kiosk, request).refusal, ImportRefusal::TooMuch);
-    VolatileDisk files;
-    for (int k = 0; k < 11; ++k) {
-        files.put(fmt::format(".{}", k), "passed over, and counted");
-    }
-    const ImportReport report = import_quietly(files, kiosk, request);
-    EXPECT_EQ(report.refusal, ImportRefusal::TooMuch);
-    EXPECT_TRUE(samples::is_one_line(report.reason));
-}
-
-TEST_F(ImportStick, AStickThatAnswersSlowlyIsRefused) {
-    stick.put("a.fspack", museum.pack("a", 1, 20000));
-    stick.put("b.fspack", museum.pack("b", 1));
-    ImportSurroundings outside = quiet_surroundings();
-    MonotonicTime now{};
-    outside.now = [&] { return now; };
-    stick.before_operation = [&](int) { now += std::chrono::seconds(25); };
-    const ImportReport look = import_stick(stick, kiosk, request, outside);
-    EXPECT_EQ(look.stage, ImportStage::Failed);
-    EXPECT_EQ(look.refusal, ImportRefusal::TooMuch);
-    // Only slow once it is copied; a pace of 4 MB in 30 s is asked for.
-    stick.before_operation = nullptr;
-    outside.tell = [&](const ImportReport& report) {
-        if (report.stage == ImportStage::Copying) {
-            now += std::chrono::seconds(5);
-        }
-    };
-    const ImportReport copy = import_stick(stick, kiosk, request, outside);
-    EXPECT_EQ(copy.refusal, ImportRefusal::TooMuch) << copy.reason;
-    EXPECT_EQ(ids(kiosk), std::vector<std::string>{});
-    outside.tell = [](const ImportReport&) {};
-    // A clock that jumps is not asked: time is monotonic, days only matter for keys.
-    EXPECT_EQ(import_stick(stick, kiosk, request, outside).stage, ImportStage::Done);
-}
-
-TEST_F(ImportStick, ManyFilesThatAreNoPacksDoNotKeepTheProcessor) {
-    for (int k = 0; k < 50; ++k) {
-        stick.put(fmt::format("{:02}.fspack", k), "PK");
-    }
-    ImportSurroundings outside = quiet_surroundings();
-    Nanoseconds work{0};
-    outside.work = [&] { return work += std::chrono::milliseconds(100); };
-    const ImportReport report = import_stick(stick, kiosk, request, outside);
-    EXPECT_EQ(report.refusal, ImportRefusal::TooMuch);
-    EXPECT_LT(report.packs.size(), 20U);
-}
-
 TEST_F(ImportStick, AFileOrFolderThatIsClosedConcernsItAlone) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("closed.fspack", museum.pack("b", 1));
@@ -398,20 +265,24 @@ TEST_F(ImportStick, ADamagedSetFileIsNotForgotten) {
     EXPECT_EQ(as_text(**kiosk.content("set.txt")), text);
 }
 
-TEST_F(ImportStick, FiveHundredPacks) {
-    const Bytes plain = Museum::unsigned_pack("a", "a");
-    const samples::Entries entries = samples::take_apart(plain);
-    for (int k = 0; k < 500; ++k) {
-        samples::Entries other = entries;
-        other.manifest["sections"]["identity"]["data"]["id"] = fmt::format("id-{:03}", k);
-        stick.put(fmt::format("{:03}.fspack", k),
-                  Museum::signed_by(museum.key, samples::put_together(other), 1));
+TEST_F(ImportStick, ASetFileOfAnotherNameIsTold) {
+    for (const std::string name : {"exhibit.toml.txt", "Exhibit.toml", "exhibit.toml.minisig",
+                                   "EXHIBIT (1).TOML.minisig", "sets/exhibit.toml"}) {
+        VolatileDisk other;
+        other.put("a.fspack", museum.pack("a", 1));
+        other.put(name, "only = true\n");
+        VolatileDisk disk;
+        const ImportReport report = import_quietly(other, disk, request);
+        EXPECT_EQ(report.stage, ImportStage::Done);
+        EXPECT_EQ(line_of(report, "a.fspack").outcome, ImportOutcome::Taken);
+        const ImportedPack& line = line_of(report, name);
+        EXPECT_EQ(line.outcome, ImportOutcome::Refused);
+        EXPECT_NE(line.reason.find("is called exhibit.toml"), std::string::npos) << line.reason;
+        EXPECT_TRUE(samples::is_one_line(line.reason));
+        museum.put_exhibit(other, "order = [\"a\"]\n", 1);
+        EXPECT_EQ(import_quietly(other, disk, request).packs.size(), 2U)
+            << "where there is one, others are no matter";
     }
-    const ImportReport report = import();
-    EXPECT_EQ(report.stage, ImportStage::Done);
-    EXPECT_EQ(installed(kiosk).packs.size(), 500U);
-    EXPECT_EQ(report.packs.size(), 500U);
-    EXPECT_EQ(parse_import_report(write_import_report(report)).value(), report);
 }
 
 } // namespace

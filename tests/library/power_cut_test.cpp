@@ -60,6 +60,10 @@ protected:
         EXPECT_EQ(inspector.fault_of(*again), "") << where;
         ++imports;
     }
+    /// All that there can be after a cut, or `most_cuts` of them.
+    void sample(const VolatileDisk& disk, int operation, const std::function<void(VolatileDisk&)>& visit) {
+        sampled += disk.cut_power(most_cuts, static_cast<unsigned>(operation), visit) == most_cuts ? 1 : 0;
+    }
     /// The import is stopped before the operation; what it throws away is what the process knew.
     std::unique_ptr<VolatileDisk> stopped(const VolatileDisk& disk, int operation) {
         auto stopped_disk = disk.copy();
@@ -79,6 +83,7 @@ protected:
     std::string old_text, new_text;
     int operations = 0;
     int cuts = 0;
+    int sampled = 0; ///< operations before which more than `most_cuts` states are possible, or just so many
     int imports = 0;
     Inspector inspector;
 };
@@ -87,7 +92,7 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
     for (int operation = 0; operation <= operations; ++operation) {
         const auto disk = stopped(before, operation);
         std::set<std::string> seen;
-        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+        sample(*disk, operation, [&](VolatileDisk& left) {
             const std::string where = fmt::format("cut before operation {}", operation);
             expect_old_or_new(left, where);
             // What an import makes of it depends on little more than the set.
@@ -96,7 +101,8 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
             }
         });
     }
-    std::printf("%d operations, %d cuts, %d imports after them\n", operations, cuts, imports);
+    std::printf("%d operations, %d sampled, %d cuts, %d imports after them\n", operations, sampled, cuts,
+                imports);
 }
 
 /// The names of all packs are synced at once: then the most may be there without the others.
@@ -109,12 +115,12 @@ TEST_F(PowerCut, WithManyPacksOnTheStick) {
     new_text = text_of(*after);
     for (int operation = 0; operation <= after->operations; ++operation) {
         const auto disk = stopped(before, operation);
-        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+        sample(*disk, operation, [&](VolatileDisk& left) {
             expect_old_or_new(left, fmt::format("cut before operation {}", operation));
         });
         expect_new_after_import(*disk, fmt::format("stopped before {}", operation));
     }
-    std::printf("%d operations, %d cuts\n", after->operations, cuts);
+    std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
 }
 
 TEST_F(PowerCut, AfterAStoppedImportAndInTheMiddleOfTheNextOne) {
@@ -139,14 +145,42 @@ TEST_F(PowerCut, IntoAnEmptyFolderLeavesNothingOrTheSet) {
     for (int operation = 0; operation <= after->operations; ++operation) {
         const auto disk = stopped(VolatileDisk(), operation);
         bool first = true;
-        disk->cut_power(most_cuts, static_cast<unsigned>(operation), [&](VolatileDisk& left) {
+        sample(*disk, operation, [&](VolatileDisk& left) {
             expect_old_or_new(left, fmt::format("cut before operation {}", operation));
             if (std::exchange(first, false)) {
                 expect_new_after_import(left, fmt::format("cut before operation {}", operation));
             }
         });
     }
-    std::printf("%d cuts\n", cuts);
+    std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
+}
+
+/// The file that is mended is replaced by a rename over the damaged one.
+TEST_F(PowerCut, WhileADamagedFileIsMended) {
+    VolatileDisk same;
+    same.put("a.fspack", museum.pack("a", 2));
+    Bytes damaged = **before.content(installed(before).packs.at(0).file);
+    damaged.back() ^= std::byte{1};
+    before.put(installed(before).packs.at(0).file, damaged);
+    const auto after = before.copy();
+    ASSERT_EQ(import_quietly(same, *after, request).stage, ImportStage::Done);
+    ASSERT_EQ(inspector.fault_of(*after), "");
+    const std::string mended = text_of(*after);
+    for (int operation = 0; operation <= after->operations; ++operation) {
+        auto disk = before.copy();
+        disk->plan.stop_before = operation;
+        try {
+            static_cast<void>(import_quietly(same, *disk, request));
+        } catch (const Stopped&) {
+        }
+        sample(*disk, operation, [&](VolatileDisk& left) {
+            const std::string text = text_of(left);
+            EXPECT_TRUE(text == old_text || (text == mended && inspector.fault_of(left).empty()))
+                << operation;
+            EXPECT_EQ(import_quietly(same, left, request).stage, ImportStage::Done);
+            EXPECT_EQ(inspector.fault_of(left), "") << operation;
+        });
+    }
 }
 
 TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {

@@ -23,8 +23,11 @@ SetFile a_file() {
     return {{a_set(7), a_set(6)},
             a_set(5),
             12,
+            std::string(64, 'b'),
+            "2030-01-31",
             {{"vase", 18446744073709551615ULL}, {"cup", 0}},
-            {{"2031", "RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3", "2031-12-31"}}};
+            {{"2031", "RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3", "2031-12-31",
+              "RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3", "2026-11-01"}}};
 }
 
 std::string with_right_hash(const std::string& body) {

@@ -1,6 +1,5 @@
 // The page beside a pack: Python's own parser, hashes and base64 look at it, with texts that need every escape.
 #include "app/programs/preview/html_parts.h"
-#include "app/programs/preview/lossy_webp.h"
 #include "app/programs/preview/preview_page.h"
 #include "tests/programs/program_folder.h"
 

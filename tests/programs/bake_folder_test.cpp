@@ -37,6 +37,24 @@ protected:
 constexpr const char* english_and_german =
     "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n[[texts]]\nlanguage = \"de\"\ntitle = \"Krug\"\n";
 
+TEST_F(BakeFolder, WrongUseIsToldInOneLineWithWhatToDo) {
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"jug", "-o NAME.fspack, the pack to write, is required"},
+        {"--new jug2", "the scan, behind the folder of --new, is required"},
+        {"-o jug.fspack", "INPUT, a scan or a folder with an artifact.toml, is required"},
+        {"jug -o jug.fspack --preveiw jug.html",
+         "'--preveiw' is not expected here; the nearest option is --preview"},
+        {"jug -o jug.fspack --licens=CC0",
+         "'--licens=CC0' is not expected here; the nearest option is --licence"},
+        {"jug bowl -o jug.fspack", "'bowl' is not expected here"}};
+    for (const auto& [arguments, message] : wrong) {
+        EXPECT_EQ(run("frustumscreen-bake " + arguments), 2) << arguments;
+        EXPECT_EQ(text("err.txt"),
+                  "frustumscreen-bake: " + message + "; frustumscreen-bake --help says more\n");
+    }
+    EXPECT_FALSE(fs::exists(folder / "jug.fspack"));
+}
+
 TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
     const std::string lines =
         std::string(english_and_german) +

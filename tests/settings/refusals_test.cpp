@@ -85,8 +85,8 @@ TEST(Refusals, OfTextThatIsNotToml) {
         {"[prop]\nbase_m = \n", {":2: is not TOML"}},
         {"[prop\n", {":1: is not TOML"}},
         {"[prop]\n[prop]\n", {":2: is not TOML"}},
-        {"# \xff\xfe\n", {":1: is not TOML"}},
-        {std::string("a = \"\0\"", 7), {":1: is not TOML"}},
+        {"# \xff\xfe\n", {":1: is not UTF-8"}},
+        {std::string("a = \"\0\"", 7), {":1: is not UTF-8"}},
     });
 }
 

@@ -270,7 +270,11 @@ TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
 TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
     make_keys();
     ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("order = [\"vase\"]\nonyl = true\n")));
-    expect_failed(pack("sign exhibit.toml --key house.key"), "exhibit.toml:2: ");
+    expect_failed(pack("sign exhibit.toml --key house.key"), "frustumscreen-pack: exhibit.toml:2: ");
+    fs::create_directories(folder_ / "more");
+    fs::copy_file(folder_ / "exhibit.toml", folder_ / "more/exhibit.toml");
+    expect_failed(pack("sign more/exhibit.toml --key house.key"),
+                  "frustumscreen-pack: more/exhibit.toml:2: ");
     ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes(std::string(70000, '#'))));
     expect_failed(pack("sign exhibit.toml --key house.key"), "65536");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "exhibit.toml.minisig"));

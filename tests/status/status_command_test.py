@@ -50,10 +50,12 @@ def watchdog(**changes):
     status = {
         "written_at": "2026-05-01T10:00:00Z", "monotonic_ns": time.monotonic_ns(), "mode": "normal", "trouble": None, "step": None,
         "climb": 0, "reboots_today": 1,
-        "faults": [{"at": "2026-05-01T09:00:00Z", "cause": "tracker_silent", "sentence": "the tracker is silent",
-                    "step": "reset-device", "helped": True},
-                   {"at": "2026-05-01T09:30:00Z", "cause": "no_picture", "sentence": "no picture is presented",
-                    "step": "restart-exhibit", "helped": False}]}
+        "boot_id": boot_id(), "lit": True, "next_pause_s": 60, "awake_s": 9000, "failures": 0, "last_end": "", "notes": [],
+        "faults": [{"at": "2026-05-01T09:00:00Z", "awake_s": 5000, "cause": "device_hangs", "sentence": "the tracker is silent",
+                    "step": "reset_device", "done": "its port is reset", "detail": "", "helped": True},
+                   # the wall clock was set back meanwhile
+                   {"at": "2026-05-01T08:30:00Z", "awake_s": 6000, "cause": "no_picture", "sentence": "no living picture comes",
+                    "step": "restart_exhibit", "done": "the exhibit is started again", "detail": "killed KILL", "helped": False}]}
     status.update(changes)
     return status
 
@@ -89,7 +91,7 @@ class Status(unittest.TestCase):
 class Text(Status):
     def test_a_well_exhibit_in_one_screen(self):
         self.write("status.json", exhibit())
-        self.write("dog.json", watchdog())
+        self.write("dog.json", watchdog(notes=["the disk is 95 % full", 3, "it is hot\n"]))
         now = time.monotonic()
         self.write("ends", f"{now - 36010:.2f} success exited 0\n{now - 240:.2f} watchdog killed KILL\n".encode())
         text = self.text(0)
@@ -110,7 +112,9 @@ class Text(Status):
                          r"watchdog \(killed KILL\)$")
         self.assertIn("1 restart of the machine today", self.line(text, "watchdog"))
         self.assertEqual(self.line(text, "last faults"),
-                         "2026-05-01T09:30:00Z no picture is presented; tried restart-exhibit, which did not help")
+                         "2026-05-01T08:30:00Z no living picture comes: the exhibit is started again, which did not help (killed KILL)")
+        self.assertIn("2026-05-01T09:00:00Z the tracker is silent: its port is reset, which helped", text)
+        self.assertEqual(self.line(text, "machine"), "the disk is 95 % full; it is hot?")
         self.assertEqual(self.line(text, "versions"), "FrustumScreen 1.2.3, packs of format 2, Debian GNU/Linux 12, Linux 6.1")
 
     def test_the_time_of_day_since_when_it_is_shown(self):

@@ -42,6 +42,9 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
             die "$1 is locked in less than it was: $(grep '✗' "$root/security")"
     }
     locked_in frustumscreen.service 16
+    said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-safe.service" 2>&1) || die "systemd-analyze verify: $said"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the safe picture"
+    locked_in frustumscreen-safe.service 4
     # The units of sticks, for a stick that is stick1p1; what they start is there, their sandbox too.
     for name in stick ntfs import import-refused; do
         instance=$units/frustumscreen-$name@stick1p1.service
@@ -64,7 +67,7 @@ if command -v systemd-sysusers >/dev/null && command -v systemd-tmpfiles >/dev/n
     for group in video render input plugdev gpio; do
         grep -Eq "^$group:.*[:,]frustumscreen(,|$)" "$root/etc/group" || die "the user is not in the group $group"
     done
-    for user in frustumscreen-import frustumscreen-ntfs; do
+    for user in frustumscreen-import frustumscreen-ntfs frustumscreen-safe; do
         grep -q "^$user:" "$root/etc/passwd" || die "there is no user $user"
         grep -Eq "[:,]$user(,|$)" "$root/etc/group" && die "the user $user is in a group"
     done

@@ -275,9 +275,18 @@ def draw_setup(path):
     save_column(path.with_suffix(".svg"), panels)
 
 
+def draw_ladder(path):
+    rows = read_table(path)
+    panel = Panel("How long the table is dark, and how often", "at least so many seconds", "times a year")
+    for k, policy in enumerate(different(row["policy"] for row in rows)):
+        points = [(float(row["longer_than_s"]), float(row["times_a_year"])) for row in rows if row["policy"] == policy]
+        panel.series.append(Series(policy, points, k, "", stepped=True))
+    save_column(path.with_suffix(".svg"), [panel])
+
+
 TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_": draw_scaling,
           "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup,
-          "guidance": draw_guidance}
+          "guidance": draw_guidance, "ladder": draw_ladder}
 
 
 @contextmanager

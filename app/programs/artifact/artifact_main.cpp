@@ -1,5 +1,6 @@
 /// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/artifacts/write_glb.h"
@@ -94,13 +95,12 @@ int run(int argc, char** argv) {
     app.add_option("--language", language, "Language of --list: en, de, fr, es, el; English for others")
         ->capture_default_str();
     list_option->excludes(name_option)->excludes(output_option)->excludes(folder_option);
-    try {
-        app.parse(argc, argv);
-        if (!list && (name.empty() || (output.empty() && folder.empty()))) {
-            throw CLI::RequiredError("NAME and -o or --folder, or --list,");
-        }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+            if (!list && (name.empty() || (output.empty() && folder.empty()))) {
+                throw CLI::RequiredError("NAME and -o or --folder, or --list,");
+            }
+        })) {
+        return *end;
     }
     if (!parse_language_tag(language)) {
         fmt::print(stderr,

@@ -8,6 +8,7 @@
 #include "app/programs/bake/watch_command.h"
 #include "app/programs/bake/words_command.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
 
@@ -77,14 +78,13 @@ int bake_and_report(const BakeArguments& arguments) {
 }
 
 void add_options(CLI::App& app, BakeArguments& arguments) {
-    auto* input =
-        app.add_option("INPUT", arguments.input, "artifact file, or a folder with an artifact.toml");
-    input->required();
+    app.add_option("INPUT", arguments.input, "artifact file, or a folder with an artifact.toml");
     auto* output = app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)");
     app.add_option(
            "--new", arguments.new_folder,
-           "FOLDER to start from the artifact file INPUT: copies it there and writes an artifact.toml to "
+           "starts a folder from the artifact file INPUT: copies it there and writes an artifact.toml to "
            "edit; bakes nothing")
+        ->type_name("FOLDER")
         ->excludes(output);
     app.add_option("--preview", arguments.preview,
                    "page to write beside the pack (*.html): how it looks, says, errs");
@@ -99,13 +99,13 @@ void add_options(CLI::App& app, BakeArguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    if (asks_for_words(argc, argv)) {
+    if (names_option(argc, argv, "--words")) {
         return words_command(argc, argv);
     }
-    if (asks_for_watch(argc, argv)) {
+    if (names_option(argc, argv, "--watch")) {
         return watch_command(argc, argv);
     }
-    if (asks_for_batch(argc, argv)) {
+    if (names_option(argc, argv, "--batch")) {
         return batch_command(argc, argv);
     }
     BakeArguments arguments;
@@ -119,13 +119,17 @@ int run(int argc, char** argv) {
         "--batch DIR "
         "bakes a collection; --words bakes the exhibit's own words. Each says more with --help behind it.");
     add_options(app, arguments);
-    try {
-        app.parse(argc, argv);
-        if (arguments.output.empty() && arguments.new_folder.empty()) {
-            throw CLI::RequiredError("--output");
-        }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+            if (arguments.input.empty()) {
+                throw CLI::RequiredError(arguments.new_folder.empty()
+                                             ? "INPUT, a scan or a folder with an artifact.toml,"
+                                             : "the scan, behind the folder of --new,");
+            }
+            if (arguments.output.empty() && arguments.new_folder.empty()) {
+                throw CLI::RequiredError("-o NAME.fspack, the pack to write,");
+            }
+        })) {
+        return *end;
     }
     try {
         return bake_and_report(arguments);

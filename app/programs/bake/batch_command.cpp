@@ -5,6 +5,7 @@
 #include "app/programs/batch/content_hash.h"
 #include "app/programs/batch/run_batch.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/read_arguments.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
@@ -15,7 +16,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -209,12 +209,6 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 } // namespace
 
-bool asks_for_batch(int argc, const char* const* argv) {
-    return std::any_of(argv, argv + argc, [](std::string_view argument) {
-        return argument == "--batch" || argument.starts_with("--batch=");
-    });
-}
-
 int batch_command(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Bakes every object of a folder into a pack. What is done already and has not changed is "
@@ -223,14 +217,13 @@ int batch_command(int argc, char** argv) {
                  program);
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     add_options(app, arguments);
-    try {
-        app.parse(argc, argv);
-        if (arguments.folder.empty() || arguments.output.empty()) {
-            throw CLI::ValidationError(
-                "--batch needs the folder DIR of the objects behind it, and -o that of the packs");
-        }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+            if (arguments.folder.empty() || arguments.output.empty()) {
+                throw CLI::ValidationError(
+                    "--batch needs the folder DIR of the objects behind it, and -o that of the packs");
+            }
+        })) {
+        return *end;
     }
     const Result<bool> done = work(arguments);
     if (!done) {

@@ -5,9 +5,6 @@
 
 namespace frustumscreen {
 
-/// Whether the command line asks for it.
-[[nodiscard]] bool asks_for_batch(int argc, const char* const* argv);
-
 /// The exit status: 1 if one object failed.
 [[nodiscard]] int batch_command(int argc, char** argv);
 

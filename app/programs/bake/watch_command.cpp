@@ -3,6 +3,7 @@
 #include "app/programs/bake/bake_options.h"
 #include "app/programs/batch/child_sentence.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/preview/preview_page.h"
 #include "app/programs/watch/folder_watch.h"
 #include "app/programs/watch/settle_time.h"
@@ -16,7 +17,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -205,12 +205,6 @@ Result<void> work(Arguments arguments) {
 
 } // namespace
 
-bool asks_for_watch(int argc, const char* const* argv) {
-    return std::any_of(argv, argv + argc, [](std::string_view argument) {
-        return argument == "--watch" || argument.starts_with("--watch=");
-    });
-}
-
 int watch_command(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Bakes a coarse preview of a curator's folder again whenever a file in it changes. A "
@@ -223,13 +217,12 @@ int watch_command(int argc, char** argv) {
                    "page to write (default: FOLDER.preview.html beside the folder)");
     app.add_option("-o,--output", arguments.pack, "coarse pack to keep (default: none is kept)");
     add_bake_options(app, arguments.bake);
-    try {
-        app.parse(argc, argv);
-        if (arguments.folder.empty()) {
-            throw CLI::ValidationError("--watch needs the FOLDER of an artifact behind it");
-        }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+            if (arguments.folder.empty()) {
+                throw CLI::ValidationError("--watch needs the FOLDER of an artifact behind it");
+            }
+        })) {
+        return *end;
     }
     return exit_status(program, work(std::move(arguments)));
 }

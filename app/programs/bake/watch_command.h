@@ -5,9 +5,6 @@
 
 namespace frustumscreen {
 
-/// Whether the command line asks for it.
-[[nodiscard]] bool asks_for_watch(int argc, const char* const* argv);
-
 /// Until SIGINT or SIGTERM; the exit status.
 [[nodiscard]] int watch_command(int argc, char** argv);
 

@@ -5,6 +5,7 @@
 #include "app/programs/bake/words_preview.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/speak_words.h"
@@ -231,12 +232,6 @@ Result<void> work(const Arguments& arguments) {
 
 } // namespace
 
-bool asks_for_words(int argc, const char* const* argv) {
-    return std::any_of(argv, argv + argc, [](std::string_view argument) {
-        return argument == "--words" || argument.starts_with("--words=");
-    });
-}
-
 int words_command(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
@@ -257,10 +252,8 @@ int words_command(int argc, char** argv) {
     app.add_flag("--force", arguments.force, "replace the output also if it is not a file of words");
     app.add_flag("--strict", arguments.strict,
                  "refuse words of which something would be lost; nothing is written");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     return exit_status(program, work(arguments));
 }

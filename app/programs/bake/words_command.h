@@ -5,9 +5,6 @@
 
 namespace frustumscreen {
 
-/// Whether the command line asks for it.
-[[nodiscard]] bool asks_for_words(int argc, const char* const* argv);
-
 /// The exit status.
 [[nodiscard]] int words_command(int argc, char** argv);
 

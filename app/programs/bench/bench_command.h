@@ -135,5 +135,7 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand setup_command(CLI::App& app);
 /// Whether advice helps visitors.
 [[nodiscard]] BenchCommand guidance_command(CLI::App& app);
+/// What the recovery ladder is worth over years of faults.
+[[nodiscard]] BenchCommand ladder_command(CLI::App& app);
 
 } // namespace frustumscreen

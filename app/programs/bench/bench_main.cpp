@@ -1,6 +1,7 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 
 #include <fmt/format.h>
 
@@ -12,21 +13,17 @@ namespace {
 
 int run(int argc, char** argv) {
     CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
-                 " shimmer, numerical stability, latency; and which set-up suits a table.",
+                 " shimmer, numerical stability, latency; which set-up suits a table; and what the"
+                 " recovery ladder is worth.",
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("frustumscreen-bench: {}\n", error.what());
-    });
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
                                  counts_command(app),     latency_command(app),   setup_command(app),
-                                 guidance_command(app)};
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+                                 guidance_command(app),   ladder_command(app)};
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     for (const BenchCommand& command : commands) {
         if (!command.options->parsed()) {

@@ -1,6 +1,7 @@
 #include "app/programs/frustumscreen/config_command.h"
 
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/setup_page.h"
 #include "app/settings/config_json.h"
 #include "app/settings/missing_files.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -23,7 +25,7 @@ struct Request {
     bool describe = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app(
         "Prints the resolved, checked settings, what they mean on the table, or what settings there are.",
         "frustumscreen config");
@@ -36,16 +38,11 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->excludes(json)
         ->excludes(explain);
     explain->excludes(json);
-    try {
-        app.parse(argc, argv);
+    return end_of_arguments(app, argc, argv, [&] {
         if (request.config.empty() && !request.describe) {
             throw CLI::RequiredError("--config");
         }
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    });
 }
 
 Result<void> print_config(const Request& request) {
@@ -68,9 +65,8 @@ Result<void> print_config(const Request& request) {
 
 int config_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     return exit_status("frustumscreen", print_config(request));
 }

@@ -3,6 +3,7 @@
 #include "app/exhibit/guidance_setup.h"
 #include "app/guidance/advise.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
 
@@ -148,10 +149,8 @@ int guide_command(int argc, char** argv) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     app.add_option("--poses", request.poses, "poses, CSV")->required();
     app.add_flag("--json", request.json, "one JSON object a line");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     return exit_status("frustumscreen", guide(request));
 }

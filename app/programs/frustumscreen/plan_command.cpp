@@ -2,6 +2,7 @@
 
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/plan_report.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -22,7 +24,7 @@ struct Request {
     bool json = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app("Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
                  "measures what that saves.",
                  "frustumscreen plan");
@@ -32,13 +34,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--json", request.json, "report as JSON");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    return end_of_arguments(app, argc, argv);
 }
 
 Result<void> plan(const Request& request) {
@@ -66,9 +62,8 @@ Result<void> plan(const Request& request) {
 
 int plan_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     return exit_status("frustumscreen", plan(request));
 }

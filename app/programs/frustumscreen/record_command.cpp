@@ -3,6 +3,7 @@
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -20,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 namespace frustumscreen {
@@ -38,7 +40,7 @@ struct Request {
     bool raw = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app(
         "Records what the tracker sends, before it is smoothed: poses in table coordinates, or with --raw "
         "the packets themselves.",
@@ -50,13 +52,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_flag("--raw", request.raw,
                  "the packets with their times of arrival, in a new file, readable also if it is cut off; "
                  "frustumscreen-poses convert makes poses of it");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    return end_of_arguments(app, argc, argv);
 }
 
 /// Polls until the time is over or a stop is asked for; writes each new state of the tracker to standard
@@ -193,9 +189,8 @@ Result<void> record(const Request& request, Inputs& inputs) {
 
 int record_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     Inputs inputs;
     const int status = exit_status("frustumscreen", record(request, inputs));

@@ -3,6 +3,7 @@
 #include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,7 @@ struct Request {
     OfflineOptions options;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
                  "frustumscreen render");
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
@@ -58,18 +60,13 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         ->capture_default_str();
     app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points, "also frame_00000.pfm: hit points, prop frame, metres");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    const std::optional<int> end = end_of_arguments(app, argc, argv);
     request.options.light = !request.no_light;
     if (request.view == "projector") {
         request.options.width = request.width;
         request.options.height = request.height;
     }
-    return 0;
+    return end;
 }
 
 /// Poses in millimetres, or in a tracker's frame, give dark pictures.
@@ -142,24 +139,17 @@ Result<void> render(const Request& request) {
         return tl::unexpected<Error>(frames.error());
     }
     say_off_the_table(*frames, (*settings)->table);
-    OfflineOptions options = request.options;
+    OfflineSetup setup{*settings, request.options};
     for (const Situation& frame : *frames) {
-        options.views.push_back({frame.table_from_prop, frame.eye_m});
+        setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
     }
-    ScenePlan plan;
-    const Result<VerifiedPack> pack =
-        load_pack(request.pack, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            Result<ScenePlan> made = plan_offline(*settings, outline, options);
-            if (!made) {
-                return tl::unexpected<Error>(made.error());
-            }
-            plan = std::move(*made);
-            return plan.levels;
-        });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
+    const Result<OfflineScene> scene =
+        load_offline(request.pack, [&](const PackOutline& /*outline*/) { return setup; });
+    if (!scene) {
+        return tl::unexpected<Error>(scene.error());
     }
-    if (const auto note = note_other_prop(request.pack.string(), **pack, name_of((*settings)->prop.kind))) {
+    if (const auto note =
+            note_other_prop(request.pack.string(), *scene->pack, name_of((*settings)->prop.kind))) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;
@@ -168,7 +158,7 @@ Result<void> render(const Request& request) {
         return bad_input(
             fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*pack, plan, options);
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -199,9 +189,8 @@ Result<void> render(const Request& request) {
 
 int render_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     if (const Result<void> rendered = render(request); !rendered) {
         fmt::print(stderr, "frustumscreen: {}\n", rendered.error().message);

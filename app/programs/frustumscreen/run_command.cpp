@@ -2,6 +2,7 @@
 
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/staff_service.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
@@ -28,6 +29,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +55,7 @@ struct Request {
     bool json = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     bool everything = false;
     CLI::App app("Runs the exhibit until SIGTERM or SIGINT, or for some seconds.", "frustumscreen run");
     app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
@@ -85,14 +87,9 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_flag("--everything", everything,
                  "load also what this scene does not need, to compare; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    const std::optional<int> end = end_of_arguments(app, argc, argv);
     request.show.economies = everything ? 0U : AllEconomies;
-    return 0;
+    return end;
 }
 
 /// The longest time from the loop's end to the program's: it does not wait for a device's thread that hangs.
@@ -382,9 +379,8 @@ Result<int> run(const Request& request) {
 
 int run_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     const Result<int> status = run(request);
     return status ? *status : exit_status("frustumscreen", tl::unexpected<Error>(status.error()));

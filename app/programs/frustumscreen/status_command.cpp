@@ -1,6 +1,7 @@
 #include "app/programs/frustumscreen/status_command.h"
 
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/staff_service.h"
 #include "app/status/exhibit_verdict.h"
 #include "app/status/prometheus_text.h"
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace frustumscreen {
@@ -29,7 +31,7 @@ struct Request {
     bool prometheus = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app("Says how the exhibit on this machine is. Exit status: 0 it is well, 1 it is not or nothing "
                  "is known.",
                  "frustumscreen status");
@@ -40,13 +42,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_option("--watchdog-file", request.watchdog_file, "its watchdog's status")->capture_default_str();
     app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
         ->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    return end_of_arguments(app, argc, argv);
 }
 
 Result<void> write_screenshot(const Request& request) {
@@ -58,9 +54,8 @@ Result<void> write_screenshot(const Request& request) {
 
 int status_command(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> status = read_arguments(argc, argv, request)) {
+        return *status;
     }
     const KnownExhibit known = read_known_exhibit(request.status_file, request.watchdog_file, status_clock());
     const std::string text = request.json         ? status_document(known)

@@ -1,6 +1,5 @@
 #include "app/programs/frustumscreen/wiring.h"
 
-#include "app/render/probe.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
@@ -134,8 +133,6 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
 }
 
 } // namespace
-
-static_assert(probe_pixels == code_pixels, "the display shows the probe as it is, however it scales");
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
     const DisplaySettings& display = settings.display;

@@ -5,6 +5,7 @@
 #include "app/library/library_folder.h"
 #include "app/pack/key_folder.h"
 #include "app/programs/import/import_watcher.h"
+#include "app/programs/import/listed_keys.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
@@ -100,7 +101,13 @@ Result<void> make_folder(const std::filesystem::path& folder) {
     return error ? bad_input(folder.string() + ": cannot be made: " + error.message()) : Result<void>();
 }
 
-Result<InstalledSet> installed_set(const std::filesystem::path& folder) {
+/// What set.txt says, and what an exhibit that is started now would show of it.
+struct Installed {
+    SetFile file;
+    InstalledSet set;
+};
+
+Result<Installed> installed(const std::filesystem::path& folder) {
     const Result<std::unique_ptr<WritableTree>> library = open_tree(folder);
     if (!library) {
         return tl::unexpected<Error>(library.error());
@@ -113,12 +120,12 @@ Result<InstalledSet> installed_set(const std::filesystem::path& folder) {
     if (!verdict) {
         return bad_input(folder.string() + ": " + verdict.error().reason);
     }
-    return set_to_show(file->choice, *verdict);
+    return Installed{*file, set_to_show(file->choice, *verdict)};
 }
 
 /// Of what is installed; 0 where that is not known.
 std::uint64_t set_number(const ImportArguments& arguments) {
-    return installed_set(arguments.into).map([](const InstalledSet& set) { return set.number; }).value_or(0);
+    return installed(arguments.into).map([](const Installed& found) { return found.set.number; }).value_or(0);
 }
 
 /// None: there is none, or it is no report.
@@ -208,10 +215,15 @@ Result<void> tell_ended(const ImportArguments& arguments, std::string_view servi
 }
 
 Result<std::string> list_installed(const ImportArguments& arguments) {
-    const Result<InstalledSet> set = installed_set(arguments.into);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
+    const Result<Installed> found = installed(arguments.into);
+    if (!found) {
+        return tl::unexpected<Error>(found.error());
     }
+    ImportRequest request; // whose keys are empty where no settings were named
+    if (const Result<void> trusted = read_trust(arguments, request); !trusted) {
+        return tl::unexpected<Error>(trusted.error());
+    }
+    const InstalledSet* set = &found->set;
     auto packs = nlohmann::ordered_json::array();
     std::string text;
     for (const InstalledPack& pack : set->packs) {
@@ -224,7 +236,14 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
         text += fmt::format("{}  {}  serial {}  {}\n", pack.sha256.substr(0, 12),
                             pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title));
     }
-    nlohmann::ordered_json json{{"number", set->number}, {"packs", std::move(packs)}};
+    const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
+    auto keys = nlohmann::ordered_json::array();
+    for (const ListedKey& key : list_keys(request.keys, found->file.keys)) {
+        keys.push_back(json_of(key, knows_settings));
+        text += text_of(key, knows_settings);
+    }
+    nlohmann::ordered_json json{
+        {"number", set->number}, {"packs", std::move(packs)}, {"keys", std::move(keys)}};
     return arguments.json ? json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : text;
 }
 

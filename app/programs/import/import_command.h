@@ -36,7 +36,8 @@ struct ImportArguments {
 /// Leaves the last word of the import `id`, if it could not say it itself; else the report stays. `service_result`: why it ended,
 /// as systemd says.
 [[nodiscard]] Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result);
-/// The set that an exhibit started now would show, as text.
+/// The set that an exhibit started now would show, and the keys: those that sets brought, and those of the settings where they are
+/// named.
 [[nodiscard]] Result<std::string> list_installed(const ImportArguments& arguments);
 
 } // namespace frustumscreen

@@ -75,8 +75,9 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(0.0, 60.0));
     app.add_option("--label", arguments.label, "the stick's name, for the report");
     app.add_flag("--json", arguments.json, "for programs");
-    auto* list_flag =
-        app.add_flag("--list", to_list, "the set that an exhibit started now would show; takes nothing");
+    auto* list_flag = app.add_flag(
+        "--list", to_list,
+        "the set that an exhibit started now would show, and the keys that count; takes nothing");
     app.add_flag("--unmounted", is_unmounted, "only leaves the report of a stick that cannot be mounted");
     auto* ended = app.add_flag("--ended", has_ended,
                                "only leaves the last word on an import that was stopped (ExecStopPost=)");

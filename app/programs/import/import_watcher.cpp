@@ -34,7 +34,10 @@ std::string line_of(const ImportReport& report) {
     case ImportStage::Failed:
         break;
     }
-    return "nothing was taken";
+    const bool has_taken =
+        std::any_of(report.packs.begin(), report.packs.end(),
+                    [](const ImportedPack& pack) { return pack.outcome == ImportOutcome::Taken; });
+    return has_taken ? "taken, and something is wrong" : "nothing was taken";
 }
 
 } // namespace

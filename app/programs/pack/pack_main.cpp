@@ -1,6 +1,7 @@
 /// frustumscreen-pack: verifies, lists, explains, draws and signs packs, and makes the keys for that.
 #include "app/pack/pack_sections.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/pack/keygen_command.h"
 #include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
@@ -168,10 +169,8 @@ int run(int argc, char** argv) {
     Request request;
     add_looking_commands(app, request);
     add_signing_commands(app, request);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     return app.got_subcommand("verify")    ? verify_packs(request.verify)
            : app.got_subcommand("list")    ? list(request)

@@ -1,7 +1,6 @@
 #include "app/programs/pack/pack_preview.h"
 
 #include "app/exhibit/canvas.h"
-#include "app/pack/pack_file.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 
@@ -56,39 +55,19 @@ std::array<RigidTransform, 4> turned_props() {
     return props;
 }
 
-/// What the renderer draws, read from the file.
-struct Scene {
-    VerifiedPack pack;
-    ScenePlan plan;
-    OfflineOptions options;
-};
-
-Result<Scene> load_scene(const std::filesystem::path& file) {
+Result<OfflineSetup> setup_of(const PackOutline& outline) {
+    const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
+    Result<CheckedSettings> settings = settings_for(is_cube ? cube_settings() : PropSettings{});
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
     OfflineOptions options;
     options.technique = "finest";
     options.light = false;
     for (const RigidTransform& table_from_prop : turned_props()) {
         options.views.push_back({table_from_prop, eye_m});
     }
-    ScenePlan plan;
-    Result<VerifiedPack> pack =
-        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
-            const Result<CheckedSettings> settings = settings_for(is_cube ? cube_settings() : PropSettings{});
-            if (!settings) {
-                return tl::unexpected<Error>(settings.error());
-            }
-            Result<ScenePlan> made = plan_offline(*settings, outline, options);
-            if (!made) {
-                return tl::unexpected<Error>(made.error());
-            }
-            plan = *std::move(made);
-            return plan.levels;
-        });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
-    return Scene{*std::move(pack), std::move(plan), std::move(options)};
+    return OfflineSetup{*std::move(settings), std::move(options)};
 }
 
 /// The square about the picture's middle line that holds what is lit in any of the pictures, with a margin.
@@ -127,7 +106,7 @@ Frame frame_of(const std::array<Image8, 4>& sides) {
 Result<Image8> preview_of_pack(const std::filesystem::path& file) {
     static constexpr std::array<std::string_view, 4> names = {"front", "right", "back", "left"};
     static constexpr Colour grey(150, 150, 150);
-    const Result<Scene> scene = load_scene(file);
+    const Result<OfflineScene> scene = load_offline(file, setup_of);
     if (!scene) {
         return tl::unexpected<Error>(scene.error());
     }
@@ -135,8 +114,7 @@ Result<Image8> preview_of_pack(const std::filesystem::path& file) {
     if (!typesetter) {
         return tl::unexpected<Error>(typesetter.error());
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer =
-        OfflineRenderer::create(scene->pack, scene->plan, scene->options);
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

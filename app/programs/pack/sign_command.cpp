@@ -9,8 +9,10 @@
 #include "app/pack/pack_texts.h"
 #include "app/pack/secret_key.h"
 #include "app/pack/sign_pack.h"
+#include "app/pack/zip_archive.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/password_prompt.h"
+#include "firmware_host/base/open_file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -56,11 +58,14 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
     }
     if (before) {
         const Result<SignatureClaim> claim = read_signature_claim(*before);
-        if (claim && claim->serial >= request.now_s) {
+        if (claim && claim->serial > request.now_s) {
             return bad_input(
                 fmt::format("its signature has the serial {} already, and this computer's clock gives "
                             "{}; set the clock right, or name a higher one with --serial",
                             claim->serial, request.now_s));
+        }
+        if (claim && claim->serial == request.now_s) {
+            return request.now_s + 1; // it was signed within this second
         }
     }
     return request.now_s;
@@ -73,35 +78,56 @@ std::string signature_of(const SecretKey& key, std::span<const std::byte> bytes,
                     fmt::format("serial:{}\tfile:{}\thashed", serial, printable(file.filename().string())));
 }
 
+/// What is signed of a pack, and what was signed before.
+struct Signable {
+    Bytes manifest;
+    std::optional<std::string> before;
+};
+
 /// Refuses packs that the kiosk would refuse in spite of the signature.
-Result<void> check_sound(std::span<const std::byte> bytes) {
-    const Result<VerifiedPack> pack = verify_pack(bytes);
-    return pack ? check_set_and_spoken(**pack) : tl::unexpected<Error>(pack.error());
+Result<Signable> read_sound(OpenFile file) {
+    auto zip = pack_format::ZipReader::open(std::move(file));
+    Result<Bytes> manifest = zip.and_then(pack_format::read_manifest_bytes);
+    if (!manifest) {
+        return tl::unexpected<Error>(manifest.error());
+    }
+    Result<pack_format::PackReader> reader = pack_format::PackReader::open(*std::move(zip), *manifest);
+    Result<std::optional<std::string>> before =
+        reader.and_then([](pack_format::PackReader& opened) { return opened.signature(); });
+    if (!before) {
+        return tl::unexpected<Error>(before.error());
+    }
+    const Result<VerifiedPack> pack = read_pack(*reader);
+    const Result<void> sound =
+        pack.and_then([](const VerifiedPack& read) { return check_set_and_spoken(*read); });
+    return sound ? Result<Signable>(Signable{*std::move(manifest), *std::move(before)})
+                 : tl::unexpected<Error>(sound.error());
 }
 
 Result<std::uint64_t> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    const Result<Bytes> pack = read_file(file, pack_format::most_pack_bytes);
+    Result<OpenFile> checked = OpenFile::open(file, pack_format::most_pack_bytes);
+    Result<OpenFile> copied = OpenFile::open(file, pack_format::most_pack_bytes);
+    if (!checked || !copied) {
+        return tl::unexpected<Error>(checked ? copied.error() : checked.error());
+    }
+    const Result<Signable> pack = read_sound(*std::move(checked));
     if (!pack) {
-        return tl::unexpected<Error>(pack.error());
+        return at(file, pack.error());
     }
-    if (const Result<void> sound = check_sound(*pack); !sound) {
-        return at(file, sound.error());
-    }
-    auto zip = pack_format::ZipReader::open(*pack);
-    const Result<Bytes> manifest = zip.and_then(pack_format::read_manifest_bytes);
-    const Result<std::optional<std::string>> before = zip.and_then(pack_format::read_signature_entry);
-    if (!manifest || !before) {
-        return at(file, !manifest ? manifest.error() : before.error());
-    }
-    const Result<std::uint64_t> serial = serial_for(request, *before);
+    const Result<std::uint64_t> serial = serial_for(request, pack->before);
     if (!serial) {
         return at(file, serial.error());
     }
-    const Result<Bytes> with = with_signature(*pack, signature_of(key, *manifest, *serial, file));
-    if (!with) {
-        return at(file, with.error());
+    return write_with_signature(*std::move(copied), signature_of(key, pack->manifest, *serial, file), file)
+        .map([&] { return *serial; });
+}
+
+/// Messages of the set file's own parser begin with the name that it has on a stick.
+Error named(const std::string& file, Error error) {
+    if (error.message.starts_with(exhibit_file_name)) {
+        error.message.replace(0, exhibit_file_name.size(), file);
     }
-    return write_file(file, *with).map([&] { return *serial; });
+    return error;
 }
 
 Result<std::uint64_t> sign_set_file(const SignRequest& request, const SecretKey& key,
@@ -111,7 +137,7 @@ Result<std::uint64_t> sign_set_file(const SignRequest& request, const SecretKey&
         return tl::unexpected<Error>(text.error());
     }
     if (const Result<ExhibitFile> sound = parse_exhibit_file(as_text(*text)); !sound) {
-        return at(file, sound.error());
+        return tl::unexpected<Error>(named(file, sound.error()));
     }
     const std::string beside = file + ".minisig";
     const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);

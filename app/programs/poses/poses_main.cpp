@@ -1,5 +1,6 @@
 /// frustumscreen-poses: pose files from recordings of other trackers, from the simulated visitor, and along a path.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
 #include "app/tracking/registered_tracker.h"
@@ -231,10 +232,8 @@ int run(int argc, char** argv) {
     add_convert(app, to_convert, within);
     add_simulate(app, to_simulate);
     add_path(app, to_follow);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     if (within.size() == 2) {
         to_convert.recording.half_extent_m = {within[0], within[1]};

@@ -1,7 +1,6 @@
 #include "app/programs/preview/preview_page.h"
 
 #include "app/programs/preview/html_parts.h"
-#include "app/programs/preview/lossy_webp.h"
 #include "app/programs/preview/page_files.h"
 #include "firmware_host/base/words_of_time.h"
 #include "firmware_host/base/xml_text.h"

@@ -1,6 +1,5 @@
 #include "app/programs/preview/turn_pictures.h"
 
-#include "app/pack/pack_file.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 #include "app/simulation/visitor_view.h"
@@ -11,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 namespace frustumscreen {
 
@@ -35,46 +33,22 @@ std::vector<RigidTransform> turned_props(int count) {
     return props;
 }
 
-/// What the renderer draws, read from the file.
-struct Scene {
-    VerifiedPack pack;
-    ScenePlan plan;
-    OfflineOptions options;
-    CheckedSettings settings;
-};
-
-Result<Scene> load_scene(const std::filesystem::path& file, const std::vector<RigidTransform>& props,
-                         int projected_width) {
+Result<OfflineSetup> setup_of(const PackOutline& outline, const std::vector<RigidTransform>& props,
+                              int projected_width) {
+    const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
+    Result<CheckedSettings> settings = parse_settings(is_cube ? cube_table : frustum_table, "preview");
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const Pinhole& projector = (*settings)->projector.pinhole;
     OfflineOptions options;
     options.technique = "finest";
-    ScenePlan plan;
-    std::optional<CheckedSettings> settings;
-    Result<VerifiedPack> pack =
-        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
-            const Result<CheckedSettings> parsed =
-                parse_settings(is_cube ? cube_table : frustum_table, "preview");
-            if (!parsed) {
-                return tl::unexpected<Error>(parsed.error());
-            }
-            settings = *parsed;
-            const Pinhole& projector = (**parsed).projector.pinhole;
-            options.width = projected_width;
-            options.height = projected_width * projector.height / projector.width;
-            for (const RigidTransform& prop : props) {
-                options.views.push_back({prop, (*settings)->eye.default_m});
-            }
-            Result<ScenePlan> made = plan_offline(*settings, outline, options);
-            if (!made) {
-                return tl::unexpected<Error>(made.error());
-            }
-            plan = *std::move(made);
-            return plan.levels;
-        });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
+    options.width = projected_width;
+    options.height = projected_width * projector.height / projector.width;
+    for (const RigidTransform& prop : props) {
+        options.views.push_back({prop, (*settings)->eye.default_m});
     }
-    return Scene{*std::move(pack), std::move(plan), std::move(options), *std::move(settings)};
+    return OfflineSetup{*std::move(settings), std::move(options)};
 }
 
 VisitorScene visitor_scene(const Settings& settings, const Pinhole& projector) {
@@ -135,16 +109,17 @@ MarkPlace mark_of(const PackHotspot& hotspot, double metres_per_box, const Rigid
 Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file, const TurnOptions& options) {
     TurnPictures turn{options.columns, options.rows, options.columns * options.rows, options.size, {}, {}};
     const std::vector<RigidTransform> props = turned_props(turn.frames);
-    const Result<Scene> scene = load_scene(pack_file, props, options.projected_width);
+    const Result<OfflineScene> scene = load_offline(pack_file, [&](const PackOutline& outline) {
+        return setup_of(outline, props, options.projected_width);
+    });
     if (!scene) {
         return tl::unexpected<Error>(scene.error());
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer =
-        OfflineRenderer::create(scene->pack, scene->plan, scene->options);
+    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    VisitorScene visitor = visitor_scene(*scene->settings, (*renderer)->projector());
+    VisitorScene visitor = visitor_scene(*scene->setup.settings, (*renderer)->projector());
     const VisitorCamera camera = camera_for(visitor, props, turn.size);
     turn.sheet = Image8(turn.columns * turn.size.x, turn.rows * turn.size.y);
     turn.marks.resize(scene->pack->hotspots.size());

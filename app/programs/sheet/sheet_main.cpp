@@ -2,6 +2,7 @@
 /// alone.
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/sheet/room_picture.h"
 #include "app/programs/sheet/sheet_animation.h"
 #include "app/programs/sheet/sheet_frames.h"
@@ -14,6 +15,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,7 @@ struct Request {
     AnimationOptions animation_options;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app(
         "Makes a contact sheet (projector's picture and visitor's view), an animation and a table of frame "
         "times from pictures of 'frustumscreen run' or 'render'.",
@@ -75,8 +77,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         "picture of the first frame to write, PNG: the table in its room, the projector's picture, the "
         "visitor's view");
     app.add_option("--table", request.table, "table of frame times and errors to write, .html or .md");
-    try {
-        app.parse(argc, argv);
+    return end_of_arguments(app, argc, argv, [&] {
         if (request.sheet.empty() && request.animation.empty() && request.room.empty() &&
             request.table.empty()) {
             throw CLI::ValidationError("nothing to make; give -o, --animation, --room or --table");
@@ -84,11 +85,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
         if (request.poses.size() > request.folders.size() || request.labels.size() > request.folders.size()) {
             throw CLI::ValidationError("more --poses or --label than --frames");
         }
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    });
 }
 
 Result<void> draw_sheet(const Request& request, const Settings& settings,
@@ -176,9 +173,8 @@ Result<void> make(const Request& request) {
 
 int run(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     if (const Result<void> made = make(request); !made) {
         fmt::print(stderr, "frustumscreen-sheet: {}\n", made.error().message);

@@ -1,6 +1,7 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/window/help_picture.h"
 #include "app/programs/window/visitor_half.h"
 #include "app/scene/scene_plan.h"
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace frustumscreen {
@@ -33,7 +35,7 @@ struct Request {
     bool pattern = false;
 };
 
-int read_arguments(int argc, char** argv, Request& request, bool& done) {
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CLI::App app(
         "The exhibit in a window: left the projector's picture, right what the visitor sees. Drag: slide the "
         "prop; "
@@ -48,13 +50,7 @@ int read_arguments(int argc, char** argv, Request& request, bool& done) {
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--seconds", request.seconds, "stop after so many seconds")
         ->check(seconds_between(0.01, 1e6));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        done = true;
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return 0;
+    return end_of_arguments(app, argc, argv);
 }
 
 /// Where a pixel of the projector's picture lies on the table.
@@ -158,9 +154,8 @@ Result<void> run(const Request& request) {
 
 int window_main(int argc, char** argv) {
     Request request;
-    bool done = false;
-    if (const int status = read_arguments(argc, argv, request, done); done) {
-        return status;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
     }
     return exit_status("frustumscreen-window", run(request));
 }

@@ -30,9 +30,9 @@ std::shared_ptr<const Image8> PictureStore::curators() {
     if (!curators_) {
         const Result<Bytes> bytes = read_file(texture_);
         if (!bytes) {
-            refuse("--texture {}", bytes.error().message);
+            refuse("the picture for its colours, {}", bytes.error().message);
         }
-        curators_ = decode(*bytes, "--texture " + texture_.string());
+        curators_ = decode(*bytes, "the picture for its colours, " + texture_.string());
     }
     return curators_;
 }

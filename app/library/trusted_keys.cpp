@@ -1,0 +1,106 @@
+#include "app/library/trusted_keys.h"
+
+#include "firmware_host/base/calendar_day.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// No signature and no clock that is right is older than this program.
+constexpr std::chrono::sys_days first_day = std::chrono::year(2026) / 1 / 1;
+constexpr std::chrono::days most_days_ahead(3653);
+
+const TrustedKey* find(std::span<const TrustedKey> keys, const PublicKey& key) {
+    const auto found =
+        std::find_if(keys.begin(), keys.end(), [&](const TrustedKey& each) { return each.key == key; });
+    return found != keys.end() ? &*found : nullptr;
+}
+
+bool had_ended(const TrustedKey& key, std::optional<std::chrono::sys_days> day) {
+    return key.until && day && *day > *key.until;
+}
+
+/// Whether the one that signed for it counts, as far as is known by now.
+bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> counting) {
+    const Result<PublicKey> signer = parse_public_key(carried.signer);
+    return signer && std::any_of(counting.begin(), counting.end(), [&](const TrustedKey& each) {
+               return each.key == *signer && !had_ended(each, parse_day(carried.since));
+           });
+}
+
+} // namespace
+
+std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
+                                     std::span<const CarriedKey> carried) {
+    std::vector<TrustedKey> counting(settings.begin(), settings.end());
+    for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it vouches for
+        is_longer = false;
+        for (const CarriedKey& each : carried) {
+            const Result<PublicKey> key = parse_public_key(each.public_key);
+            const std::optional<std::chrono::sys_days> until = parse_day(each.until);
+            if (key && find(counting, *key) == nullptr && (until || each.until.empty()) &&
+                is_vouched_for(each, counting)) {
+                counting.push_back({each.name, *key, until});
+                is_longer = true;
+            }
+        }
+    }
+    return counting;
+}
+
+Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carried,
+                                                  std::span<const CarriedKey> brought, const Signer& signer,
+                                                  std::span<const TrustedKey> settings,
+                                                  std::optional<std::chrono::sys_days> day) {
+    const std::string signer_line = public_key_line(signer.public_key);
+    for (CarriedKey key : brought) {
+        key.signer = signer_line;
+        key.since = day ? text_of_day(*day) : "";
+        const auto place = std::find_if(carried.begin(), carried.end(), [&](const CarriedKey& other) {
+            return other.public_key == key.public_key;
+        });
+        if (place == carried.end()) {
+            carried.push_back(std::move(key));
+            continue;
+        }
+        if (place->name == key.name && place->until == key.until && place->signer == key.signer) {
+            key.since = place->since; // the same once more
+        }
+        *place = std::move(key);
+    }
+    const std::vector<TrustedKey> counting = trusted_keys(settings, carried);
+    for (const CarriedKey& key : brought) {
+        const Result<PublicKey> parsed = parse_public_key(key.public_key);
+        if (!parsed || find(counting, *parsed) == nullptr || find(counting, signer.public_key) == nullptr) {
+            return bad_input(fmt::format("it brings the key {} and is signed with it, or with one that it "
+                                         "vouches for; sign it with another key",
+                                         printable(key.name, 40)));
+        }
+    }
+    return carried;
+}
+
+std::optional<std::chrono::sys_days> signing_day(std::uint64_t serial) {
+    constexpr std::uint64_t end_of_days_s = 253402300800; // 10000-01-01
+    if (serial == 0 || serial >= end_of_days_s) {
+        return std::nullopt;
+    }
+    return std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds(std::chrono::seconds(serial)));
+}
+
+std::string latest_day(const std::string& latest, std::optional<std::chrono::sys_days> day) {
+    const std::chrono::sys_days known = parse_day(latest).value_or(first_day);
+    return day && *day > known && *day <= known + most_days_ahead ? text_of_day(*day) : latest;
+}
+
+std::optional<std::chrono::sys_days> day_here(std::optional<std::chrono::sys_days> clock,
+                                              const std::string& latest) {
+    return clock ? std::optional(std::max(*clock, parse_day(latest).value_or(*clock))) : std::nullopt;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,51 @@
+#include "app/bench/museum/museum_report.h"
+#include "app/programs/bench/bench_command.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    int days = 1000;
+    std::uint64_t seed = 1;
+    double times = 1.0;
+};
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const std::vector<Attack> attacks = seeded_attacks(arguments.seed, arguments.days, arguments.times);
+    std::vector<MuseumRun> runs;
+    for (const Policy policy : all_policies) {
+        progress.show(std::string(name_of(policy)),
+                      static_cast<double>(runs.size()) / static_cast<double>(all_policies.size()));
+        runs.push_back(simulate(policy, attacks, arguments.days, arguments.seed));
+    }
+    progress.clear();
+    fmt::print("{} faults in {} days\n\n{}", attacks.size(), arguments.days, museum_table(runs, attacks));
+    const Result<void> written =
+        write_all(arguments.out, {{"ladder.csv", dark_times_csv(runs, arguments.days)},
+                                  {"ladder_policies.csv", museum_csv(runs, arguments.days)},
+                                  {"ladder_ailments.csv", ailments_csv(runs, attacks)}});
+    return written ? draw_all(arguments.out, {"ladder.csv"}) : written;
+}
+
+} // namespace
+
+BenchCommand ladder_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "ladder", "the recovery ladder over simulated days of a museum, beside other policies");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("--out", arguments->out, "folder for the tables and the plot")->required();
+    command->add_option("--days", arguments->days, "simulated")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "of the faults")->capture_default_str();
+    command->add_option("--times", arguments->times, "as many faults as usual")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,96 @@
+/// frustumscreen-safe: a calm picture with words for visitors and staff, for when the exhibit itself cannot run.
+#include "app/image/image.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/safe/show_safe_picture.h"
+#include "app/safe/draw_safe_page.h"
+#include "firmware_host/base/file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+constexpr int least_side = 320, most_side = 8192;
+
+struct Size {
+    int width = 1920, height = 1080;
+};
+
+std::string read_size(const std::string& text, Size& size) {
+    const char* const end = text.data() + text.size();
+    const std::from_chars_result width = std::from_chars(text.data(), end, size.width);
+    bool good = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    if (good) {
+        const std::from_chars_result height = std::from_chars(width.ptr + 1, end, size.height);
+        good = height.ec == std::errc{} && height.ptr == end;
+    }
+    good = good && std::min(size.width, size.height) >= least_side &&
+           std::max(size.width, size.height) <= most_side;
+    return good ? std::string()
+                : fmt::format("'{}' is no size; allowed are {} to {} pixels a side, such as 1280x800", text,
+                              least_side, most_side);
+}
+
+Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {
+    const SafeText text{read_reason(arguments.reason), {}};
+    const SafePage page = lay_out_safe_page(size.width, size.height, text, arguments.languages);
+    std::vector<std::uint8_t> greys(static_cast<std::size_t>(size.width) *
+                                    static_cast<std::size_t>(size.height));
+    draw_safe_rows(page, 0, greys);
+    Image8 picture(size.width, size.height);
+    std::transform(greys.begin(), greys.end(), picture.texels.begin(),
+                   [](std::uint8_t grey) { return glm::u8vec4(grey, grey, grey, 255); });
+    return write_file(file, encode_png(picture));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Shows that the exhibit rests, in all languages, and tells the staff why and what to do. It "
+                 "needs a graphics "
+                 "card's driver and nothing else: no settings, no packs, no OpenGL.",
+                 "frustumscreen-safe");
+    app.set_version_flag("--version", "frustumscreen-safe " FRUSTUMSCREEN_VERSION);
+    SafeArguments arguments;
+    arguments.languages = safe_languages();
+    std::string png;
+    Size size;
+    std::vector<std::string> languages;
+    app.add_option("--card", arguments.card,
+                   "the graphics card, such as /dev/dri/card0; else the first with a projector");
+    app.add_option("--reason", arguments.reason,
+                   "file whose first line is shown to the staff, read once a second");
+    app.add_option("--alive", arguments.alive,
+                   "file rewritten after each picture shown: how many, and CLOCK_MONOTONIC in ns");
+    app.add_option("--language", languages, "for visitors, all if left out; the first is the staff's too")
+        ->check(CLI::IsMember(arguments.languages));
+    auto* out =
+        app.add_option("--png", png, "draws the picture into this file and ends; needs no graphics card");
+    app.add_option("--size", "of that picture in pixels, such as 1280x800; else 1920x1080")
+        ->needs(out)
+        ->each([&size](const std::string& text) {
+            if (const std::string wrong = read_size(text, size); !wrong.empty()) {
+                throw CLI::ValidationError("--size", wrong);
+            }
+        });
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!languages.empty()) {
+        arguments.languages.assign(languages.begin(), languages.end());
+    }
+    return exit_status("frustumscreen-safe",
+                       png.empty() ? show_safe_picture(arguments) : write_picture(png, size, arguments));
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-safe", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,84 @@
+#include "app/programs/safe/safe_scanout.h"
+
+#include "app/safe/draw_safe_page.h"
+#include "firmware_host/base/probe_code.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int rows_at_once =
+    32; ///< a whole picture of greys would be the largest piece of this program's memory
+
+/// Writes pixels from `x` on in row `y`; alpha is nothing.
+void write_row(const DumbBuffer& buffer, int y, std::span<const std::uint8_t> greys,
+               std::vector<std::uint32_t>& row) {
+    row.resize(greys.size());
+    std::transform(greys.begin(), greys.end(), row.begin(),
+                   [](std::uint8_t grey) { return 0x010101U * grey; });
+    const std::span<std::byte> memory = buffer.memory();
+    const std::size_t begin = static_cast<std::size_t>(y) * buffer.stride();
+    const std::size_t bytes = row.size() * sizeof row[0];
+    if (begin + bytes <= memory.size()) {
+        std::memcpy(memory.data() + begin, row.data(), bytes);
+    }
+}
+
+} // namespace
+
+Result<std::unique_ptr<ScanoutPair>> SafeScanout::make(int card, PixelSize size, const SafePicture& picture) {
+    std::optional<DumbBuffer> first = DumbBuffer::create(card, size);
+    std::optional<DumbBuffer> second = DumbBuffer::create(card, size);
+    if (!first || !second) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("the graphics card has no memory for {} x {} pixels", size.width, size.height));
+    }
+    return std::unique_ptr<ScanoutPair>(
+        new SafeScanout(size, picture, *std::move(first), *std::move(second)));
+}
+
+FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
+    Framebuffer& framebuffer = framebuffers_.at(static_cast<std::size_t>(which));
+    DumbBuffer& buffer = framebuffer.buffer;
+    if (framebuffer.drawn != picture_.text && draw(buffer)) {
+        framebuffer.drawn = picture_.text;
+    }
+    if (buffer.map()) {
+        std::array<std::uint8_t, probe_pixels> corner{};
+        for (int k = 0; k < probe_pixels; ++k) {
+            corner.at(static_cast<std::size_t>(k)) = probe_grey(picture_.code, k);
+        }
+        std::vector<std::uint32_t> row;
+        write_row(buffer, 0, corner, row);
+        buffer.unmap();
+    }
+    return buffer.shown();
+}
+
+bool SafeScanout::draw(DumbBuffer& buffer) const {
+    const SafePage page = lay_out_safe_page(size_.width, size_.height, picture_.text, picture_.languages);
+    const auto width = static_cast<std::size_t>(size_.width);
+    std::vector<std::uint8_t> greys;
+    std::vector<std::uint32_t> row;
+    for (int y = 0; y < size_.height; y += rows_at_once) {
+        const auto rows = static_cast<std::size_t>(std::min(rows_at_once, size_.height - y));
+        greys.resize(rows * width);
+        draw_safe_rows(page, y, greys);
+        if (!buffer.map()) {
+            return false;
+        }
+        for (std::size_t k = 0; k < rows; ++k) {
+            write_row(buffer, y + static_cast<int>(k), std::span(greys).subspan(k * width, width), row);
+        }
+        buffer.unmap(); // what was written counts as this process's memory for as long as it is mapped
+    }
+    return true;
+}
+
+} // namespace frustumscreen

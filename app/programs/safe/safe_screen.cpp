@@ -1,0 +1,47 @@
+#include "app/programs/safe/safe_screen.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace frustumscreen {
+
+Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
+                                                     std::vector<std::string_view> languages) {
+    Result<KmsCard> card = KmsCard::open(name, {});
+    if (!card) {
+        return tl::unexpected<Error>(card.error());
+    }
+    if (!take_screen(card->file())) {
+        return fail(ErrorKind::DeviceLost,
+                    fmt::format("another program holds the screen of {}; end it, or wait until it has ended",
+                                card->path()));
+    }
+    return std::unique_ptr<SafeScreen>(new SafeScreen(*std::move(card), name.empty(), std::move(languages)));
+}
+
+SafeScreen::SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view> languages)
+    : card_(std::move(card)),
+      other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), {})) : std::nullopt),
+      picture_{std::move(languages), {}, 0}, kms_(make_kms_device(card_)),
+      presenter_(*kms_, [this](PixelSize size) { return SafeScanout::make(card_.file(), size, picture_); },
+                 {}) {}
+
+Result<bool> SafeScreen::show(const SafeText& text) {
+    // Asking the projectors disturbs some: while one is lit, only the kernel is asked.
+    CardSeen seen = look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, !presenter_.lit());
+    add_usual_modes(seen);
+    if (seen != seen_) {
+        presenter_.connected(seen);
+        seen_ = std::move(seen);
+    }
+    picture_.text = text;
+    ++picture_.code;
+    const Result<MonotonicTime> presented = presenter_.present({}, true);
+    if (!presented) {
+        return tl::unexpected<Error>(presented.error());
+    }
+    return presenter_.wait_until_shown();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,101 @@
+#include "app/programs/safe/show_safe_picture.h"
+
+#include "app/programs/safe/safe_screen.h"
+#include "firmware_host/base/descriptor.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/time.h"
+#include "firmware_host/service/service_manager.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
+
+std::chrono::minutes since_boot() {
+    timespec time{};
+    ::clock_gettime(CLOCK_BOOTTIME, &time);
+    return std::chrono::duration_cast<std::chrono::minutes>(std::chrono::seconds(time.tv_sec));
+}
+
+/// One line: how many pictures were shown, and CLOCK_MONOTONIC in ns at the latest.
+Result<void> say_alive(const std::filesystem::path& file, std::uint64_t shown) {
+    const std::string line = fmt::format("{} {}\n", shown, monotonic_now().time_since_epoch().count());
+    return file.empty() ? Result<void>() : write_file(file, as_bytes(line));
+}
+
+/// To the service manager, and to the journal what is new.
+class Teller {
+public:
+    void tell(std::string_view sentence) {
+        const Sentence told(sentence);
+        if (!(told == last_)) {
+            last_ = told;
+            fmt::print(stderr, "frustumscreen-safe: {}\n", told.view());
+        }
+        manager_.status(told);
+    }
+    void ready() { manager_.ready(); }
+    void feed_watchdog() { manager_.feed_watchdog(); }
+
+private:
+    ServiceManager manager_;
+    Sentence last_;
+};
+
+} // namespace
+
+std::string read_reason(const std::filesystem::path& file) {
+    std::array<char, 4096> bytes{};
+    struct stat what {};
+    const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (opened.number() < 0 || ::fstat(opened.number(), &what) != 0 || !S_ISREG(what.st_mode)) {
+        return {};
+    }
+    const ssize_t count = ::read(opened.number(), bytes.data(), bytes.size());
+    return {bytes.data(), count > 0 ? static_cast<std::size_t>(count) : 0};
+}
+
+Result<void> show_safe_picture(const SafeArguments& arguments) {
+    Teller teller;
+    std::unique_ptr<SafeScreen> screen;
+    std::uint64_t shown = 0;
+    for (MonotonicTime next = monotonic_now();; next = std::max(next + between_pictures, monotonic_now())) {
+        std::this_thread::sleep_until(next);
+        if (screen == nullptr) {
+            Result<std::unique_ptr<SafeScreen>> opened =
+                SafeScreen::open(arguments.card, arguments.languages);
+            if (!opened) {
+                teller.tell(opened.error().message); // a card may come, and another program may end
+            } else {
+                screen = *std::move(opened);
+            }
+        }
+        bool fed = screen == nullptr;
+        if (screen != nullptr) {
+            const Result<bool> on = screen->show({read_reason(arguments.reason), since_boot()});
+            if (!on) {
+                return tl::unexpected<Error>(on.error());
+            }
+            const Result<void> said = *on ? say_alive(arguments.alive, ++shown) : Result<void>();
+            teller.tell(said ? screen->state() : said.error().message); // the picture goes on all the same
+            fed = *on || !screen->lit(); // a lit projector that takes no pictures is what the watchdog is for
+        }
+        teller.ready();
+        if (fed) {
+            teller.feed_watchdog();
+        }
+    }
+}
+
+} // namespace frustumscreen

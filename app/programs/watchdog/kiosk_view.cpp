@@ -1,0 +1,219 @@
+#include "app/programs/watchdog/kiosk_view.h"
+
+#include "app/programs/watchdog/exhibit_status.h"
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace frustumscreen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::streamsize most_status_bytes = 1 << 20;
+constexpr std::streamsize most_ends_bytes = 1 << 16; ///< at a look; more comes at the next one
+constexpr double full_disk = 0.03;
+constexpr double worn_disk = 0.8;
+constexpr double hot_c = 90.0;
+/// A clock before this was never set: the program is younger.
+constexpr std::chrono::sys_days youngest_day = std::chrono::year{2026} / 1 / 1;
+
+std::string first_line(const fs::path& file) {
+    std::string line;
+    std::getline(std::ifstream(file), line);
+    return line;
+}
+
+/// The whole number at the front of a file; `otherwise` if there is none.
+double number_in(const fs::path& file, double otherwise) {
+    double value = 0.0;
+    std::ifstream stream(file);
+    return stream >> value ? value : otherwise;
+}
+
+/// The number behind a key at the front of a line: `MemTotal: 123 kB`, `anon 123`.
+double value_of(const fs::path& file, std::string_view key, double otherwise) {
+    std::ifstream stream(file);
+    for (std::string word; stream >> word;) {
+        double value = 0.0;
+        if (word == key && stream >> value) {
+            return value;
+        }
+        stream.clear();
+        std::getline(stream, word);
+    }
+    return otherwise;
+}
+
+/// Calls with each entry of a folder whose name begins so.
+template <typename Visit>
+void for_each_in(const fs::path& folder, std::string_view begin, const Visit& visit) {
+    std::error_code stop;
+    fs::directory_iterator entry(folder, stop);
+    for (; !stop && entry != fs::directory_iterator(); entry.increment(stop)) {
+        if (entry->path().filename().string().starts_with(begin)) {
+            visit(entry->path());
+        }
+    }
+}
+
+std::int32_t first_process(const fs::path& group) {
+    std::ifstream stream(group / "cgroup.procs");
+    std::int32_t first = 0;
+    for (std::int32_t process = 0; stream >> process;) {
+        first = first == 0 ? process : std::min(first, process);
+    }
+    return first;
+}
+
+/// Share of what it may take that the group's processes hold; the cache of files, which can be let go, is not counted.
+double memory_of(const fs::path& group) {
+    const double most = number_in(group / "memory.max", 0.0);
+    return most > 0.0 ? value_of(group / "memory.stat", "anon", 0.0) / most : 0.0;
+}
+
+/// eMMC says in tenths how much of its life is over, for two kinds of its cells: `0x01 0x02`.
+double worn(const fs::path& root) {
+    double worst = 0.0;
+    for_each_in(root / "sys/block", "mmcblk", [&](const fs::path& disk) {
+        std::ifstream stream(disk / "device/life_time");
+        for (std::string tenths; stream >> tenths;) {
+            worst = std::max(worst, 0.1 * std::strtod(tenths.c_str(), nullptr));
+        }
+    });
+    return worst;
+}
+
+std::optional<double> hottest_c(const fs::path& root) {
+    std::optional<double> hottest;
+    for_each_in(root / "sys/class/thermal", "thermal_zone", [&](const fs::path& zone) {
+        const double here = 1e-3 * number_in(zone / "temp", -1e9);
+        hottest = here > -100.0 ? std::max(hottest.value_or(here), here) : hottest;
+    });
+    return hottest;
+}
+
+std::optional<bool> projector(const fs::path& root) {
+    std::optional<bool> connected;
+    for_each_in(root / "sys/class/drm", "card", [&](const fs::path& connector) {
+        const std::string status = first_line(connector / "status");
+        connected = status.empty() ? connected : connected.value_or(false) || status != "disconnected";
+    });
+    return connected;
+}
+
+void look_at_disk(const fs::path& folder, Outcome& outcome) {
+    struct statvfs disk {};
+    if (::statvfs(folder.c_str(), &disk) == 0 && disk.f_blocks > 0) {
+        outcome.disk_free = static_cast<double>(disk.f_bavail) / static_cast<double>(disk.f_blocks);
+        outcome.disk_writable = (disk.f_flag & ST_RDONLY) == 0;
+    }
+}
+
+} // namespace
+
+std::string boot_id(const fs::path& root) {
+    return first_line(root / "proc/sys/kernel/random/boot_id");
+}
+
+KioskView::KioskView(KioskPlaces places, std::string boot_id)
+    : places_(std::move(places)), boot_id_(std::move(boot_id)) {}
+
+std::optional<ExhibitSays> KioskView::exhibit(MonotonicTime now) const {
+    std::ifstream stream(places_.root / places_.status, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (std::ssize(text) > most_status_bytes) {
+        return std::nullopt;
+    }
+    const std::optional<ExhibitStatus> status = read_exhibit_status(text);
+    if (!status || status->boot_id != boot_id_) {
+        return std::nullopt;
+    }
+    ExhibitSays says = status->says;
+    says.age = std::max(now - status->written_at, Nanoseconds(0));
+    return says;
+}
+
+void KioskView::count_ends() {
+    std::ifstream stream(places_.root / places_.ends, std::ios::binary | std::ios::ate);
+    const auto size = stream ? static_cast<std::uint64_t>(stream.tellg()) : 0;
+    ends_read_ = size < ends_read_ ? 0 : ends_read_; // a new file
+    stream.seekg(static_cast<std::streamoff>(ends_read_));
+    std::string line;
+    for (std::streamsize read = 0; read < most_ends_bytes && std::getline(stream, line) && !stream.eof();) {
+        read += std::ssize(line) + 1;
+        ends_read_ += line.size() + 1;
+        const std::size_t blank = line.find(' '); // behind the time
+        const std::string end = blank == std::string::npos ? std::string() : line.substr(blank + 1);
+        if (!end.starts_with("success ")) {
+            ++failures_;
+            last_end_ = end;
+        }
+    }
+}
+
+Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock) {
+    const fs::path& root = places_.root;
+    count_ends();
+    Outcome outcome;
+    outcome.process = first_process(root / places_.group);
+    outcome.failures = failures_;
+    outcome.exhibit = exhibit(now);
+    const double flips = number_in(root / places_.safe_alive, -1.0);
+    outcome.safe_pictures = flips >= 0.0 ? std::optional(static_cast<std::uint64_t>(flips)) : std::nullopt;
+    const fs::path memory = root / "proc/meminfo";
+    outcome.memory_free =
+        value_of(memory, "MemAvailable:", 1.0) / std::max(value_of(memory, "MemTotal:", 1.0), 1.0);
+    outcome.exhibit_memory = memory_of(root / places_.group);
+    look_at_disk(root / places_.data, outcome);
+    outcome.disk_worn = worn(root);
+    outcome.hottest_c = hottest_c(root);
+    outcome.projector = projector(root);
+    outcome.clock_plausible = wall_clock >= youngest_day;
+    return outcome;
+}
+
+Means KioskView::means() const {
+    // Whether the set can be gone back to is the exhibit's matter; here it matters that there is one.
+    std::ifstream stream(places_.root / places_.last_good, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::size_t key = text.find("\"last_good\":");
+    const bool has_set =
+        key != std::string::npos && text.find_first_not_of(" \n", key + 12) == text.find('{', key);
+    std::error_code missing;
+    return {has_set, fs::exists(places_.root / places_.device, missing), false};
+}
+
+std::vector<std::string> notes_of(const Outcome& outcome) {
+    std::vector<std::string> notes;
+    if (outcome.projector == false) {
+        notes.emplace_back("no projector is connected; check its cable, and switch it on");
+    }
+    if (!outcome.disk_writable) {
+        notes.emplace_back("the disk can only be read; it may be worn out: have it looked at");
+    } else if (outcome.disk_free < full_disk) {
+        notes.push_back(fmt::format("the disk has {:.0f} % left; a stick with smaller packs makes room",
+                                    100.0 * outcome.disk_free));
+    }
+    if (outcome.disk_worn > worn_disk) {
+        notes.push_back(
+            fmt::format("{:.0f} % of the disk's life is over; have it replaced", 100.0 * outcome.disk_worn));
+    }
+    if (outcome.hottest_c && *outcome.hottest_c > hot_c) {
+        notes.push_back(
+            fmt::format("the computer has {:.0f} degrees Celsius; give it air", *outcome.hottest_c));
+    }
+    if (!outcome.clock_plausible) {
+        notes.emplace_back("the clock was never set; the timetable is not kept until it is");
+    }
+    return notes;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,58 @@
+/// Looks at the kiosk from outside the exhibit: its status file, its control group, the kernel's own files.
+///
+/// Places   absolute paths, all under `root`, so that a test can have a kiosk of its own.
+/// Threads  one caller. Reads small files of the kernel and of memory only, but for the free space of the data's disk, which the
+///          kernel keeps in memory, too.
+/// Errors   none: what cannot be read is seen as well, or as not there, as its field says (app/watch/outcome.h).
+#pragma once
+
+#include "app/watch/ladder.h"
+#include "app/watch/outcome.h"
+#include "firmware_host/base/time.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct KioskPlaces {
+    std::filesystem::path root = "/";
+    std::filesystem::path status = "run/frustumscreen/status.json";
+    std::filesystem::path ends = "run/frustumscreen/ends";
+    std::filesystem::path safe_alive = "run/frustumscreen-safe/alive";
+    std::filesystem::path group = "sys/fs/cgroup/system.slice/frustumscreen.service";
+    std::filesystem::path device = "dev/frustumscreen/tracker"; ///< made by udev while one is plugged in
+    std::filesystem::path last_good = "var/lib/frustumscreen/library/set.txt";
+    std::filesystem::path data = "var/lib/frustumscreen";
+};
+
+/// Of this boot.
+[[nodiscard]] std::string boot_id(const std::filesystem::path& root = "/");
+
+class KioskView {
+public:
+    KioskView(KioskPlaces places, std::string boot_id);
+
+    [[nodiscard]] Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
+    /// All but whether a reboot can be written down.
+    [[nodiscard]] Means means() const;
+    /// How the exhibit's process ended at last: `watchdog killed KILL`; empty: it did not.
+    [[nodiscard]] const std::string& last_end() const { return last_end_; }
+
+private:
+    [[nodiscard]] std::optional<ExhibitSays> exhibit(MonotonicTime now) const;
+    void count_ends();
+
+    KioskPlaces places_;
+    std::string boot_id_;
+    std::uint64_t ends_read_ = 0; ///< bytes of the file of ends
+    std::uint32_t failures_ = 0;
+    std::string last_end_;
+};
+
+/// What no step mends, each a sentence for the staff.
+[[nodiscard]] std::vector<std::string> notes_of(const Outcome& outcome);
+
+} // namespace frustumscreen

@@ -1,0 +1,44 @@
+#include "app/programs/watchdog/orders.h"
+
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+std::string_view Orders::order_for(Step step) {
+    switch (step) {
+    case Step::ResetDevice:
+        return "reset-device";
+    case Step::SafePicture:
+        return "safe-picture";
+    case Step::Reboot:
+        return "reboot";
+    case Step::RestartExhibit:
+    case Step::LastGoodSet:
+    case Step::BuiltIn:
+    case Step::Return:
+        break;
+    }
+    return "restart-exhibit"; // with another mode
+}
+
+Result<void> Orders::set_mode(Mode mode) const {
+    return write_file(folder_ / "mode", as_bytes(fmt::format("{}\n", word_of(mode))));
+}
+
+Result<void> Orders::begin(Mode mode) const {
+    std::error_code failed; // said by `set_mode`, as the folder it is in is missing then
+    std::filesystem::remove_all(folder_ / "steps", failed);
+    std::filesystem::create_directories(folder_ / "steps", failed);
+    return set_mode(mode);
+}
+
+Result<void> Orders::give(Step step, Mode mode, std::string_view reason) const {
+    const Result<void> is_set = set_mode(mode);
+    const Result<void> is_told = write_file(folder_ / "reason", as_bytes(fmt::format("{}\n", reason)));
+    const Result<void> is_given = write_file(folder_ / "steps" / order_for(step), {});
+    return !is_set ? is_set : !is_told ? is_told : is_given;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,197 @@
+/// frustumscreen-watchdog: watches what comes of the exhibit, and climbs the recovery ladder. No GL, no USB, no packs, no
+/// settings; one thread; its memory is locked, so that a machine without memory cannot stop it.
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/watchdog/fault_book.h"
+#include "app/programs/watchdog/kiosk_view.h"
+#include "app/programs/watchdog/memory_file.h"
+#include "app/programs/watchdog/orders.h"
+#include "app/programs/watchdog/watchdog_report.h"
+#include "app/watch/judge.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/service/journal.h"
+#include "firmware_host/service/service_manager.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <ctime>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+constexpr Nanoseconds between_looks = std::chrono::seconds(1);
+
+struct Arguments {
+    std::filesystem::path run_folder = "/run/frustumscreen-watchdog";
+    std::filesystem::path state_folder = "/var/lib/frustumscreen-watchdog";
+    double start_patience_s = 60.0;
+    double seconds = 0.0; ///< 0: until it is told to stop
+    KioskPlaces places;
+};
+
+/// Since the boot, with the time that the machine slept.
+Awake since_boot() {
+    std::timespec time{};
+    ::clock_gettime(CLOCK_BOOTTIME, &time);
+    return std::chrono::duration_cast<Awake>(std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec));
+}
+
+std::string wall_clock_text() {
+    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+Patience patience_of(const Arguments& arguments) {
+    Patience patience;
+    patience.start =
+        std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.start_patience_s));
+    return patience;
+}
+
+class Watchdog {
+public:
+    Watchdog(const Arguments& arguments, MonotonicTime now)
+        : boot_id_(boot_id(arguments.places.root)), view_(arguments.places, boot_id_),
+          judge_(patience_of(arguments), now),
+          memory_(arguments.state_folder / "memory", number_of_boot(boot_id_)),
+          faults_(arguments.state_folder / "faults"), orders_(arguments.run_folder),
+          report_file_(arguments.run_folder / "status.json"),
+          ladder_(memory_.remembered(since_boot()), !memory_.is_of_this_boot()) {}
+
+    /// What the exhibit is to show must be known before it starts.
+    void begin() { complain_of(orders_.begin(ladder_.memory().mode)); }
+
+    void look(MonotonicTime now) {
+        const Outcome outcome = view_.look(now, std::chrono::system_clock::now());
+        const Seen seen = judge_.look(now, ladder_.memory().mode, outcome);
+        Means means = view_.means();
+        means.reboot = memory_.can_write_now(now);
+        const Awake awake = std::max(memory_.remembered(since_boot()).awake, ladder_.memory().awake);
+        const bool was_in_episode = ladder_.memory().cause.has_value();
+        const std::optional<Act> act = ladder_.look(awake, seen, means);
+        if (was_in_episode && !ladder_.memory().cause && seen.lit && !seen.trouble) {
+            faults_.note_good();
+        }
+        trouble_since_ = seen.trouble ? trouble_since_.value_or(now) : std::optional<MonotonicTime>{};
+        if (act) {
+            take(*act, now);
+        }
+        memory_.keep(now, since_boot(), ladder_.memory(), false);
+        faults_.keep(now, false);
+        report(now, seen, outcome);
+    }
+
+private:
+    void take(const Act& act, MonotonicTime now) {
+        const std::string_view cause = act.cause ? sentence_of(*act.cause) : "ten good minutes";
+        faults_.enter({wall_clock_text(), ladder_.memory().awake, act.cause, act.step, view_.last_end(), {}});
+        const std::string reason = fmt::format("{}; {}", cause, sentence_of(act.step));
+        journal_.note(act.cause ? LogPriority::Warning : LogPriority::Notice, reason,
+                      {{"STEP", word_of(act.step)}, {"CAUSE", act.cause ? word_of(*act.cause) : ""}});
+        if (act.step == Step::Reboot) {
+            faults_.keep(now, true);
+            if (!memory_.keep(now, since_boot(), ladder_.memory(), true)) {
+                journal_.note(LogPriority::Error, "the reboot could not be written down, so it is not done");
+                return;
+            }
+        }
+        complain_of(orders_.give(act.step, ladder_.memory().mode, reason));
+        judge_.step_taken(now);
+    }
+
+    void report(MonotonicTime now, const Seen& seen, const Outcome& outcome) {
+        const WatchdogReport report{now,
+                                    wall_clock_text(),
+                                    boot_id_,
+                                    ladder_.memory(),
+                                    seen,
+                                    now - trouble_since_.value_or(now),
+                                    ladder_.reboots_within_day(),
+                                    outcome.failures,
+                                    view_.last_end(),
+                                    notes_of(outcome)};
+        complain_of(write_file(report_file_, as_bytes(watchdog_json(report, faults_.latest()))));
+    }
+
+    /// Once for each message.
+    void complain_of(const Result<void>& result) {
+        if (!result && result.error().message != complaint_) {
+            complaint_ = result.error().message;
+            journal_.note(LogPriority::Error, complaint_);
+        }
+    }
+
+    Journal journal_{"frustumscreen-watchdog"};
+    std::string boot_id_;
+    KioskView view_;
+    Judge judge_;
+    MemoryFile memory_;
+    FaultBook faults_;
+    Orders orders_;
+    std::filesystem::path report_file_;
+    Ladder ladder_;
+    std::optional<MonotonicTime> trouble_since_;
+    std::string complaint_;
+};
+
+int watch(const Arguments& arguments) {
+    const StopSignals signals;
+    const ServiceManager manager;
+    const MonotonicTime begin = monotonic_now();
+    Watchdog watchdog(arguments, begin);
+    watchdog.begin();
+    if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
+        fmt::print(stderr,
+                   "frustumscreen-watchdog: its memory cannot be locked; raise LimitMEMLOCK= of its unit\n");
+    }
+    for (MonotonicTime next = begin; !signals.received();) {
+        const MonotonicTime now = monotonic_now();
+        if (arguments.seconds > 0.0 && to_seconds(now - begin) >= arguments.seconds) {
+            break;
+        }
+        watchdog.look(now);
+        if (next == begin) {
+            manager.ready();
+        }
+        manager.feed_watchdog();
+        next = std::max(next + between_looks, now);
+        std::this_thread::sleep_until(next);
+    }
+    manager.stopping();
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
+                 "manager starts it.",
+                 "frustumscreen-watchdog");
+    app.set_version_flag("--version", "frustumscreen-watchdog " FRUSTUMSCREEN_VERSION);
+    Arguments arguments;
+    app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
+        ->capture_default_str();
+    app.add_option("--state-folder", arguments.state_folder, "folder for what survives a reboot")
+        ->capture_default_str();
+    app.add_option("--start-patience", arguments.start_patience_s, "s that a start of the exhibit may take")
+        ->check(CLI::Range(5.0, 600.0))
+        ->capture_default_str();
+    app.add_option("--root", arguments.places.root, "a folder that stands for /, for tests")
+        ->capture_default_str();
+    app.add_option("--seconds", arguments.seconds, "s after which it ends; 0: when it is told to")
+        ->check(CLI::Range(0.0, 1e6));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return watch(arguments);
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-watchdog", frustumscreen::run, argc, argv);
+}

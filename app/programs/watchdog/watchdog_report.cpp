@@ -1,0 +1,72 @@
+#include "app/programs/watchdog/watchdog_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json seconds_of(Awake awake) {
+    return std::chrono::duration_cast<std::chrono::seconds>(awake).count();
+}
+
+Json json_of(const Fault& fault) {
+    return {{"at", fault.at},
+            {"awake_s", seconds_of(fault.awake)},
+            {"cause", fault.cause ? Json(word_of(*fault.cause)) : Json(nullptr)},
+            {"sentence", fault.cause ? sentence_of(*fault.cause) : "ten good minutes"},
+            {"step", word_of(fault.step)},
+            {"done", sentence_of(fault.step)},
+            {"detail", fault.detail},
+            {"helped", fault.helped ? Json(*fault.helped) : Json(nullptr)}};
+}
+
+Json trouble_of(const WatchdogReport& report) {
+    const std::optional<Cause>& trouble = report.seen.trouble;
+    return trouble ? Json{{"cause", word_of(*trouble)},
+                          {"sentence", sentence_of(*trouble)},
+                          {"since_s", static_cast<std::int64_t>(to_seconds(report.trouble_for))}}
+                   : Json(nullptr);
+}
+
+/// While it takes effect.
+Json step_of(const WatchdogReport& report) {
+    const LadderMemory& memory = report.memory;
+    const Awake ago = memory.awake - memory.latest_at;
+    if (!memory.latest || ago >= Ladder::settling(*memory.latest)) {
+        return nullptr;
+    }
+    return {{"name", word_of(*memory.latest)},
+            {"cause", memory.cause ? Json(word_of(*memory.cause)) : Json(nullptr)},
+            {"began_monotonic_ns", (report.now - ago).time_since_epoch().count()}};
+}
+
+} // namespace
+
+std::string watchdog_json(const WatchdogReport& report, const std::deque<Fault>& faults) {
+    const LadderMemory& memory = report.memory;
+    Json all = Json::array();
+    for (const Fault& fault : faults) {
+        all.push_back(json_of(fault));
+    }
+    const Json json = {{"written_at", report.at},
+                       {"monotonic_ns", report.now.time_since_epoch().count()},
+                       {"boot_id", report.boot_id},
+                       {"mode", word_of(memory.mode)},
+                       {"trouble", trouble_of(report)},
+                       {"lit", report.seen.lit},
+                       {"step", step_of(report)},
+                       {"climb", memory.climb},
+                       {"next_pause_s", seconds_of(Ladder::pause_after(memory.climb))},
+                       {"reboots_today", report.reboots_within_day},
+                       {"awake_s", seconds_of(memory.awake)},
+                       {"failures", report.failures},
+                       {"last_end", report.last_end},
+                       {"notes", report.notes},
+                       {"faults", all}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,85 @@
+#include "app/settings/toml_file.h"
+
+#include "firmware_host/base/printable.h"
+#include "firmware_host/base/utf8_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
+constexpr std::size_t most_dots = 5000;
+
+/// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
+std::size_t end_of_text(std::string_view text, std::size_t at) {
+    const auto after = [&](std::string_view end, std::size_t from) {
+        const std::size_t found = text.find(end, from);
+        return found == std::string_view::npos ? text.size() : found + end.size();
+    };
+    if (text[at] == '#') {
+        return after("\n", at);
+    }
+    if (text[at] == '\'') {
+        const bool many_lines = text.substr(at, 3) == "'''";
+        return many_lines ? after("'''", at + 3) : std::min(after("'", at + 1), after("\n", at + 1));
+    }
+    if (text[at] != '"') {
+        return at;
+    }
+    const std::string_view quotes = text.substr(at, 3) == "\"\"\"" ? "\"\"\"" : "\"";
+    for (at += quotes.size(); at < text.size(); ++at) {
+        if (text.substr(at, quotes.size()) == quotes) {
+            return at + quotes.size();
+        }
+        if (text[at] == '\n' && quotes.size() == 1) {
+            return at;
+        }
+        at += text[at] == '\\' ? 1 : 0; // and what it escapes
+    }
+    return text.size();
+}
+
+/// Those of keys and numbers; sentences may have as many as they like.
+std::size_t dots_outside_texts(std::string_view text) {
+    std::size_t dots = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = end_of_text(text, at);
+        dots += end == at && text[at] == '.' ? 1 : 0;
+        at = std::max(end, at + 1);
+    }
+    return dots;
+}
+
+} // namespace
+
+void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_bytes,
+               const std::function<void(const toml::table&)>& read) {
+    if (text.size() > most_bytes) {
+        state.refuse(0, fmt::format("is {} bytes; allowed are at most {}", text.size(), most_bytes));
+        return;
+    }
+    if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
+        state.refuse(static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8");
+        return;
+    }
+    if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
+        state.refuse(
+            0, fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots));
+        return;
+    }
+    try {
+        read(toml::parse(text));
+    } catch (const toml::parse_error& error) {
+        state.refuse(static_cast<std::uint32_t>(error.source().begin.line),
+                     fmt::format("is not TOML ({}); write each key once, as key = 1.5 or key = \"text\"",
+                                 printable(error.description(), 200)));
+    } catch (const std::exception& error) {
+        state.refuse(0, fmt::format("cannot be read: {}", printable(error.what(), 200)));
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,17 @@
+/// A TOML file that a person wrote, as far as all such files are alike: its size, its letters, its depth, its syntax.
+///
+/// Errors   one line in `ReadState`: file, line, what is wrong, what is allowed.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/settings/table_reader.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+/// Hands the file's table to `read`, or keeps in `state` why there is none. What `read` throws is kept there too.
+void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_bytes,
+               const std::function<void(const toml::table&)>& read);
+
+} // namespace frustumscreen

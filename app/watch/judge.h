@@ -1,0 +1,64 @@
+/// Sums up what is seen of the kiosk: is something wrong, what, and is the picture alive?
+///
+/// Picture  lives while the exhibit's status is fresh, well, and counts new pictures. It may be dead for `picture`; after the
+///          start of the exhibit's process for `start`.
+/// Endings  a bucket: each unwanted end of the process adds one, one drops out every `between_endings`. From three on the exhibit
+///          keeps ending.
+/// Rest     memory and device must be bad for `memory` or `device` without a break.
+/// Time     monotonic, a parameter. A look that comes late (this program or the machine stood still) starts all patience anew.
+/// Threads  values; one caller. Allocates nothing.
+#pragma once
+
+#include "app/watch/ladder.h"
+#include "app/watch/outcome.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+struct Patience {
+    Nanoseconds picture = std::chrono::seconds(15); ///< longer than systemd's watchdog takes
+    Nanoseconds start = std::chrono::seconds(60);
+    Nanoseconds safe_picture = std::chrono::seconds(30);
+    Nanoseconds device = std::chrono::seconds(15); ///< the tracker's driver tries by itself first
+    Nanoseconds memory = std::chrono::seconds(30);
+    Nanoseconds nothing_to_show = std::chrono::seconds(45); ///< longer than the trial of a new set
+    Nanoseconds between_endings = std::chrono::minutes(10);
+};
+
+class Judge {
+public:
+    static constexpr Nanoseconds fresh = std::chrono::seconds(5); ///< a status is
+    static constexpr Nanoseconds late_look = std::chrono::seconds(5);
+    static constexpr double least_memory_free = 0.04;
+    static constexpr double most_exhibit_memory = 0.92;
+    static constexpr double most_endings = 2.5; ///< three, less what drops out between them
+
+    Judge(const Patience& patience, MonotonicTime start);
+
+    [[nodiscard]] Seen look(MonotonicTime now, Mode mode, const Outcome& outcome);
+    /// A step is taken now: what follows is judged anew.
+    void step_taken(MonotonicTime now);
+
+private:
+    [[nodiscard]] bool picture_lives(MonotonicTime now, const Outcome& outcome);
+    void count_endings(MonotonicTime now, std::uint32_t failures);
+    [[nodiscard]] std::optional<Cause> trouble_of(MonotonicTime now, const Outcome& outcome, bool lives);
+    /// Whether `bad` was true at every look for `patience`.
+    [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience);
+    void begin_anew(MonotonicTime now);
+
+    Patience patience_;
+    MonotonicTime looked_;
+    MonotonicTime counted_;      ///< when the counter of pictures last moved
+    MonotonicTime judged_since_; ///< the start, the latest step, or the latest start of the exhibit's process
+    bool has_lived_ = false;     ///< since then
+    std::int32_t process_ = 0;
+    std::uint64_t pictures_ = 0;
+    double endings_ = 0.0;
+    MonotonicTime drained_;
+    std::optional<std::uint32_t> failures_;
+    std::array<std::optional<MonotonicTime>, cause_count> bad_since_{};
+};
+
+} // namespace frustumscreen

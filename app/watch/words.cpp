@@ -1,0 +1,74 @@
+#include "app/watch/cause.h"
+#include "app/watch/step.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Words {
+    std::string_view word, sentence;
+};
+constexpr std::array<Words, cause_count> causes{{
+    {"safe_picture_fails", "the safe picture does not come"},
+    {"keeps_ending", "the exhibit's program ends again and again"},
+    {"no_picture", "no living picture comes from the exhibit"},
+    {"nothing_to_show", "no object of the set can be shown"},
+    {"memory_short", "the exhibit takes more memory than there is"},
+    {"device_silent", "the tracker is plugged in and says nothing"},
+}};
+constexpr std::array<Words, step_count> steps{{
+    {"restart_exhibit", "the exhibit is started again"},
+    {"reset_device", "the tracker's USB port is switched off and on"},
+    {"last_good_set", "the exhibit goes back to the set of objects that was good"},
+    {"built_in", "the exhibit shows the object that is built in"},
+    {"safe_picture", "words for the staff are shown in place of the exhibit"},
+    {"reboot", "the computer is started again"},
+    {"return", "the exhibit goes back to its own set"},
+}};
+constexpr std::array<std::string_view, mode_count> modes{"normal", "last_good_set", "built_in", "safe"};
+
+template <typename Enum, std::size_t count>
+std::optional<Enum> named(const std::array<Words, count>& words, std::string_view word) {
+    for (std::size_t k = 0; k < count; ++k) {
+        if (words[k].word == word) {
+            return static_cast<Enum>(k);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::string_view word_of(Cause cause) {
+    return causes.at(static_cast<std::size_t>(cause)).word;
+}
+std::optional<Cause> cause_named(std::string_view word) {
+    return named<Cause>(causes, word);
+}
+std::string_view sentence_of(Cause cause) {
+    return causes.at(static_cast<std::size_t>(cause)).sentence;
+}
+std::string_view word_of(Step step) {
+    return steps.at(static_cast<std::size_t>(step)).word;
+}
+std::optional<Step> step_named(std::string_view word) {
+    return named<Step>(steps, word);
+}
+std::string_view sentence_of(Step step) {
+    return steps.at(static_cast<std::size_t>(step)).sentence;
+}
+std::string_view word_of(Mode mode) {
+    return modes.at(static_cast<std::size_t>(mode));
+}
+std::optional<Mode> mode_named(std::string_view word) {
+    for (std::size_t k = 0; k < mode_count; ++k) {
+        if (modes.at(k) == word) {
+            return static_cast<Mode>(k);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,280 @@
+/// frustumscreen-safe-words: bakes the safe picture's words into a C++ file (app/safe/baked_words.h). The build runs it.
+///
+/// Errors   one line: what a person must mend in words.toml, or which typeface is missing.
+#include "app/pack/glyph_runs.h"
+#include "app/programs/common/guarded_main.h"
+#include "assets_baked/texts/glyph_atlas.h"
+#include "assets_baked/texts/shape.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+constexpr std::uintmax_t most_file_bytes = 1 << 20;
+constexpr std::int32_t one_line = glyph_limits::most_side;
+constexpr std::array<std::int32_t, 5> staff_widths_em{46, 36, 28, 20, 14};
+
+/// The characters that a reason may have: Latin, and the punctuation that sentences are written with.
+constexpr std::array<std::pair<char32_t, char32_t>, 6> letter_ranges{
+    {{0x20, 0x7E}, {0xA0, 0xAC}, {0xAE, 0x17F}, {0x2010, 0x2027}, {0x20AC, 0x20AC}, {0xFFFD, 0xFFFD}}};
+
+struct LanguageToBake {
+    std::string language, visitors, staff;
+    std::int64_t line = 0; ///< in the file; the picture has the file's order
+};
+
+struct Letter {
+    char32_t character = 0;
+    std::string key;
+    std::int32_t advance = 0;
+};
+
+Result<std::vector<LanguageToBake>> read_words(const std::string& file) {
+    const Result<Bytes> bytes = read_file(file, most_file_bytes);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    std::vector<LanguageToBake> languages;
+    try {
+        const toml::table root = toml::parse(as_text(*bytes));
+        for (const auto& [language, node] : root) {
+            const auto visitors = node.as_table() == nullptr
+                                      ? std::nullopt
+                                      : (*node.as_table())["visitors"].value<std::string>();
+            const auto staff =
+                node.as_table() == nullptr ? std::nullopt : (*node.as_table())["staff"].value<std::string>();
+            if (!visitors || !staff) {
+                return bad_input(fmt::format("{}:{}: [{}] needs visitors = \"...\" and staff = \"...\"", file,
+                                             node.source().begin.line, language.str()));
+            }
+            languages.push_back({std::string(language.str()), *visitors, *staff, node.source().begin.line});
+        }
+    } catch (const toml::parse_error& error) {
+        return bad_input(
+            fmt::format("{}:{}: is not TOML: {}", file, error.source().begin.line, error.description()));
+    }
+    std::sort(languages.begin(), languages.end(),
+              [](const LanguageToBake& a, const LanguageToBake& b) { return a.line < b.line; });
+    return languages;
+}
+
+std::string utf8(char32_t code) {
+    const auto byte = [](char32_t bits) { return static_cast<char>(static_cast<unsigned char>(bits)); };
+    if (code < 0x80) {
+        return {byte(code)};
+    }
+    if (code < 0x800) {
+        return {byte(0xC0 | (code >> 6)), byte(0x80 | (code & 0x3F))};
+    }
+    return {byte(0xE0 | (code >> 12)), byte(0x80 | ((code >> 6) & 0x3F)), byte(0x80 | (code & 0x3F))};
+}
+
+/// Everything that is to be in the picture, in one atlas.
+class WordsBaker {
+public:
+    explicit WordsBaker(const Shaper& shaper) : shaper_(shaper) {}
+
+    [[nodiscard]] Result<void> add(const LanguageToBake& language) {
+        std::vector<std::int32_t> widths;
+        for (const std::int32_t width : staff_widths_em) {
+            widths.push_back(width * em_units);
+        }
+        if (Result<void> added =
+                add("visitors." + language.language, language.visitors, language.language, {one_line});
+            !added) {
+            return added;
+        }
+        return add("staff." + language.language, language.staff, language.language, widths);
+    }
+
+    /// A letter that the typeface lacks is left out.
+    [[nodiscard]] Result<void> add(char32_t character) {
+        const Result<ShapedText> alone = shaped(utf8(character));
+        const Result<ShapedText> between = shaped("|" + utf8(character) + "|");
+        const Result<ShapedText> bars = shaped("||");
+        for (const Result<ShapedText>* text : {&alone, &between, &bars}) {
+            if (!*text) {
+                return tl::unexpected<Error>(text->error());
+            }
+        }
+        if (alone->notes.empty()) {
+            Letter letter{character, fmt::format("u{:04x}", static_cast<std::uint32_t>(character)), 0};
+            // A space at the end of a line has no width, and bars are not moved nearer to their neighbours.
+            letter.advance = between->settings.front().width - bars->settings.front().width;
+            builder_.add(letter.key, *alone);
+            letters_.push_back(letter);
+            ascent_ = bars->settings.front().lines.front().baseline;
+            pitch_ = bars->settings.front().height;
+        }
+        return {};
+    }
+
+    [[nodiscard]] Result<std::string> as_cpp(const std::vector<LanguageToBake>& languages);
+
+private:
+    [[nodiscard]] Result<ShapedText> shaped(const std::string& text) const {
+        return shaper_.shape({text, "en", {one_line}, false});
+    }
+    [[nodiscard]] Result<void> add(const std::string& key, const std::string& text,
+                                   const std::string& language, std::vector<std::int32_t> widths) {
+        const Result<ShapedText> shaped = shaper_.shape({text, language, std::move(widths), false});
+        if (!shaped) {
+            return at(key, shaped.error());
+        }
+        if (!shaped->notes.empty()) {
+            return bad_input(fmt::format("{}: {}", key, shaped->notes.front()));
+        }
+        builder_.add(key, *shaped);
+        return {};
+    }
+
+    const Shaper& shaper_;
+    GlyphAtlasBuilder builder_;
+    std::vector<Letter> letters_;
+    std::int32_t ascent_ = 0, pitch_ = 0;
+};
+
+using Out = std::back_insert_iterator<std::string>;
+
+/// How far to the right a line must go so that its ink is in the middle of the box.
+std::int32_t to_middle(const GlyphRuns& runs, std::span<const PlacedGlyph> line, std::int32_t width) {
+    std::int32_t left = width;
+    std::int32_t right = 0;
+    for (const PlacedGlyph& glyph : line) {
+        const GlyphBox& box = runs.boxes[glyph.glyph];
+        if (box.width > 0) {
+            left = std::min(left, glyph.x + box.left * em_units / runs.texels_per_em);
+            right = std::max(right, glyph.x + (box.left + box.width) * em_units / runs.texels_per_em);
+        }
+    }
+    return left < right ? (width - left - right) / 2 : 0;
+}
+
+/// A setting's glyphs as an array; the setting as an initialiser that names it.
+std::string write_setting(std::string& cpp, const std::string& name, const GlyphRuns& runs,
+                          const GlyphSetting& setting) {
+    fmt::format_to(Out(cpp), "constexpr BakedGlyph {}[]{{", name);
+    std::span<const PlacedGlyph> rest = setting.glyphs;
+    for (const GlyphLine& line : setting.lines) {
+        const std::span<const PlacedGlyph> glyphs = rest.first(line.glyphs);
+        rest = rest.subspan(line.glyphs);
+        const std::int32_t shift = to_middle(runs, glyphs, setting.width);
+        for (const PlacedGlyph& glyph : glyphs) {
+            fmt::format_to(Out(cpp), "{{{},{},{}}},", glyph.glyph, glyph.x + shift, line.baseline - glyph.up);
+        }
+    }
+    cpp += "};\n";
+    return fmt::format("{{{}, {}, {}, {}}}", setting.width, setting.height, setting.lines.front().baseline,
+                       name);
+}
+
+void write_atlas(std::string& cpp, const DistanceAtlas& atlas) {
+    cpp += "constexpr unsigned char atlas[] =\n";
+    for (int y = 0; y < atlas.height; ++y) {
+        cpp += '"';
+        for (int x = 0; x < atlas.width; ++x) {
+            fmt::format_to(Out(cpp), "\\{:03o}", atlas.at(x, y));
+        }
+        cpp += "\"\n";
+    }
+    cpp += ";\n";
+}
+
+Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& languages) {
+    const Result<GlyphSheet> sheet = builder_.finish();
+    if (!sheet) {
+        return tl::unexpected<Error>(sheet.error());
+    }
+    const GlyphRuns& runs = sheet->runs;
+    std::string cpp = "// Made by frustumscreen-safe-words of assets_baked/safe/words.toml.\n"
+                      "#include \"app/safe/baked_words.h\"\n\nnamespace frustumscreen {\nnamespace {\n";
+    write_atlas(cpp, sheet->atlas);
+    cpp += "constexpr BakedBox boxes[]{\n";
+    for (const GlyphBox& box : runs.boxes) {
+        fmt::format_to(Out(cpp), "{{{},{},{},{},{},{}}},\n", box.x, box.y, box.width, box.height, box.left,
+                       box.top);
+    }
+    cpp += "};\nconstexpr BakedLetter letters[]{\n";
+    for (const Letter& letter : letters_) {
+        const GlyphSetting& setting = runs.find(letter.key)->settings.front();
+        if (setting.glyphs.size() == 1) {
+            fmt::format_to(Out(cpp), "{{0x{:x},{},{}}},\n", static_cast<std::uint32_t>(letter.character),
+                           setting.glyphs.front().glyph, letter.advance);
+        }
+    }
+    cpp += "};\n";
+    std::string list;
+    for (std::size_t n = 0; n < languages.size(); ++n) {
+        const std::string& language = languages[n].language;
+        const std::string visitors = write_setting(cpp, fmt::format("visitors_{}", n), runs,
+                                                   runs.find("visitors." + language)->settings.front());
+        std::string settings;
+        for (const GlyphSetting& setting : runs.find("staff." + language)->settings) {
+            settings +=
+                write_setting(cpp, fmt::format("staff_{}_{}", n, setting.limit / em_units), runs, setting) +
+                ",\n";
+        }
+        fmt::format_to(Out(cpp), "constexpr BakedSetting staff_{}[]{{\n{}}};\n", n, settings);
+        fmt::format_to(Out(list), "    {{\"{}\", {}, staff_{}}},\n", language, visitors, n);
+    }
+    fmt::format_to(
+        Out(cpp),
+        "constexpr BakedLanguage languages[]{{\n{}}};\n"
+        "constexpr BakedWords words{{{}, {}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
+        "letters}};\n}} // namespace\n\n"
+        "const BakedWords& baked_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen\n",
+        list, runs.texels_per_em, runs.spread_texels, runs.atlas_width, runs.atlas_height, ascent_, pitch_);
+    return cpp;
+}
+
+Result<void> bake(const std::string& file, const std::string& out) {
+    const Result<std::vector<LanguageToBake>> languages = read_words(file);
+    if (!languages) {
+        return tl::unexpected<Error>(languages.error());
+    }
+    const Result<Shaper> shaper = Shaper::open();
+    if (!shaper) {
+        return tl::unexpected<Error>(shaper.error());
+    }
+    WordsBaker baker(*shaper);
+    for (const LanguageToBake& language : *languages) {
+        if (Result<void> added = baker.add(language); !added) {
+            return added;
+        }
+    }
+    for (const auto& [first, last] : letter_ranges) {
+        for (char32_t character = first; character <= last; ++character) {
+            if (Result<void> added = baker.add(character); !added) {
+                return added;
+            }
+        }
+    }
+    const Result<std::string> cpp = baker.as_cpp(*languages);
+    return cpp ? write_file(out, as_bytes(*cpp)) : Result<void>(tl::unexpected<Error>(cpp.error()));
+}
+
+int run(int argc, char** argv) {
+    if (argc != 3) {
+        fmt::print(stderr, "usage: frustumscreen-safe-words WORDS.toml OUT.cpp\n");
+        return 2;
+    }
+    return exit_status("frustumscreen-safe-words", bake(argv[1], argv[2]));
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-safe-words", frustumscreen::run, argc, argv);
+}

@@ -1,0 +1,146 @@
+// Keys that sets bring: whom they need, when they end, and how they are taken back.
+#include "firmware_host/base/calendar_day.h"
+#include "tests/library/stick_fixture.h"
+
+namespace frustumscreen {
+namespace {
+
+using namespace testing_disk;
+
+class ImportKeys : public StickTest {
+protected:
+    static std::string key_text(const SecretKey& key, std::string_view until = "") {
+        return fmt::format("[[key]]\nname = \"new\"\npublic_key = \"{}\"\n{}",
+                           public_key_line(key.public_key()),
+                           until.empty() ? "" : fmt::format("until = \"{}\"\n", until));
+    }
+    /// A stick with nothing but a set file that brings this.
+    ImportReport bring(const std::string& text, const SecretKey& signer, std::uint64_t serial) {
+        VolatileDisk other;
+        other.put("exhibit.toml", text);
+        other.put("exhibit.toml.minisig", signer.sign(as_bytes(text), fmt::format("serial:{}", serial)));
+        return import_quietly(other, kiosk, request);
+    }
+    /// Whether a new pack that is signed with this key is taken now.
+    bool is_believed(const SecretKey& key, std::uint64_t serial = 0) {
+        const std::string id = fmt::format("p{}", ++packs_);
+        VolatileDisk other;
+        other.put("p.fspack", Museum::signed_by(key, Museum::unsigned_pack(id, id), serial > 0 ? serial : 1));
+        const ImportReport report = import_quietly(other, kiosk, request);
+        return line_of(report, "p.fspack").outcome == ImportOutcome::Taken;
+    }
+    static std::chrono::sys_days day(std::string_view text) { return parse_day(text).value(); }
+
+    const SecretKey next = SecretKey::make();
+    const SecretKey third = SecretKey::make();
+
+private:
+    int packs_ = 0;
+};
+
+TEST_F(ImportKeys, NewKeysComeSignedByOldOnes) {
+    const SecretKey next = SecretKey::make();
+    const std::string text =
+        fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2040-12-31\"\n",
+                    public_key_line(next.public_key()));
+    stick.put("a.fspack", Museum::signed_by(next, Museum::unsigned_pack("a", "a"), 1));
+    stick.put("exhibit.toml", text);
+    stick.put("exhibit.toml.minisig", next.sign(as_bytes(text), "serial:1"));
+    EXPECT_EQ(import().refusal, ImportRefusal::WrongKey) << "a key does not vouch for itself";
+    museum.put_exhibit(stick, text, 1);
+    EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::Taken) << "on the same stick";
+    stick.take_away("exhibit.toml");
+    stick.put("b.fspack", Museum::signed_by(next, Museum::unsigned_pack("b", "b"), 1));
+    EXPECT_EQ(line_of(import(), "b.fspack").outcome, ImportOutcome::Taken) << "and from then on";
+    request.today = std::chrono::sys_days(std::chrono::year(2041) / 1 / 1);
+    stick.put("c.fspack", Museum::signed_by(next, Museum::unsigned_pack("c", "c"), 1));
+    expect_refused("c.fspack", ImportRefusal::WrongKey, "2040-12-31");
+}
+
+TEST_F(ImportKeys, AKeyAloneIsNoNewSet) {
+    stick.put("a.fspack", museum.pack("a", 1));
+    import();
+    museum.put_exhibit(stick,
+                       fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\n",
+                                   public_key_line(SecretKey::make().public_key())),
+                       1);
+    const ImportReport report = import();
+    EXPECT_EQ(line_of(report, "exhibit.toml").outcome, ImportOutcome::Taken);
+    EXPECT_EQ(report.set_number, 1U) << "the exhibit has nothing to try";
+    EXPECT_EQ(read_set_file(kiosk)->keys.size(), 1U);
+}
+
+TEST_F(ImportKeys, AKeyGoesWithTheOneThatSignedForIt) {
+    ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
+    ASSERT_EQ(bring(key_text(third), next, 2).stage, ImportStage::Done);
+    EXPECT_TRUE(is_believed(next));
+    EXPECT_TRUE(is_believed(third));
+    request.keys = {{"another", SecretKey::make().public_key(), std::nullopt}};
+    EXPECT_FALSE(is_believed(next));
+    EXPECT_FALSE(is_believed(third));
+    request.keys = {{"next", next.public_key(), std::nullopt}};
+    EXPECT_TRUE(is_believed(third)) << "its chain is whole again";
+    request.keys = museum.keys();
+    ASSERT_EQ(bring(key_text(next, "2026-01-01"), museum.key, 3).stage, ImportStage::Done);
+    request.today = day("2026-11-23");
+    EXPECT_FALSE(is_believed(next)) << "taken back by a new end";
+}
+
+TEST_F(ImportKeys, AKeyThatGrowsOldTakesNoneWithItAndOneThatIsEndedBeforeDoes) {
+    request.keys[0].until = day("2030-12-31");
+    request.today = day("2030-06-01");
+    ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
+    EXPECT_EQ(read_set_file(kiosk)->keys.at(0).since, "2030-06-01");
+    request.today = day("2031-06-01");
+    EXPECT_FALSE(is_believed(museum.key));
+    EXPECT_TRUE(is_believed(next)) << "it is there for the years to come";
+    request.keys[0].until = day("2030-05-31"); // the key was stolen in June
+    EXPECT_FALSE(is_believed(next));
+}
+
+TEST_F(ImportKeys, NoKeyVouchesForItself) {
+    ASSERT_EQ(bring(key_text(next, "2030-12-31"), museum.key, 1).stage, ImportStage::Done);
+    const ImportReport again = bring(key_text(next, "2099-12-31"), next, 2);
+    EXPECT_EQ(again.refusal, ImportRefusal::WrongKey);
+    EXPECT_NE(again.reason.find("sign it with another key"), std::string::npos) << again.reason;
+    ASSERT_EQ(bring(key_text(third), next, 2).stage, ImportStage::Done);
+    EXPECT_EQ(bring(key_text(next, "2099-12-31"), third, 3).refusal, ImportRefusal::WrongKey)
+        << "nor in a ring";
+    // The settings alone say when their own keys end.
+    request.keys[0].until = day("2030-12-31");
+    request.today = day("2030-12-01");
+    ASSERT_EQ(bring(key_text(museum.key, "2099-12-31"), museum.key, 4).stage, ImportStage::Done);
+    request.today = day("2031-01-01");
+    EXPECT_FALSE(is_believed(museum.key));
+}
+
+TEST_F(ImportKeys, AClockThatGoesBackRevivesNoKey) {
+    request.keys[0].until = day("2030-12-31");
+    request.today = day("2031-01-01");
+    EXPECT_FALSE(is_believed(museum.key));
+    request.today = day("1970-01-01");
+    EXPECT_FALSE(is_believed(museum.key));
+    EXPECT_EQ(read_set_file(kiosk)->latest_day, "2031-01-01");
+    // A clock that is far ahead for once ends no key for ever.
+    request.keys[0].until = day("2050-12-31");
+    request.today = day("2100-01-01");
+    EXPECT_FALSE(is_believed(museum.key));
+    request.today = day("2031-01-02");
+    EXPECT_TRUE(is_believed(museum.key));
+}
+
+TEST_F(ImportKeys, WhatWasSignedLaterSaysThatItIsLater) {
+    constexpr std::uint64_t in_2031 = 1927584000; // 2031-01-31, by date -u -d @1927584000
+    request.keys = {{"old", museum.key.public_key(), day("2030-12-31")},
+                    {"new", next.public_key(), std::nullopt}};
+    request.today = day("1970-01-01");
+    EXPECT_TRUE(is_believed(museum.key));
+    EXPECT_TRUE(is_believed(next, in_2031));
+    EXPECT_EQ(read_set_file(kiosk)->latest_day, "2031-01-31");
+    EXPECT_FALSE(is_believed(museum.key));
+    EXPECT_TRUE(is_believed(next, 99999999999)) << "a serial that is no time";
+    EXPECT_EQ(read_set_file(kiosk)->latest_day, "2031-01-31");
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,172 @@
+// `frustumscreen-safe` from outside: what it is linked with, its pictures, what it tells a service manager.
+#include "app/image/image.h"
+#include "firmware_host/base/run_program.h"
+#include "tests/service/notify_socket.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string program = FRUSTUMSCREEN_BIN_DIR "/frustumscreen-safe";
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class SafeCommand : public ::testing::Test {
+protected:
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    ProgramEnd run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), program);
+        ProgramLimits limits;
+        limits.complaint_bytes = 2000;
+        Result<ProgramEnd> end = follow_program(arguments, "", limits);
+        EXPECT_TRUE(end);
+        return *std::move(end);
+    }
+    Image8 picture(std::vector<std::string> arguments) {
+        const fs::path png = folder / "out.png";
+        arguments.insert(arguments.end(), {"--png", png.string()});
+        const ProgramEnd end = run(std::move(arguments));
+        EXPECT_EQ(end.status, 0) << end.complaint;
+        const Result<Bytes> bytes = read_file(png);
+        const Result<Image8> read = bytes ? decode_png8(*bytes) : bad_input("nothing was written");
+        EXPECT_TRUE(read);
+        return read.value_or(Image8(1, 1));
+    }
+    std::string write(const std::string& name, const std::string& text) {
+        std::ofstream(folder / name, std::ios::binary) << text;
+        return folder / name;
+    }
+
+    fs::path folder = fs::temp_directory_path() / ("frustumscreen_safe_" + std::to_string(::getpid()));
+};
+
+TEST_F(SafeCommand, IsLinkedWithNothingThatMayBeWhatFailed) {
+    const Result<Bytes> listed = run_program({"ldd", program}, "");
+    ASSERT_TRUE(listed) << listed.error().message;
+    const std::string libraries(as_text(*listed));
+    EXPECT_NE(libraries.find("libdrm.so"), std::string::npos) << libraries;
+    for (const std::string library :
+         {"libEGL", "libGL", "libgbm", "libusb", "libhidapi", "libudev", "libgpiod", "libevdev", "libasound",
+          "libopus", "libminizip", "libsodium", "libtomlplusplus", "libwebp", "libfreetype", "libfontconfig",
+          "libpango"}) {
+        EXPECT_EQ(libraries.find(library), std::string::npos) << library;
+    }
+}
+
+/// The names of functions are in a program that was not stripped, the exhibit's as well as this one.
+TEST_F(SafeCommand, HasNoReaderOfPacksOrSettings) {
+    const std::string exhibit = text_of(FRUSTUMSCREEN_BIN_DIR "/frustumscreen");
+    const std::string safe = text_of(program);
+    ASSERT_GT(safe.size(), 1000U);
+    EXPECT_NE(safe.find("lay_out_safe_page"), std::string::npos);
+    for (const std::string name : {"load_pack", "load_settings", "decode_glyph_runs", "parse_manifest"}) {
+        EXPECT_EQ(safe.find(name), std::string::npos) << name;
+    }
+    EXPECT_NE(exhibit.find("load_pack"), std::string::npos);
+    EXPECT_NE(exhibit.find("load_settings"), std::string::npos);
+}
+
+TEST_F(SafeCommand, DrawsAnySizeAndTheSameTwice) {
+    const Image8 landscape = picture({"--size", "1280x800"});
+    EXPECT_EQ(landscape.width, 1280);
+    EXPECT_EQ(landscape.height, 800);
+    EXPECT_EQ(picture({"--size", "1280x800"}).texels, landscape.texels);
+    EXPECT_EQ(landscape.at(0, 0), glm::u8vec4(0, 0, 0, 255));
+    const Image8 portrait = picture({"--size", "800x1280"});
+    EXPECT_EQ(portrait.height, 1280);
+    EXPECT_NE(picture({"--size", "1280x800", "--language", "ja"}).texels, landscape.texels);
+}
+
+TEST_F(SafeCommand, ShowsTheReasonAndGoesOnWithoutOne) {
+    const auto with = [&](const std::string& reason) {
+        return picture({"--size", "640x400", "--reason", reason}).texels;
+    };
+    const auto without = picture({"--size", "640x400"}).texels;
+    EXPECT_EQ(with(folder / "missing"), without);
+    EXPECT_EQ(with(folder), without) << "a folder";
+    EXPECT_EQ(with("/dev/zero"), without) << "no file of text";
+    EXPECT_EQ(with(write("empty", "")), without);
+    EXPECT_EQ(with(write("same", "No reason was given.\nA second line")), without);
+    EXPECT_NE(with(write("other", "The disk is full.\n")), without);
+    EXPECT_NE(with(write("accents", "Die Festplatte ist völlig überfüllt – Größe 0.\n")), without);
+    EXPECT_NE(with(write("large", std::string(1 << 20, 'x'))), without);
+    EXPECT_NE(with(write("binary", std::string("\xFF\0\x1B[2J", 6))), without);
+    EXPECT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+    EXPECT_EQ(with(folder / "fifo"), without) << "nobody writes into it";
+}
+
+TEST_F(SafeCommand, SaysWhatIsWrongWithHowItIsCalled) {
+    for (const std::string size : {"1280", "1280x", "1280x800x2", "0x0", "100000x100", "axb", "-5x800"}) {
+        const ProgramEnd end = run({"--png", folder / "out.png", "--size", size});
+        EXPECT_EQ(end.status, 2) << size;
+        EXPECT_NE(end.complaint.find("1280x800"), std::string::npos) << end.complaint;
+    }
+    EXPECT_EQ(run({"--size", "1280x800"}).status, 2) << "a size without a picture";
+    EXPECT_EQ(run({"--png", folder / "out.png", "--language", "tlh"}).status, 2);
+    const ProgramEnd end = run({"--png", folder / "nowhere" / "out.png"});
+    EXPECT_EQ(end.status, 1);
+    EXPECT_NE(end.complaint.find("nowhere"), std::string::npos) << end.complaint;
+    EXPECT_EQ(run({"--help"}).status, 0);
+    EXPECT_EQ(as_text(run({"--version"}).output).substr(0, 19), "frustumscreen-safe ");
+}
+
+/// Without a graphics card it waits for one: it is ready, it feeds the watchdog, and it is small.
+TEST_F(SafeCommand, WaitsForACardUnderAServiceManagerUntilItIsStopped) {
+    const NotifySocket socket;
+    ASSERT_TRUE(socket.bound());
+    const std::string alive = folder / "alive";
+    const pid_t process = ::fork();
+    ASSERT_GE(process, 0);
+    if (process == 0) {
+        ::setenv("NOTIFY_SOCKET", socket.path().c_str(), 1);
+        std::freopen("/dev/null", "w", stderr);
+        ::execl(program.c_str(), program.c_str(), "--card", "/dev/dri/none", "--alive", alive.c_str(),
+                nullptr);
+        ::_exit(127);
+    }
+    bool waits = false;
+    bool ready = false;
+    int fed = 0;
+    for (int k = 0; k < 60 && fed < 2; ++k) {
+        const std::string told = socket.receive(1000).value_or("");
+        waits = waits || told.find("STATUS=display: /dev/dri/none cannot be opened") == 0;
+        ready = ready || told == "READY=1";
+        fed += ready && told == "WATCHDOG=1" ? 1 : 0;
+    }
+    EXPECT_TRUE(waits);
+    EXPECT_TRUE(ready);
+    EXPECT_EQ(fed, 2);
+    EXPECT_FALSE(fs::exists(alive)) << "nothing was shown";
+    const std::string memory = text_of("/proc/" + std::to_string(process) + "/status");
+    ::kill(process, SIGTERM);
+    int status = 0;
+    ASSERT_EQ(::waitpid(process, &status, 0), process);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    std::istringstream words(memory.substr(memory.find("VmHWM:") + 6));
+    int peak_kb = 0;
+    words >> peak_kb;
+    EXPECT_GT(peak_kb, 1000);
+    EXPECT_LE(peak_kb, 16 * 1024);
+#endif
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,193 @@
+#include "app/watch/judge.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::minutes;
+using std::chrono::seconds;
+
+/// A healthy exhibit, until a test changes something.
+struct Scene {
+    MonotonicTime now{seconds(100)};
+    Judge judge{Patience{}, now};
+    Outcome outcome = healthy();
+    Mode mode = Mode::Normal;
+    bool counts = true; ///< new pictures come
+
+    static Outcome healthy() {
+        Outcome outcome;
+        outcome.process = 321;
+        outcome.exhibit = ExhibitSays{.age = Nanoseconds(0), .well = true, .pictures = 1, .artifacts = 2};
+        return outcome;
+    }
+    Seen look() {
+        now += seconds(1);
+        if (counts && outcome.exhibit) {
+            ++outcome.exhibit->pictures;
+        }
+        return judge.look(now, mode, outcome);
+    }
+    /// Seconds until the trouble is seen; -1: it is not, within `length`.
+    int trouble_after(Cause cause, Nanoseconds length = minutes(5)) {
+        for (int second = 1; seconds(second) <= length; ++second) {
+            const Seen seen = look();
+            if (seen.trouble) {
+                EXPECT_EQ(word_of(*seen.trouble), word_of(cause));
+                return second;
+            }
+        }
+        return -1;
+    }
+    void well(Nanoseconds length) {
+        for (int second = 0; seconds(second) < length; ++second) {
+            const Seen seen = look();
+            ASSERT_FALSE(seen.trouble) << word_of(*seen.trouble);
+            ASSERT_TRUE(seen.lit);
+        }
+    }
+};
+
+TEST(Judge, AHealthyExhibit) {
+    Scene scene;
+    scene.well(hours(3));
+}
+
+TEST(Judge, AsleepIsNotDark) {
+    Scene scene;
+    scene.counts = false;
+    scene.outcome.exhibit->asleep = true;
+    scene.well(hours(1));
+}
+
+TEST(Judge, AFrozenPictureIsSeen) {
+    Scene scene;
+    scene.well(minutes(2));
+    scene.counts = false;
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, patience of 15
+}
+
+TEST(Judge, AnOldStatusIsNoPicture) {
+    Scene scene;
+    scene.well(minutes(2));
+    scene.outcome.exhibit->age = seconds(6);
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 16, 2);
+    scene.outcome.exhibit->age = seconds(1);
+    scene.well(seconds(5));
+    scene.outcome.exhibit.reset();
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 16, 2);
+}
+
+TEST(Judge, AStartTakesLonger) {
+    Scene scene;
+    scene.well(minutes(2));
+    scene.outcome.process = 322; // systemd has started it again
+    scene.outcome.exhibit.reset();
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2);
+}
+
+TEST(Judge, AProcessThatIsNotStartedIsSeen) {
+    Scene scene;
+    scene.well(minutes(2));
+    scene.outcome.process = 0;
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 16, 2);
+}
+
+TEST(Judge, OneEndIsNotThree) {
+    Scene scene;
+    for (int end = 0; end < 40; ++end) { // one in a quarter of an hour
+        scene.outcome.failures++;
+        scene.outcome.process++;
+        scene.outcome.exhibit->well = false;
+        for (int second = 0; second < 3; ++second) {
+            EXPECT_FALSE(scene.look().trouble);
+        }
+        scene.outcome.exhibit->well = true;
+        scene.well(minutes(15));
+    }
+}
+
+TEST(Judge, ThreeEndsAreSeenAtOnce) {
+    Scene scene;
+    scene.well(minutes(1));
+    scene.outcome.exhibit.reset();
+    for (int end = 0; end < 3; ++end) {
+        scene.outcome.failures++;
+        scene.outcome.process++;
+        for (int second = 0; second < 3 && end < 2; ++second) {
+            EXPECT_FALSE(scene.look().trouble);
+        }
+    }
+    EXPECT_EQ(scene.trouble_after(Cause::KeepsEnding), 1);
+    scene.judge.step_taken(scene.now);
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2); // counted anew
+}
+
+TEST(Judge, AnEndEachFiveMinutesIsSeenInTheEnd) {
+    Scene scene;
+    int ends = 0;
+    for (std::optional<Cause> trouble; !trouble && ends < 20;) {
+        scene.well(minutes(5));
+        scene.outcome.failures++;
+        scene.outcome.process++;
+        ++ends;
+        scene.outcome.exhibit->well = false;
+        for (int second = 0; second < 3 && !trouble; ++second) {
+            trouble = scene.look().trouble;
+        }
+        scene.outcome.exhibit->well = true;
+        if (trouble) {
+            EXPECT_EQ(*trouble, Cause::KeepsEnding);
+        }
+    }
+    EXPECT_GE(ends, 4);
+    EXPECT_LE(ends, 6);
+}
+
+TEST(Judge, LesserTroublesMustLast) {
+    Scene scene;
+    scene.outcome.exhibit->artifacts = 0;
+    EXPECT_NEAR(scene.trouble_after(Cause::NothingToShow), 46, 2);
+    scene.outcome.exhibit->artifacts = 1;
+    scene.well(seconds(3));
+    scene.outcome.memory_free = 0.01;
+    EXPECT_NEAR(scene.trouble_after(Cause::MemoryShort), 31, 2);
+    scene.outcome.memory_free = 0.5;
+    scene.well(seconds(3));
+    scene.outcome.exhibit_memory = 0.95;
+    EXPECT_NEAR(scene.trouble_after(Cause::MemoryShort), 31, 2);
+    scene.outcome.exhibit_memory = 0.3;
+    scene.outcome.exhibit->device_hangs = true;
+    EXPECT_NEAR(scene.trouble_after(Cause::DeviceSilent), 16, 2);
+    for (int second = 0; second < 100; ++second) { // a device that comes and goes is mended by its driver
+        scene.outcome.exhibit->device_hangs = second % 10 != 0;
+        const Seen seen = scene.look();
+        EXPECT_FALSE(second > 0 && seen.trouble);
+    }
+}
+
+TEST(Judge, AMachineThatStoodStillIsNotToBlame) {
+    Scene scene;
+    scene.well(minutes(1));
+    scene.outcome.exhibit->age = seconds(30); // nobody ran, this judge neither
+    scene.now += seconds(30);
+    EXPECT_FALSE(scene.look().trouble);
+    scene.outcome.exhibit->age = seconds(0);
+    scene.well(minutes(1));
+}
+
+TEST(Judge, TheSafePictureIsJudgedByItself) {
+    Scene scene;
+    scene.mode = Mode::Safe;
+    scene.outcome = {};
+    for (std::uint64_t flips = 1; flips < 100; ++flips) {
+        scene.outcome.safe_pictures = flips;
+        EXPECT_FALSE(scene.look().trouble);
+    }
+    EXPECT_NEAR(scene.trouble_after(Cause::SafePictureFails), 30, 2);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,146 @@
+// A kiosk made of files in a folder: what the watchdog sees of it.
+#include "app/programs/watchdog/kiosk_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+
+class KioskOfFiles : public testing::Test {
+protected:
+    KioskOfFiles() {
+        std::string pattern = (fs::temp_directory_path() / "kiosk.XXXXXX").string();
+        root_ = ::mkdtemp(pattern.data());
+        places_.root = root_;
+        write("proc/sys/kernel/random/boot_id", "b1\n");
+        write("proc/meminfo", "MemTotal:       1000 kB\nMemFree:          10 kB\nMemAvailable:    250 kB\n");
+        write("sys/fs/cgroup/system.slice/frustumscreen.service/cgroup.procs", "512\n498\n600\n");
+        write("sys/fs/cgroup/system.slice/frustumscreen.service/memory.max", "2000\n");
+        write("sys/fs/cgroup/system.slice/frustumscreen.service/memory.stat", "anon 500\nfile 1400\n");
+        write("sys/class/drm/card0-HDMI-A-1/status", "disconnected\n");
+        write("sys/class/drm/card0-DP-1/status", "connected\n");
+        write("sys/class/thermal/thermal_zone0/temp", "45000\n");
+        write("sys/class/thermal/thermal_zone1/temp", "71500\n");
+        write("sys/block/mmcblk0/device/life_time", "0x02 0x09\n");
+        status("b1", 100);
+        fs::create_directories(root_ / "var/lib/frustumscreen");
+    }
+    ~KioskOfFiles() override { fs::remove_all(root_); }
+
+    void write(const fs::path& file, const std::string& text) const {
+        fs::create_directories((root_ / file).parent_path());
+        std::ofstream(root_ / file) << text;
+    }
+    void status(const std::string& boot, int written_s) const {
+        write(places_.status,
+              "{\"boot_id\": \"" + boot + "\", \"monotonic_ns\": " + std::to_string(written_s) +
+                  "000000000, \"health\": \"well\", \"artifact\": \"A\", \"drawn\": 4, \"probes\": 1}");
+    }
+    [[nodiscard]] Outcome look(KioskView& view, int now_s = 102) const {
+        return view.look(MonotonicTime(seconds(now_s)),
+                         std::chrono::sys_days(std::chrono::year{2027} / 1 / 1));
+    }
+
+    fs::path root_;
+    KioskPlaces places_;
+};
+
+TEST_F(KioskOfFiles, IsSeen) {
+    KioskView view(places_, boot_id(root_));
+    const Outcome outcome = look(view);
+    EXPECT_EQ(outcome.process, 498);
+    EXPECT_EQ(outcome.failures, 0U);
+    ASSERT_TRUE(outcome.exhibit);
+    EXPECT_EQ(outcome.exhibit->age, seconds(2));
+    EXPECT_EQ(outcome.exhibit->pictures, 5U);
+    EXPECT_NEAR(outcome.memory_free, 0.25, 1e-9);
+    EXPECT_NEAR(outcome.exhibit_memory, 0.25, 1e-9);
+    EXPECT_NEAR(outcome.disk_worn, 0.9, 1e-9);
+    EXPECT_NEAR(outcome.hottest_c.value_or(0.0), 71.5, 1e-9);
+    EXPECT_EQ(outcome.projector, true);
+    EXPECT_TRUE(outcome.disk_writable);
+    EXPECT_TRUE(outcome.clock_plausible);
+    EXPECT_FALSE(outcome.safe_pictures);
+}
+
+TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
+    fs::remove_all(root_);
+    KioskView view(places_, boot_id(root_));
+    const Outcome outcome = look(view);
+    EXPECT_EQ(outcome.process, 0);
+    EXPECT_FALSE(outcome.exhibit);
+    EXPECT_EQ(outcome.memory_free, 1.0);
+    EXPECT_EQ(outcome.exhibit_memory, 0.0);
+    EXPECT_FALSE(outcome.projector);
+    EXPECT_FALSE(outcome.hottest_c);
+    EXPECT_FALSE(view.means().device);
+    EXPECT_TRUE(notes_of(outcome).empty());
+}
+
+TEST_F(KioskOfFiles, AStatusOfAnotherBootCountsForNothing) {
+    KioskView view(places_, boot_id(root_));
+    status("b0", 100);
+    EXPECT_FALSE(look(view).exhibit);
+    status("b1", 300); // after now: a clock that is read twice
+    EXPECT_EQ(look(view).exhibit->age, seconds(0));
+}
+
+TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
+    KioskView view(places_, boot_id(root_));
+    const auto end = [&](const char* text) { std::ofstream(root_ / places_.ends, std::ios::app) << text; };
+    fs::create_directories((root_ / places_.ends).parent_path());
+    end("12.5 exit-code exited 1\n13.1 success exited 0\n");
+    EXPECT_EQ(look(view).failures, 1U);
+    EXPECT_EQ(view.last_end(), "exit-code exited 1");
+    end("14.0 watchdog killed");
+    EXPECT_EQ(look(view).failures, 1U) << "half a line counts once it is whole";
+    end(" KILL\n");
+    EXPECT_EQ(look(view).failures, 2U);
+    EXPECT_EQ(view.last_end(), "watchdog killed KILL");
+    EXPECT_EQ(look(view).failures, 2U);
+    std::ofstream(root_ / places_.ends) << "1.0 signal killed SEGV\n"; // a new file
+    EXPECT_EQ(look(view).failures, 3U);
+    std::string many;
+    for (int k = 0; k < 5000; ++k) {
+        many += "2.0 signal killed SEGV\n";
+    }
+    end(many.c_str());
+    std::uint32_t failures = 0;
+    for (int k = 0; k < 3; ++k) {
+        failures = look(view).failures;
+    }
+    EXPECT_EQ(failures, 5003U);
+}
+
+TEST_F(KioskOfFiles, MeansAreWhatIsThere) {
+    KioskView view(places_, boot_id(root_));
+    EXPECT_FALSE(view.means().device);
+    EXPECT_FALSE(view.means().last_good_set);
+    write(places_.device, "");
+    write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": null}");
+    EXPECT_TRUE(view.means().device);
+    EXPECT_FALSE(view.means().last_good_set);
+    write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": {\"number\": 2}}");
+    EXPECT_TRUE(view.means().last_good_set);
+}
+
+TEST_F(KioskOfFiles, NotesAreForStaff) {
+    Outcome outcome;
+    outcome.projector = false;
+    outcome.disk_free = 0.01;
+    outcome.disk_worn = 0.9;
+    outcome.hottest_c = 95.0;
+    outcome.clock_plausible = false;
+    EXPECT_EQ(notes_of(outcome).size(), 5U);
+    outcome.disk_writable = false;
+    EXPECT_EQ(notes_of(outcome).size(), 5U);
+}
+
+} // namespace
+} // namespace frustumscreen

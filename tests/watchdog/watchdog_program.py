@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""The watchdog's program beside a kiosk made of files: it is small, feeds its service manager, and orders the steps in turn.
+
+    watchdog_program.py PROGRAM
+"""
+
+import json
+import pathlib
+import re
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM = sys.argv[1]
+MOST_RESIDENT_KIB = 8 * 1024
+FORBIDDEN = ("libGL", "libEGL", "libgbm", "libusb", "libhidapi", "libsodium", "libzip", "libdrm")
+
+
+def resident_kib(process):
+    text = pathlib.Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+    return {key: int(value) for key, value in re.findall(r"(VmRSS|VmLck|Threads):\s+(\d+)", text)}
+
+
+def main():
+    libraries = subprocess.run(["ldd", PROGRAM], check=True, capture_output=True, text=True).stdout
+    assert not [name for name in FORBIDDEN if name in libraries], libraries
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        for name in ("run", "state", "root/proc/sys/kernel/random", "root/run/frustumscreen"):
+            (folder / name).mkdir(parents=True)
+        (folder / "root/proc/sys/kernel/random/boot_id").write_text("b1\n", encoding="utf-8")
+        listener = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        listener.bind(str(folder / "notify"))
+        listener.settimeout(10.0)
+        ends = folder / "root/run/frustumscreen/ends"
+        process = subprocess.Popen(
+            [PROGRAM, "--run-folder", folder / "run", "--state-folder", folder / "state", "--root", folder / "root"],
+            env={"NOTIFY_SOCKET": str(folder / "notify")})
+        try:
+            heard = [listener.recv(4096).decode() for _ in range(4)]
+            assert "READY=1" in heard and heard.count("WATCHDOG=1") >= 2, heard
+            assert (folder / "run/mode").read_text(encoding="utf-8") == "normal\n"
+            ends.write_text("1.0 exit-code exited 1\n" * 3, encoding="utf-8")  # it ended three times
+            deadline = time.monotonic() + 20.0
+            while not (folder / "run/steps/restart-exhibit").exists():
+                assert time.monotonic() < deadline, "no step is ordered"
+                time.sleep(0.1)
+            assert (folder / "run/mode").read_text(encoding="utf-8") == "built_in\n"  # there is no other set, nor a device
+            status = json.loads((folder / "run/status.json").read_text(encoding="utf-8"))
+            size = resident_kib(process.pid)
+            print(f"{size['VmRSS']} KiB resident, {size['VmLck']} KiB may be locked")
+            assert size["VmRSS"] <= MOST_RESIDENT_KIB and size["Threads"] == 1, size
+        finally:
+            process.terminate()
+            assert process.wait(10.0) == 0
+        time.sleep(0.1)
+        status = json.loads((folder / "run/status.json").read_text(encoding="utf-8"))
+        assert status["mode"] == "built_in" and status["step"]["name"] == "built_in", status
+        assert status["step"]["cause"] == "keeps_ending" and status["reboots_today"] == 0, status
+        fault = status["faults"][0]
+        assert fault["cause"] == "keeps_ending" and fault["detail"] == "exit-code exited 1" and fault["helped"] is None, fault
+        assert b"keeps_ending -> built_in" in (folder / "state/faults").read_bytes()
+    wrong = subprocess.run([PROGRAM, "--start-patience", "x"], capture_output=True, text=True, check=False)
+    assert wrong.returncode == 2 and wrong.stderr, wrong
+
+
+main()
