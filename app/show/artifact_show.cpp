@@ -1,10 +1,10 @@
 #include "app/show/artifact_show.h"
 
-#include "app/exhibit/guidance_setup.h"
 #include "app/exhibit/languages.h"
 #include "app/render/read_back.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
+#include "app/show/exhibit_place.h"
 
 #include <fmt/format.h>
 
@@ -361,17 +361,9 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
-    ExhibitPlace place{make_prop(settings.prop),
-                       table_from_projector.translation,
-                       picture_on_table(settings, 0.0),
-                       artifacts.zone(),
-                       artifacts.attract_place_m(),
-                       settings.panel.buttons(),
-                       guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-                       artifacts.words(),
-                       chooses_on_table(settings)};
-    place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
+    ExhibitPlace place = exhibit_place(settings);
+    place.zone = artifacts.zone();
+    place.words = artifacts.words();
     return {artifacts.catalogue(), place, settings.exhibit.language, now};
 }
 

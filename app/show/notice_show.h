@@ -22,7 +22,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 namespace frustumscreen {
 
@@ -70,7 +69,7 @@ private:
     std::optional<ImportWatch> watch_; ///< none: no stick is told of
 };
 
-/// A notice's pictures in the GPU's memory, while it is shown.
+/// A notice's picture in the GPU's memory, in the shape that is shown, while it is.
 class NoticeTextures {
 public:
     /// Uploads what is new, and lets go of what is not shown. `brightness`: of texts, share of the projector's light.
@@ -80,11 +79,12 @@ public:
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:
-    void follow(const SharedNotice& picture, GpuStore& store);
+    void follow(const SharedNotice& picture, std::size_t shape, GpuStore& store);
 
     SharedNotice picture_;
-    std::vector<TextureId> textures_;   ///< by shape; none: the driver has no memory
-    TextureId white_ = TextureId::None; ///< one texel: what the ring is drawn with
+    std::size_t shape_ = 0;
+    TextureId texture_ = TextureId::None; ///< none: the driver has no memory
+    TextureId white_ = TextureId::None;   ///< one texel: what the ring is drawn with
 };
 
 } // namespace frustumscreen

@@ -18,6 +18,7 @@
 #include "firmware_host/service/stop_signals.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct LoopOptions {
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
     const StopSignals* stop = nullptr; ///< one of them ends the loop
+    std::function<bool()> ends = {};   ///< asked in each frame: yes ends it too
 };
 
 struct Still {
