@@ -60,9 +60,9 @@ class StickStorm(LongStickTest):
         taken, told = 0, {}
         for number in range(PULLS):
             kind = chance.choice(sticks.KINDS)
-            # Half of them anywhere, half where the importer reads, or when it has read all.
-            first, last = chance.choice(((1, reads[kind]), (2 * reads[kind] // 3, 9 * reads[kind] // 8)))
-            at_read = chance.randint(first, last)
+            # Half of them anywhere, half where the importer reads, or when it has read all; the last one is whole.
+            first, last = chance.choice(((0.0, 1.0), (0.7, 1.1))) if number + 1 < PULLS else (1.1, 1.1)
+            at_read = 1 + round(chance.uniform(first, last) * reads[kind])
             now, _, refusal = self.pull_at(kind, serial + 1, at_read)
             self.assertIn(now, ([("Vase", serial)], [("Vase", serial + 1)]), f"pull {number}: {kind}, at read {at_read}")
             told[refusal] = told.get(refusal, 0) + 1
@@ -123,8 +123,8 @@ class StickStorm(LongStickTest):
         chance = random.Random(2)
         new = 0
         for number in range(CUTS):
-            # One in each of as many parts of the import; the last may come when all is over.
-            writes = begun + 1 + round((number + chance.random()) * (ended - begun) / CUTS)
+            # One in each of as many parts of the import; the last when all is over, and nothing was flushed since.
+            writes = begun + 1 + round((number + chance.random()) * (ended - begun) / CUTS) if number + 1 < CUTS else 1 << 30
             self.cut_after(writes, old, survivor, number)
             shutil.copyfile(survivor, check)
             self.plug_library(check)
