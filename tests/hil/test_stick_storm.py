@@ -14,7 +14,7 @@ from stick_bench import IMPORT_S, LIBRARY, QUIET, QUIET_S, REPORT_FILE, LongStic
 
 PULLS = int(os.environ.get("FRUSTUMSCREEN_HIL_PULLS", "100"))
 CUTS = int(os.environ.get("FRUSTUMSCREEN_HIL_CUTS", "20"))
-PULLED_MIB = 2  # with it, a third of an import's reads are the importer's own
+CHANGING_MIB = 2
 DAMAGED_EACH = 5
 SLOW_READ_S = 5.0
 CHANGING_READ_S = 0.01  # so that there is time to read it twice
@@ -40,7 +40,7 @@ class StickStorm(LongStickTest):
     def pull_at(self, kind, serial, at_read):
         """Puts a stick in and pulls it out at this read, or when all is over; the set that is installed then, how often the stick was
         read, why it was refused."""
-        disk = nbd.Disk(self.folder / "disk", self.make("pulled", kind, {"vase.fspack": self.large(serial, PULLED_MIB)}), tell_at=at_read)
+        disk = nbd.Disk(self.folder / "disk", self.make("pulled", kind, {"vase.fspack": self.signed("amphora", serial)}), tell_at=at_read)
         self.forget()
         try:
             self.plug("pulled", disk.path)
@@ -56,7 +56,7 @@ class StickStorm(LongStickTest):
         reads = {}
         for serial, kind in enumerate(sticks.KINDS, 1):
             now, reads[kind], _ = self.pull_at(kind, serial, None)
-            self.assertEqual(now, [("Vase", serial)])
+            self.assertEqual(now, [("amphora", serial)])
         taken, told = 0, {}
         for number in range(PULLS):
             kind = chance.choice(sticks.KINDS)
@@ -64,9 +64,9 @@ class StickStorm(LongStickTest):
             first, last = chance.choice(((0.0, 1.0), (0.7, 1.1))) if number + 1 < PULLS else (1.1, 1.1)
             at_read = 1 + round(chance.uniform(first, last) * reads[kind])
             now, _, refusal = self.pull_at(kind, serial + 1, at_read)
-            self.assertIn(now, ([("Vase", serial)], [("Vase", serial + 1)]), f"pull {number}: {kind}, at read {at_read}")
+            self.assertIn(now, ([("amphora", serial)], [("amphora", serial + 1)]), f"pull {number}: {kind}, at read {at_read}")
             told[refusal] = told.get(refusal, 0) + 1
-            if now == [("Vase", serial + 1)]:
+            if now == [("amphora", serial + 1)]:
                 serial, taken = serial + 1, taken + 1
             self.goes_on()
         print(f"  {PULLS} pulls, in {taken} of them the new set was there already; told: {told}", flush=True)
@@ -197,7 +197,7 @@ class StickStorm(LongStickTest):
     def test_changing_contents(self):
         """What is read a second time is something else: what was checked is what is used."""
         self.take(1)
-        pack = self.large(2, PULLED_MIB)
+        pack = self.large(2, CHANGING_MIB)
         image = self.make("changing", "vfat", {"vase.fspack": pack})
         data = image.read_bytes()
         begins, size = data.index(pack.read_bytes()[:512]), pack.stat().st_size
