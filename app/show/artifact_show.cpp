@@ -70,6 +70,11 @@ Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
         }
         white_ = *white;
     }
+    if (tells_of_sticks(settings)) {
+        if (Result<void> texel = notice_.prepare(renderer_.store()); !texel) {
+            return texel;
+        }
+    }
     return upload_signs(settings);
 }
 
@@ -144,7 +149,8 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     set_->table.place_samples(attract_place_m_, on_table_);
     const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
     const TextureId word = !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
-    for (const TextureId texture : {white_, signs_.front(), word}) {
+    const auto [ring, notice] = notice_.samples();
+    for (const TextureId texture : {white_, ring, notice, signs_.front(), word}) {
         if (texture != TextureId::None) {
             on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
         }

@@ -22,6 +22,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double empty_ring_brightness = 0.2; ///< of a text's
+constexpr int sample_width = 5;
+constexpr int sample_height = 3;
 
 Result<LanguageWords> read_house_words(const Settings& settings) {
     const Result<Bytes> file = read_file(settings.exhibit.words);
@@ -212,6 +214,15 @@ void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situ
     }
 }
 
+Result<void> NoticeTextures::prepare(GpuStore& store) {
+    return store.upload(Image<std::uint8_t>(1, 1, 255))
+        .and_then([&](TextureId texel) {
+            white_ = texel;
+            return store.upload(Image<std::uint8_t>(sample_width, sample_height, 255));
+        })
+        .map([&](TextureId sample) { sample_ = sample; });
+}
+
 void NoticeTextures::follow(const SharedNotice& picture, std::size_t shape, GpuStore& store) {
     if (picture == picture_ && shape == shape_) {
         return;
@@ -223,13 +234,13 @@ void NoticeTextures::follow(const SharedNotice& picture, std::size_t shape, GpuS
         return;
     }
     texture_ = store.upload(picture_->shapes[shape].image.coverage).value_or(TextureId::None);
-    if (white_ == TextureId::None) {
-        white_ = store.upload(Image<std::uint8_t>(1, 1, 255)).value_or(TextureId::None);
     }
 }
 
 std::uint64_t NoticeTextures::planned_gpu_bytes() const {
-    std::uint64_t bytes = white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
+    std::uint64_t bytes = white_ != TextureId::None
+                              ? caption_gpu_bytes(1, 1) + caption_gpu_bytes(sample_width, sample_height)
+                              : 0;
     if (texture_ != TextureId::None) {
         const Image<std::uint8_t>& coverage = picture_->shapes[shape_].image.coverage;
         bytes += caption_gpu_bytes(coverage.width, coverage.height);

@@ -18,7 +18,9 @@
 #include "app/show/import_watch.h"
 #include "app/show/on_table.h"
 #include "app/show/prompt_reader.h"
+#include "firmware_host/base/result.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -72,6 +74,10 @@ private:
 /// A notice's picture in the GPU's memory, in the shape that is shown, while it is.
 class NoticeTextures {
 public:
+    /// Before the first frame.
+    [[nodiscard]] Result<void> prepare(GpuStore& store);
+    /// Drawn once, they make the driver compile what notices need: it may tell textures by their sizes.
+    [[nodiscard]] std::array<TextureId, 2> samples() const { return {white_, sample_}; }
     /// Uploads what is new, and lets go of what is not shown. `brightness`: of texts, share of the projector's light.
     void place(const std::optional<PresentedNotice>& notice, double brightness, const Pinhole& projector,
                const RigidTransform& table_from_projector, std::span<const glm::dvec2> room, GpuStore& store,
@@ -85,6 +91,7 @@ private:
     std::size_t shape_ = 0;
     TextureId texture_ = TextureId::None; ///< none: the driver has no memory
     TextureId white_ = TextureId::None;   ///< one texel: what the ring is drawn with
+    TextureId sample_ = TextureId::None;  ///< of a size like words': with mip levels, and no power of two
 };
 
 } // namespace frustumscreen
