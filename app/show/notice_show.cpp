@@ -234,7 +234,6 @@ void NoticeTextures::follow(const SharedNotice& picture, std::size_t shape, GpuS
         return;
     }
     texture_ = store.upload(picture_->shapes[shape].image.coverage).value_or(TextureId::None);
-    }
 }
 
 std::uint64_t NoticeTextures::planned_gpu_bytes() const {
