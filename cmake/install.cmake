@@ -11,6 +11,8 @@ foreach(unit frustumscreen-import@.service frustumscreen-import-refused@.service
     install(FILES systemd/frustumscreen-import.sandbox.conf
         DESTINATION /usr/lib/systemd/system/${unit}.d RENAME sandbox.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 endforeach()
+install(FILES systemd/frustumscreen-stick-device.conf # for the devices of all sticks
+    DESTINATION /usr/lib/systemd/system/dev-frustumscreen-.device.d RENAME pulled.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/70-frustumscreen.rules systemd/71-frustumscreen-stick.rules
     DESTINATION /usr/lib/udev/rules.d COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(PROGRAMS systemd/step DESTINATION /usr/lib/frustumscreen COMPONENT kiosk EXCLUDE_FROM_ALL)

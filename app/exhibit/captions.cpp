@@ -143,8 +143,8 @@ double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     return std::min(least_distance_to_edges(a, b), least_distance_to_edges(b, a));
 }
 
-CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> room, double border_m)
-    : room_(room.begin(), room.end()), border_m_(border_m) {}
+CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> room, double border_m, Nanoseconds settles)
+    : room_(room.begin(), room.end()), border_m_(border_m), settles_(settles) {}
 
 void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
     size_count_ = std::min(sizes_m.size(), sizes_.size());
@@ -152,6 +152,7 @@ void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
     place_.reset();
     leaves_.reset();
     next_look_.reset();
+    comes_again_ = false;
 }
 
 void CaptionPlacer::set_obstacles(std::span<const TableRectangle> obstacles) {
@@ -248,8 +249,9 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
     const std::span<const TableRectangle> obstacles = std::span(obstacles_).first(obstacle_count_);
     if (place_ && !leaves_ && (turns || clearance_m_ < near_m || on_obstacle(place_->rectangle, obstacles))) {
         leaves_ = now;
+        comes_again_ = true;
     }
-    const bool gone = !place_ || (leaves_ && now - *leaves_ >= fade);
+    const bool gone = !place_ || (leaves_ && (now - *leaves_ >= fade || now < appears_));
     if (!gone || (next_look_ && now < *next_look_)) {
         return;
     }
@@ -267,7 +269,7 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
         place_->rectangle.quarter_turns = quarter_turns;
     }
     leaves_.reset();
-    appears_ = now;
+    appears_ = comes_again_ ? now + settles_ : now;
     next_look_.reset();
     if (place_) {
         clearance_m_ = clearance(place_->rectangle.corners(), shadow->corners());

@@ -66,7 +66,9 @@ struct CaptionPlace {
 class CaptionPlacer {
 public:
     /// `room`: the convex part of the table that the picture covers; captions stay `border_m` inside.
-    explicit CaptionPlacer(std::span<const glm::dvec2> room, double border_m = 0.008);
+    /// What had to leave its place comes again only where it has had room for `settles`.
+    explicit CaptionPlacer(std::span<const glm::dvec2> room, double border_m = 0.008,
+                           Nanoseconds settles = {});
 
     /// Sets another caption; its shapes (one for each width it was wrapped to) are in falling preference, at
     /// most four. It appears at the best place at the next update.
@@ -101,6 +103,8 @@ private:
     std::vector<glm::dvec2> room_; ///< in the reader's frame
     int quarter_turns_ = 0;        ///< of that frame
     double border_m_;
+    Nanoseconds settles_;
+    bool comes_again_ = false; ///< it had to leave a place
     std::array<glm::dvec2, 4> sizes_{};
     std::size_t size_count_ = 0;
     std::array<TableRectangle, most_obstacles> obstacles_{}; ///< in the table's frame

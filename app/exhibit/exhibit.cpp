@@ -11,9 +11,8 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       selection_(make_selection(catalogue_, language, now)), ready_(catalogue_.size(), ArtifactState::Ready),
       offered_(catalogue_.size(), true), state_since_(now), next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      sentences_(place.words, place.picture_m), placer_(place.picture_m), labels_(place.picture_m) {
-    make_table();
-}
+      sentences_(place.words, place.picture_m), table_(lay_out_catalogue(catalogue_, place)),
+      placer_(place.picture_m), labels_(place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
     // Who is told something is there, also without moving.

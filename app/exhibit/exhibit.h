@@ -75,6 +75,10 @@ struct ExhibitPlace {
     Nanoseconds rest = std::chrono::seconds(60);  ///< nobody has been there for so long: attract
 };
 
+/// What lies on the table to choose from; nothing where the place has no such pictures. Takes some tens of milliseconds.
+[[nodiscard]] std::optional<TableBrowser> lay_out_catalogue(const Catalogue& catalogue,
+                                                            const ExhibitPlace& place);
+
 struct PresentedCaption {
     std::size_t language = 0; ///< index into CatalogueEntry::languages
     std::size_t shape = 0;    ///< index into its sizes
@@ -169,9 +173,11 @@ public:
     /// All of it is dark, and stays dark.
     [[nodiscard]] bool set_has_left() const { return set_left_; }
     /// The other set takes its place: `artifact` fades in, in the language that was chosen, if the set has it, and in the state in
-    /// which everything was. Returns what was shown before. Not for a frame that is being presented.
-    [[nodiscard]] Catalogue show_set(Catalogue catalogue, std::vector<AdviceLanguage> words,
-                                     std::size_t artifact, MonotonicTime now);
+    /// which everything was. `table`: lay_out_catalogue of it. Returns what was shown before. Not for a frame that is being
+    /// presented.
+    [[nodiscard]] Catalogue show_set(Catalogue catalogue, std::optional<TableBrowser> table,
+                                     std::vector<AdviceLanguage> words, std::size_t artifact,
+                                     MonotonicTime now);
     /// The chosen artifact; it may not be visible yet.
     [[nodiscard]] std::size_t chosen() const { return selection_.artifact(); }
     /// The chosen language.
@@ -199,7 +205,6 @@ private:
     // Of another set: exhibit_set.cpp.
     [[nodiscard]] static Selection make_selection(const Catalogue& catalogue, const std::string& language,
                                                   MonotonicTime now);
-    void make_table();
     void follow_set(MonotonicTime now);
     [[nodiscard]] bool may_leave_set(MonotonicTime now) const;
     void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;

@@ -42,16 +42,16 @@ Selection Exhibit::make_selection(const Catalogue& catalogue, const std::string&
     return {catalogue.size(), std::move(languages), first, now};
 }
 
-void Exhibit::make_table() {
-    table_.reset();
-    if (place_.table_pictures) {
-        table_.emplace(TableSetUp{.artifacts = catalogue_.size(),
-                                  .picture_m = place_.picture_m,
-                                  .prop = place_.prop,
-                                  .lens_m = place_.lens_m,
-                                  .home_m = place_.attract_place_m,
-                                  .captions_m = sizes_of_all_captions(catalogue_)});
+std::optional<TableBrowser> lay_out_catalogue(const Catalogue& catalogue, const ExhibitPlace& place) {
+    if (!place.table_pictures) {
+        return std::nullopt;
     }
+    return TableBrowser({.artifacts = catalogue.size(),
+                         .picture_m = place.picture_m,
+                         .prop = place.prop,
+                         .lens_m = place.lens_m,
+                         .home_m = place.attract_place_m,
+                         .captions_m = sizes_of_all_captions(catalogue)});
 }
 
 /// Whoever waits for it is told of nothing new meanwhile: what begins later does not put it off for ever.
@@ -100,8 +100,8 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
     dim(presentation.advice);
 }
 
-Catalogue Exhibit::show_set(Catalogue catalogue, std::vector<AdviceLanguage> words, std::size_t artifact,
-                            MonotonicTime now) {
+Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> table,
+                            std::vector<AdviceLanguage> words, std::size_t artifact, MonotonicTime now) {
     // Who chose no language has the house's, and another set may have a nearer one.
     const std::string chosen = selection_.is_at_first_language() ? house_language_ : selection_.language();
     Catalogue before = std::exchange(catalogue_, std::move(catalogue));
@@ -119,7 +119,7 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::vector<AdviceLanguage> wor
     narration_ = {};
     teller_ = Teller();
     choose_ = help_ = answer_comes_ = false;
-    make_table();
+    table_ = std::move(table);
     placer_ = CaptionPlacer(place_.picture_m);
     placed_ = nullptr;
     labels_ = HotspotLabels(place_.picture_m);

@@ -1,6 +1,8 @@
 /// Where on the table a notice lies: beside the prop and beside what visitors are shown there, and it gives way to that.
 ///
-/// A notice fades in at the best place that there is, stays there, and fades out before the next one comes. It lies beside all else;
+/// A notice fades in at the best place that there is, stays there while it has room, and fades out before the next one comes.
+/// Where it had to leave, it comes again once it has had room for half a second: a prop that is slid about does not make it come
+/// and go. It lies beside all else;
 /// without room there, where a picture to choose would lie that is not shown now; then in the caption's place, which dims
 /// meanwhile. Pictures to choose from, words and signs of guidance are never covered: a notice waits until there is room.
 ///
@@ -49,7 +51,10 @@ class NoticePlace {
 public:
     static constexpr Nanoseconds leaves = std::chrono::milliseconds(250); ///< to fade out
 
-    explicit NoticePlace(std::span<const glm::dvec2> picture_m) : placer_(picture_m) {}
+    static constexpr Nanoseconds settles = std::chrono::milliseconds(500);
+    static constexpr double border_m = 0.008; ///< from the picture's edge
+
+    explicit NoticePlace(std::span<const glm::dvec2> picture_m) : placer_(picture_m, border_m, settles) {}
 
     /// `wanted` is shown, or nothing more. Returns what is.
     [[nodiscard]] std::optional<PresentedNotice> step(MonotonicTime now, const SharedNotice& wanted,

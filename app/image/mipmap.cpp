@@ -1,4 +1,4 @@
-#include "app/image/image.h"
+#include "app/image/light_mips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +74,21 @@ Image8 half_size(const Image8& image) {
         }
     }
     return half;
+}
+
+std::vector<Image8> light_mips(const Image8& picture) {
+    std::vector<Image8> mips{picture};
+    for (glm::u8vec4& texel : mips.front().texels) {
+        const double covered = texel.a / 255.0;
+        for (int k = 0; k < 3; ++k) {
+            texel[k] = srgb8_from_linear(covered * static_cast<double>(linear_from_srgb8()[texel[k]]));
+        }
+        texel.a = 255;
+    }
+    while (std::max(mips.back().width, mips.back().height) > 1) {
+        mips.push_back(half_size(mips.back()));
+    }
+    return mips;
 }
 
 } // namespace frustumscreen

@@ -42,31 +42,15 @@ GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
     return texture;
 }
 
-/// The colours' light over black, opaque.
-Image8 over_black(const Image8& picture) {
-    Image8 opaque = picture;
-    for (glm::u8vec4& texel : opaque.texels) {
-        const double covered = texel.a / 255.0;
-        for (int k = 0; k < 3; ++k) {
-            texel[k] = srgb8_from_linear(covered * static_cast<double>(linear_from_srgb8()[texel[k]]));
-        }
-        texel.a = 255;
-    }
-    return opaque;
-}
-
 /// The sampler decodes it, so that what is between texels is mixed in linear light.
-GlTexture upload_light(Image8 mip) {
+GlTexture upload_light(std::span<const Image8> mips) {
     GlTexture texture = GlTexture::generate();
-    const int levels = std::bit_width(static_cast<unsigned>(std::max(mip.width, mip.height)));
     glBindTexture(GL_TEXTURE_2D, texture.get());
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, mip.width, mip.height);
-    for (int k = 0; k < levels; ++k) {
-        if (k > 0) {
-            mip = half_size(mip);
-        }
-        glTexSubImage2D(GL_TEXTURE_2D, k, 0, 0, mip.width, mip.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        mip.texels.data());
+    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(mips.size()), GL_SRGB8_ALPHA8, mips.front().width,
+                   mips.front().height);
+    for (std::size_t k = 0; k < mips.size(); ++k) {
+        glTexSubImage2D(GL_TEXTURE_2D, static_cast<GLint>(k), 0, 0, mips[k].width, mips[k].height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, mips[k].texels.data());
     }
     clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
     return texture;
@@ -110,14 +94,16 @@ Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
     return keep(upload_coverage(coverage), 0);
 }
 
-Result<TextureId> GpuStore::upload_picture(const Image8& picture) {
+Result<TextureId> GpuStore::upload_picture(std::span<const Image8> mips) {
+    const int width = mips.empty() ? 0 : mips.front().width;
+    const int height = mips.empty() ? 0 : mips.front().height;
     const int limit = most_texels();
-    if (picture.width < 1 || picture.height < 1 || std::max(picture.width, picture.height) > limit) {
+    if (width < 1 || height < 1 || std::max(width, height) > limit) {
         return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: a picture of {} x {} texels; this driver allows 1 to {}",
-                                picture.width, picture.height, limit));
+                    fmt::format("render: a picture of {} x {} texels; this driver allows 1 to {}", width,
+                                height, limit));
     }
-    return keep(upload_light(over_black(picture)), 0);
+    return keep(upload_light(mips), 0);
 }
 
 TextureId GpuStore::keep(GlTexture texels, int finest_mip) {

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 
 namespace frustumscreen {
 
@@ -29,8 +30,8 @@ public:
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
     [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
-    /// Uploads a picture for the table, row 0 at its top: alpha is the share of a texel that it covers.
-    [[nodiscard]] Result<TextureId> upload_picture(const Image8& picture);
+    /// Uploads a picture for the table, row 0 at its top: light_mips of it.
+    [[nodiscard]] Result<TextureId> upload_picture(std::span<const Image8> mips);
     /// Draws that name it show nothing from now on.
     void release(const Drawable& drawable);
     void release(TextureId texture);

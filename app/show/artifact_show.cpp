@@ -1,10 +1,10 @@
 #include "app/show/artifact_show.h"
 
-#include "app/exhibit/guidance_setup.h"
 #include "app/exhibit/languages.h"
 #include "app/render/read_back.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
+#include "app/show/exhibit_place.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +69,11 @@ Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
             return tl::unexpected<Error>(white.error());
         }
         white_ = *white;
+    }
+    if (tells_of_sticks(settings)) {
+        if (Result<void> texel = notice_.prepare(renderer_.store()); !texel) {
+            return texel;
+        }
     }
     return upload_signs(settings);
 }
@@ -144,7 +149,8 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     set_->table.place_samples(attract_place_m_, on_table_);
     const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
     const TextureId word = !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
-    for (const TextureId texture : {white_, signs_.front(), word}) {
+    const auto [ring, notice] = notice_.samples();
+    for (const TextureId texture : {white_, ring, notice, signs_.front(), word}) {
         if (texture != TextureId::None) {
             on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
         }
@@ -361,17 +367,9 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
 }
 
 Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
-    ExhibitPlace place{make_prop(settings.prop),
-                       table_from_projector.translation,
-                       picture_on_table(settings, 0.0),
-                       artifacts.zone(),
-                       artifacts.attract_place_m(),
-                       settings.panel.buttons(),
-                       guides_visitors(settings) ? std::optional(guidance_setup(settings)) : std::nullopt,
-                       artifacts.words(),
-                       chooses_on_table(settings)};
-    place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
+    ExhibitPlace place = exhibit_place(settings);
+    place.zone = artifacts.zone();
+    place.words = artifacts.words();
     return {artifacts.catalogue(), place, settings.exhibit.language, now};
 }
 

@@ -66,8 +66,6 @@ public:
     [[nodiscard]] const Catalogue& catalogue() const { return set_->catalogue; }
     [[nodiscard]] const ShownSet& set() const { return *set_; }
     [[nodiscard]] const ZoneFrame& zone() const { return zone_; }
-    /// Where an artifact stands while nobody knows where the prop is; table coordinates.
-    [[nodiscard]] const glm::dvec2& attract_place_m() const { return attract_place_m_; }
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                   const glm::dvec3& eye_m, const RenderTarget& target,
                                   Redraw redraw) override;

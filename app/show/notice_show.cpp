@@ -22,6 +22,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double empty_ring_brightness = 0.2; ///< of a text's
+constexpr int sample_width = 5;
+constexpr int sample_height = 3;
 
 Result<LanguageWords> read_house_words(const Settings& settings) {
     const Result<Bytes> file = read_file(settings.exhibit.words);
@@ -212,31 +214,35 @@ void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situ
     }
 }
 
-void NoticeTextures::follow(const SharedNotice& picture, GpuStore& store) {
-    if (picture == picture_) {
+Result<void> NoticeTextures::prepare(GpuStore& store) {
+    return store.upload(Image<std::uint8_t>(1, 1, 255))
+        .and_then([&](TextureId texel) {
+            white_ = texel;
+            return store.upload(Image<std::uint8_t>(sample_width, sample_height, 255));
+        })
+        .map([&](TextureId sample) { sample_ = sample; });
+}
+
+void NoticeTextures::follow(const SharedNotice& picture, std::size_t shape, GpuStore& store) {
+    if (picture == picture_ && shape == shape_) {
         return;
     }
-    for (const TextureId texture : textures_) {
-        store.release(texture);
-    }
-    textures_.clear();
+    store.release(std::exchange(texture_, TextureId::None));
     picture_ = picture;
+    shape_ = shape;
     if (!picture_) {
         return;
     }
-    for (const NoticeShape& shape : picture_->shapes) {
-        textures_.push_back(store.upload(shape.image.coverage).value_or(TextureId::None));
-    }
-    if (white_ == TextureId::None) {
-        white_ = store.upload(Image<std::uint8_t>(1, 1, 255)).value_or(TextureId::None);
-    }
+    texture_ = store.upload(picture_->shapes[shape].image.coverage).value_or(TextureId::None);
 }
 
 std::uint64_t NoticeTextures::planned_gpu_bytes() const {
-    std::uint64_t bytes = white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0;
-    for (std::size_t k = 0; k < textures_.size(); ++k) {
-        const Image<std::uint8_t>& coverage = picture_->shapes[k].image.coverage;
-        bytes += textures_[k] != TextureId::None ? caption_gpu_bytes(coverage.width, coverage.height) : 0;
+    std::uint64_t bytes = white_ != TextureId::None
+                              ? caption_gpu_bytes(1, 1) + caption_gpu_bytes(sample_width, sample_height)
+                              : 0;
+    if (texture_ != TextureId::None) {
+        const Image<std::uint8_t>& coverage = picture_->shapes[shape_].image.coverage;
+        bytes += caption_gpu_bytes(coverage.width, coverage.height);
     }
     return bytes;
 }
@@ -244,12 +250,12 @@ std::uint64_t NoticeTextures::planned_gpu_bytes() const {
 void NoticeTextures::place(const std::optional<PresentedNotice>& notice, double brightness,
                            const Pinhole& projector, const RigidTransform& table_from_projector,
                            std::span<const glm::dvec2> room, GpuStore& store, OnTable& on_table) {
-    follow(notice ? notice->picture : nullptr, store);
+    follow(notice ? notice->picture : nullptr, notice ? notice->shape : 0, store);
     if (!notice) {
         return;
     }
     on_table.add({picture_corners(on_pixels(notice->rectangle, projector, table_from_projector)),
-                  brightness * notice->brightness, textures_[notice->shape]});
+                  brightness * notice->brightness, texture_});
     const std::optional<TablePolygon> round = notice_ring(*notice);
     if (!round) {
         return;

@@ -18,11 +18,12 @@
 #include "app/show/import_watch.h"
 #include "app/show/on_table.h"
 #include "app/show/prompt_reader.h"
+#include "firmware_host/base/result.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 namespace frustumscreen {
 
@@ -70,9 +71,13 @@ private:
     std::optional<ImportWatch> watch_; ///< none: no stick is told of
 };
 
-/// A notice's pictures in the GPU's memory, while it is shown.
+/// A notice's picture in the GPU's memory, in the shape that is shown, while it is.
 class NoticeTextures {
 public:
+    /// Before the first frame.
+    [[nodiscard]] Result<void> prepare(GpuStore& store);
+    /// Drawn once, they make the driver compile what notices need: it may tell textures by their sizes.
+    [[nodiscard]] std::array<TextureId, 2> samples() const { return {white_, sample_}; }
     /// Uploads what is new, and lets go of what is not shown. `brightness`: of texts, share of the projector's light.
     void place(const std::optional<PresentedNotice>& notice, double brightness, const Pinhole& projector,
                const RigidTransform& table_from_projector, std::span<const glm::dvec2> room, GpuStore& store,
@@ -80,11 +85,13 @@ public:
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:
-    void follow(const SharedNotice& picture, GpuStore& store);
+    void follow(const SharedNotice& picture, std::size_t shape, GpuStore& store);
 
     SharedNotice picture_;
-    std::vector<TextureId> textures_;   ///< by shape; none: the driver has no memory
-    TextureId white_ = TextureId::None; ///< one texel: what the ring is drawn with
+    std::size_t shape_ = 0;
+    TextureId texture_ = TextureId::None; ///< none: the driver has no memory
+    TextureId white_ = TextureId::None;   ///< one texel: what the ring is drawn with
+    TextureId sample_ = TextureId::None;  ///< of a size like words': with mip levels, and no power of two
 };
 
 } // namespace frustumscreen

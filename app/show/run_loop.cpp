@@ -274,7 +274,9 @@ private:
         status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
     }
 
-    [[nodiscard]] bool told_to_stop() const { return options_.stop != nullptr && options_.stop->received(); }
+    [[nodiscard]] bool told_to_stop() const {
+        return (options_.stop != nullptr && options_.stop->received()) || (options_.ends && options_.ends());
+    }
 
     /// Waits for it, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {

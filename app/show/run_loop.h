@@ -19,6 +19,7 @@
 #include "firmware_host/service/stop_signals.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct LoopOptions {
     bool keep_rows = false;
     const StopSignals* stop = nullptr; ///< one of them ends the loop
     Screenshot* screenshot = nullptr;  ///< of the display's size; whoever asks it for a picture gets one
+    std::function<bool()> ends = {};   ///< asked in each frame: yes ends it too
 };
 
 struct Still {

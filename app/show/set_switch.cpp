@@ -11,9 +11,11 @@ bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
     release_the_old();
     if (coming_ && exhibit.set_has_left()) {
         const std::size_t first = goal(state, exhibit).value_or(0);
+        std::optional<TableBrowser> browser = std::exchange(coming_->browser, std::nullopt);
         leaving_ = artifacts_.exchange(std::move(coming_));
         // The one that the exhibit had goes where it is destroyed, as the set does.
-        leaving_->catalogue = exhibit.show_set(artifacts_.catalogue(), artifacts_.words(), first, now);
+        leaving_->catalogue =
+            exhibit.show_set(artifacts_.catalogue(), std::move(browser), artifacts_.words(), first, now);
         ++switches_;
         return true;
     }

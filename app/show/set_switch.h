@@ -4,7 +4,7 @@
 ///     released, some a frame -> given back, to be destroyed elsewhere
 ///
 /// Cost     a frame uploads one picture for the table or some titles, or a few megabytes of the first artifact, as of any that
-///          comes; the frame of the exchange lays out the table anew. Both sets are in memory meanwhile (shown_set.h). Another set waits until the one before is released.
+///          comes; what takes longer is done before, on the library's thread (open_set). Both sets are in memory meanwhile (shown_set.h). Another set waits until the one before is released.
 /// Threads  the render thread, with the display's context current, also where it is destroyed. Nothing is read or compiled in a
 ///          frame. What there is to allocate for a set is allocated in the frames of its coming.
 /// Errors   a set that cannot be shown after all is given back with its trouble, and what is shown stays.

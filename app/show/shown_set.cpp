@@ -2,6 +2,7 @@
 
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
+#include "app/show/exhibit_place.h"
 
 #include <algorithm>
 #include <iterator>
@@ -95,6 +96,7 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
     set->table = read_table(settings, options, opened->known);
     set->notes.insert(set->notes.end(), set->table.notes().begin(), set->table.notes().end());
     if (frames) {
+        set->browser = lay_out_catalogue(set->catalogue, exhibit_place(settings));
         expect(*frames, opened->known.front(), opened->first->levels);
     }
     const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;

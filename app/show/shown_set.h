@@ -73,6 +73,8 @@ struct ShownSet {
     AdviceWords words;
     LoadedTexts word_pictures;
     TableShow table;
+    std::optional<TableBrowser>
+        browser; ///< lay_out_catalogue; the exhibit takes it. A run's first set has none
 
     /// So many bytes more, or a little more than that, towards showing what is wished for.
     [[nodiscard]] Result<void> upload(GpuStore& store, const ResidentsWish& wish, std::uint64_t most_bytes);

@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/exhibit/ring.h"
 #include "app/exhibit/table_title.h"
+#include "app/image/light_mips.h"
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"
 #include "app/scene/scene_level.h"
@@ -99,11 +100,11 @@ struct TableShow::Loader {
         if (!read) {
             return tl::unexpected<Error>(read.error());
         }
-        Image8& picture = read->table_picture;
+        const Image8& picture = read->table_picture;
         if (picture.width > 0 && picture.height > 0) {
             card.picture = {show.textures_.size(), glm::dvec2(picture.width, picture.height)};
             show.planned_gpu_bytes_ += picture_gpu_bytes(picture.width, picture.height);
-            show.textures_.push_back({std::move(picture)});
+            show.textures_.push_back({light_mips(picture)});
         }
         const std::vector<PackLabel> titles = titles_of(*read);
         std::vector<std::string> languages;
@@ -147,13 +148,13 @@ void TableShow::upload(GpuStore& store, std::uint64_t most_bytes) {
     for (; !ready() && bytes < most_bytes; ++uploaded_) {
         Texture& texture = textures_[uploaded_];
         const auto* const coverage = std::get_if<Image<std::uint8_t>>(&texture.picture);
-        const auto* const picture = std::get_if<Image8>(&texture.picture);
+        const auto* const light = std::get_if<std::vector<Image8>>(&texture.picture);
         bytes += coverage != nullptr ? caption_gpu_bytes(coverage->width, coverage->height)
-                                     : picture_gpu_bytes(picture->width, picture->height);
+                                     : picture_gpu_bytes(light->front().width, light->front().height);
         const Result<TextureId> uploaded =
-            coverage != nullptr ? store.upload(*coverage) : store.upload_picture(*picture);
+            coverage != nullptr ? store.upload(*coverage) : store.upload_picture(*light);
         texture.id = uploaded.value_or(TextureId::None);
-        texture.picture = Image8();
+        texture.picture = {};
     }
 }
 

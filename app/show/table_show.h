@@ -54,7 +54,7 @@ public:
 private:
     /// In the store, or on the way into it: until then its picture is kept.
     struct Texture {
-        std::variant<Image<std::uint8_t>, Image8> picture;
+        std::variant<Image<std::uint8_t>, std::vector<Image8>> picture; ///< coverage; light with mip levels
         TextureId id = TextureId::None;
     };
     static constexpr std::size_t no_texture = ~std::size_t{0};

@@ -68,7 +68,7 @@ TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     EXPECT_EQ(last, 0.0);
     EXPECT_FALSE(shown.caption);
     EXPECT_GT(light.size(), 10U); // a fade, and no leap
-    const Catalogue old = exhibit.show_set(artifacts(2, {"fr", "de"}), {}, 1, now);
+    const Catalogue old = exhibit.show_set(artifacts(2, {"fr", "de"}), {}, {}, 1, now);
     EXPECT_EQ(old.size(), 3U);
     run(milliseconds(20));
     EXPECT_LT(shown.brightness, 0.1);
@@ -86,12 +86,12 @@ TEST_F(AnotherSet, ThatHasTheHousesLanguageAgainIsInThat) {
     visit();
     exhibit.await_set(true);
     leaves_within(seconds(1));
-    static_cast<void>(exhibit.show_set(artifacts(1, {"fr"}), {}, 0, now));
+    static_cast<void>(exhibit.show_set(artifacts(1, {"fr"}), {}, {}, 0, now));
     run(seconds(1));
     EXPECT_EQ(shown.language, "fr"); // there is no other
     exhibit.await_set(true);
     leaves_within(seconds(1));
-    static_cast<void>(exhibit.show_set(artifacts(1, {"fr", "en"}), {}, 0, now));
+    static_cast<void>(exhibit.show_set(artifacts(1, {"fr", "en"}), {}, {}, 0, now));
     run(seconds(1));
     EXPECT_EQ(shown.language, "en");
 }
@@ -140,7 +140,7 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
     exhibit.hear(false);
     EXPECT_LE(leaves_within(seconds(5)), fade_time + milliseconds(60));
 
-    static_cast<void>(exhibit.show_set(artifacts(2, {"en"}), {}, 0, now));
+    static_cast<void>(exhibit.show_set(artifacts(2, {"en"}), {}, {}, 0, now));
     run(seconds(1));
     exhibit.hear(true); // and it never ends
     exhibit.await_set(true);
@@ -180,7 +180,7 @@ TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {
     ASSERT_TRUE(shown.staff);
     exhibit.await_set(true);
     leaves_within(seconds(1));
-    static_cast<void>(exhibit.show_set(artifacts(2, {"en"}), {}, 0, now));
+    static_cast<void>(exhibit.show_set(artifacts(2, {"en"}), {}, {}, 0, now));
     EXPECT_TRUE(run(seconds(1)).staff);
 }
 

@@ -250,6 +250,37 @@ TEST(NoticePlace, it_gives_way_to_what_comes) {
     EXPECT_TRUE(table.wait(milliseconds(800), notice));
 }
 
+/// The only room is where the prop comes by, every 0.6 s.
+TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
+    const SharedNotice small = notice_of({{0.2, 0.05}});
+    Table table;
+    table.obstacles = {
+        {{-0.3, 0.0}, {0.19, 0.49}, 0}, {{0.3, 0.0}, {0.19, 0.49}, 0}, {{0.0, 0.19}, {0.4, 0.1}, 0}};
+    ASSERT_TRUE(table.wait(milliseconds(600), small));
+    int comes = 0;
+    bool lit = true;
+    for (int k = 0; k < 495; ++k) { // the last time it is in the way
+        table.pose.translation.y = k % 30 < 15 ? -0.1 : 0.0;
+        const bool now_lit = table.wait(milliseconds(20), small).has_value();
+        comes += now_lit && !lit ? 1 : 0;
+        lit = now_lit;
+    }
+    EXPECT_EQ(comes, 0);
+    EXPECT_FALSE(lit);
+    table.pose.translation.y = 0.0;
+    EXPECT_FALSE(table.wait(milliseconds(400), small)) << "it may go on";
+    const auto again = table.wait(milliseconds(800), small);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->brightness, 1.0);
+    for (int k = 0; k < 200;
+         ++k) { // it stays while it fits: the prop comes nearer and goes, and leaves it room
+        table.pose.translation.y = k % 30 < 15 ? -0.003 : 0.0;
+        const auto stays = table.wait(milliseconds(20), small);
+        ASSERT_TRUE(stays);
+        EXPECT_EQ(stays->rectangle.centre_m, again->rectangle.centre_m);
+    }
+}
+
 TEST(NoticePlace, one_notice_goes_before_the_next_comes) {
     const SharedNotice first = notice_of({{0.2, 0.05}});
     const SharedNotice second = notice_of({{0.1, 0.1}});

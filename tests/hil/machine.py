@@ -140,7 +140,7 @@ class Machine:
             "-vnc", f"unix:{self.sockets}/second,display=second",
             "-audiodev", f"wav,id=heard,path={self.heard},out.frequency=48000,out.channels=2",
             "-device", "intel-hda", "-device", "hda-output,audiodev=heard",
-            "-device", "qemu-xhci,id=usb",
+            "-device", "qemu-xhci,id=usb,p2=12,p3=12",  # with fewer ports QEMU adds hubs, of the slowest kind
         ]
         for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
             command += ["-drive", f"if=none,id={serial},format=raw,readonly=on,file={image}",
@@ -248,8 +248,9 @@ class Machine:
 
     # Sticks at the USB ports.
 
-    def plug(self, name, source, bytes_per_s=None, serial=None):
-        """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD)."""
+    def plug(self, name, source, bytes_per_s=None, serial=None, driver="usb-storage"):
+        """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD); `driver`: or usb-uas, USB attached
+        SCSI, to which the disk is attached before the guest sees any of it."""
         source = pathlib.Path(source)
         if source.is_socket():
             disk = {"driver": "nbd", "server": {"type": "unix", "path": os.fspath(source)}}
@@ -262,7 +263,13 @@ class Machine:
             self.monitor("blockdev-add", **{"driver": "throttle", "node-name": f"{name}-slow", "throttle-group": f"{name}-pace",
                                             "file": nodes[0]})
             nodes.insert(0, f"{name}-slow")
-        self.monitor("device_add", driver="usb-storage", id=name, bus="usb.0", drive=nodes[0], removable=True, serial=serial or name)
+        disk = {"drive": nodes[0], "removable": True, "serial": serial or name}
+        if driver == "usb-uas":
+            self.monitor("device_add", driver=driver, id=name, bus="usb.0")
+            self.monitor("device_add", driver="scsi-hd", id=f"{name}-disk", bus=f"{name}.0", **disk)
+            self.monitor("qom-set", path=f"/machine/peripheral/{name}", property="attached", value=True)
+        else:
+            self.monitor("device_add", driver=driver, id=name, bus="usb.0", **disk)
         self._sticks[name] = nodes
 
     def pull(self, name):

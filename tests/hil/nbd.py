@@ -28,11 +28,12 @@ EIO = 5
 class Disk:
     """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
     it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
-    is cut by itself after so many writes, and without it each write fails; `change`: called before each read with the disk's bytes and the place."""
+    is cut by itself after so many writes, and without it each write fails; `tell_at`: the read at which `is_reached` is set;
+    `change`: called before each read with the disk's bytes, the place and the length."""
 
-    def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, change=None, size=None):
+    def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, tell_at=None, change=None, size=None):
         self.path = pathlib.Path(path)
-        self.delay_s, self.cut_after, self.change = delay_s, cut_after, change
+        self.delay_s, self.cut_after, self.tell_at, self.change = delay_s, cut_after, tell_at, change
         self.writes = self.flushes = self.reads = 0
         self._now = bytearray(pathlib.Path(image).read_bytes()) if size is None else None
         self._durable = bytearray(self._now) if cut_after is not None else None
@@ -41,7 +42,7 @@ class Disk:
         self._unflushed = []
         self._random = random.Random(seed)
         self._lock = threading.Lock()
-        self.is_cut = threading.Event()
+        self.is_cut, self.is_reached = threading.Event(), threading.Event()
         self._listens = socket.socket(socket.AF_UNIX)
         self.path.unlink(missing_ok=True)
         self._listens.bind(os.fspath(self.path))
@@ -135,6 +136,8 @@ class Disk:
                 error = EIO
             elif kind == COMMAND_READ:
                 self.reads += 1
+                if self.reads == self.tell_at:
+                    self.is_reached.set()
                 answer = self._read(place, length)
             elif kind == COMMAND_WRITE and self.cut_after is None:
                 self.writes += 1
@@ -153,7 +156,7 @@ class Disk:
         if self._now is None:  # larger than memory: what the image does not have is zero
             return self._head[place:place + length].ljust(length, b"\0")
         if self.change:
-            self.change(self._now, place)
+            self.change(self._now, place, length)
         return bytes(self._now[place:place + length])
 
     def _write(self, place, data, through):

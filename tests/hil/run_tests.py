@@ -17,8 +17,8 @@ from hil_test import HilTest, is_long
 from repeat import Load, Run, as_text
 
 # in this order, because later tests rely on earlier ones
-MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "stick", "stick_storm", "table", "guidance",
-           "display", "vblank", "restart", "safe", "kernel")
+MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "stick", "stick_hostile",
+           "stick_storm", "table", "guidance", "display", "vblank", "restart", "safe", "kernel")
 
 
 def say(text):

@@ -10,8 +10,9 @@ import shutil
 import subprocess
 import sys
 
+import screen
 import sticks
-from bench import HERE, SETTINGS, USUAL, eventually
+from bench import HERE, SETTINGS, UNIT, eventually
 from hil_test import HilTest
 
 sys.path.insert(0, str(HERE.parent / "import"))
@@ -21,6 +22,15 @@ LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
 UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*'"
+# What stays of a stick: first what costs little to ask, which is almost all the time, then systemd itself.
+QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
+         "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
+         f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
+# The installed set, and every pack against its name, which is its SHA-256.
+LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIBRARY}/packs 2>/dev/null && ls | grep -q fspack$ || exit 0; "
+        'for pack in *.fspack; do echo "${pack%.fspack}  $pack"; done | sha256sum --check --quiet')
+QUIET_S = 240.0
+LIT_PIXELS = 300
 
 
 class StickTest(HilTest):
@@ -36,14 +46,19 @@ class StickTest(HilTest):
         if not cls.key.with_suffix(".key").exists():
             subprocess.run([cls.pack_program, "keygen", "-o", cls.key], check=True, capture_output=True)
         public = cls.key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
-        # The exhibit need not start again for it: it is the importer that asks for keys.
-        cls.bench.machine.write(SETTINGS, f'{USUAL}\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\n'
-                                  'until = "2099-12-31"\n')
+        cls.keys = ""
+        cls.add_key("Museum", public)
+
+    @classmethod
+    def add_key(cls, name, public):
+        """The exhibit need not start again for it: it is the importer that asks for keys."""
+        cls.keys += f'\n[[exhibit.keys]]\nname = "{name}"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
+        cls.bench.machine.write(SETTINGS, cls.settings + cls.keys)
 
     @classmethod
     def tearDownClass(cls):
-        cls.bench.machine.check(f"rm -rf {LIBRARY}/set.txt {LIBRARY}/packs {LIBRARY}/shown/* {REPORT_FILE}")
-        cls.bench.machine.write(SETTINGS, USUAL)
+        cls.clear_library()
+        cls.bench.machine.write(SETTINGS, cls.settings)
         shutil.rmtree(cls.folder)
 
     def setUp(self):
@@ -78,6 +93,11 @@ class StickTest(HilTest):
         subprocess.run([cls.pack_program, "sign", pack, "--key", cls.key.with_suffix(".key"), "--serial", str(serial)], check=True,
                        capture_output=True)
         return pack
+
+    @classmethod
+    def clear_library(cls):
+        """Nothing was ever installed; the exhibit goes on with what it shows."""
+        cls.bench.machine.check(f"rm -rf {LIBRARY}/set.txt {LIBRARY}/packs {LIBRARY}/shown/* {REPORT_FILE}")
 
     def image(self, name):
         return self.folder / f"{name}.img"
@@ -118,13 +138,13 @@ class StickTest(HilTest):
     def units(self):
         return self.bench.machine.run(f"systemctl list-units --no-legend --plain {UNITS}").output.strip()
 
-    def installed(self):
-        """The packs of the set that is installed: (title, serial). Each is whole."""
-        listed = json.loads(self.bench.machine.check(f"frustumscreen-import --list --into {LIBRARY} --json"))["packs"]
-        if listed:
-            sums = "\n".join(f"{pack['sha256']}  {LIBRARY}/{pack['file']}" for pack in listed)
-            self.bench.machine.check(f"echo '{sums}' | sha256sum --check --quiet")
-        return [(pack["title"], pack["serial"]) for pack in listed]
+    def installed(self, after="true"):
+        """The packs of the set that is installed once this command has ended in the guest: (title, serial). Each is whole."""
+        said = self.bench.machine.check(f"{after}; {LIST}", QUIET_S)
+        listed, _ = json.JSONDecoder().raw_decode(said)
+        for pack in listed["packs"]:
+            self.assertEqual(pack["file"], f"packs/{pack['sha256']}.fspack")
+        return [(pack["title"], pack["serial"]) for pack in listed["packs"]]
 
     def journal_of_imports(self):
         return self.bench.machine.run("journalctl -b -o cat --no-pager -u 'frustumscreen-import*'").output
@@ -134,6 +154,40 @@ class StickTest(HilTest):
 
     def mounts(self):
         return self.bench.machine.run("grep frustumscreen-stick /proc/mounts").output
+
+
+class LongStickTest(StickTest):
+    """Each test begins with an empty library, and the exhibit must live through all of it: the same process, a lit picture."""
+
+    def setUp(self):
+        super().setUp()
+        self.clear_library()
+        # Between two sticks that a person puts in the kernel need not wait for one that spins up.
+        self.bench.machine.check("echo 0 > /sys/module/usb_storage/parameters/delay_use || true")
+        self.process, self.frames = self.life(), -1
+
+    def tearDown(self):
+        super().tearDown()
+        self.goes_on()
+
+    def life(self):
+        return self.bench.machine.check(f"systemctl show -p MainPID -p NRestarts {UNIT}")
+
+    def goes_on(self):
+        """The exhibit is the process that it was, says that it is well, its frames go on, and it lights the prop."""
+        self.assertEqual(self.life(), self.process, "the exhibit was restarted")
+
+        def is_well():
+            status = self.bench.status() or {}
+            return status.get("health") == "well" and status["frames"] > self.frames and status["frames"]
+
+        self.frames = eventually(is_well, 20.0, lambda: f"the exhibit is not well: {self.bench.status()}")
+        eventually(lambda: screen.count(screen.lit(self.bench.screendump())) > LIT_PIXELS, 20.0, "the table is dark")
+
+    def forget(self):
+        """Takes the last report away, so that the next import need not let it stand for its readers."""
+        self.bench.machine.check(f"rm -f {REPORT_FILE}")
+        self.last = None
 
 
 def pulled_packs(report):

@@ -42,7 +42,8 @@ def _vfat(image, label, tree):
 
 
 def _ext4(image, label, tree):
-    _run("mkfs.ext4", "-q", "-F", "-L", label[:16], "-d", tree, image)
+    entries = sum(len(folders) + len(files) for _, folders, files in os.walk(tree))
+    _run("mkfs.ext4", "-q", "-F", "-L", label[:16], "-N", entries + 64, "-d", tree, image)
 
 
 def _ntfs(image, label, tree):
@@ -111,9 +112,12 @@ _MAKERS = {"vfat": _vfat, "exfat": _exfat, "ext4": _ext4, "ntfs": _ntfs}
 
 
 def file_system(image, kind, files, size_mib=40, label="PACKS"):
-    """A file system that fills the image, as on a stick without a partition table. `files`: name -> path or bytes."""
+    """A file system that fills the image, as on a stick without a partition table. `files`: name -> path or bytes, or a folder."""
     image = pathlib.Path(image)
     _blank(image, size_mib)
+    if isinstance(files, pathlib.Path):
+        _MAKERS[kind](image, label, files)
+        return image
     with tempfile.TemporaryDirectory() as folder:
         tree = pathlib.Path(folder) / "stick"
         tree.mkdir(mode=0o755)
@@ -125,6 +129,30 @@ def file_system(image, kind, files, size_mib=40, label="PACKS"):
                 shutil.copyfile(what, tree / name)
         _MAKERS[kind](image, label, tree)
     return image
+
+
+def _places_to_damage(boot, kind):
+    """(place, bytes) of what says where folders and files lie; `boot`: the image's first bytes."""
+    if kind == "vfat":  # the allocation tables, but for their first entries
+        reserved, count, = struct.unpack_from("<HB", boot, 14)
+        return reserved * SECTOR + 12, count * struct.unpack_from("<I", boot, 36)[0] * SECTOR - 12
+    if kind == "exfat":  # the root folder, but for the label, and whatever lies behind it
+        heap, _, root = struct.unpack_from("<III", boot, 88)
+        return (heap << boot[108]) + (root - 2 << boot[108] + boot[109]) + 32, 4096
+    if kind == "ext4":  # the inodes, from the first file's on
+        block = 1024 << struct.unpack_from("<I", boot, 1024 + 24)[0]
+        table, = struct.unpack_from("<I", boot, max(block, 2048) + 8)
+        return table * block + 11 * struct.unpack_from("<H", boot, 1024 + 88)[0], 4096
+    sector, per_cluster = struct.unpack_from("<HB", boot, 11)  # NTFS: the records of files, from the root folder's on
+    return struct.unpack_from("<Q", boot, 48)[0] * sector * per_cluster + 5 * 1024, 123 * 1024
+
+
+def damage(image, kind, chance):
+    """Overwrites with noise what says where this file system's files lie."""
+    with open(image, "r+b") as disk:
+        place, size = _places_to_damage(disk.read(1 << 13), kind)
+        disk.seek(place)
+        disk.write(chance.randbytes(size))
 
 
 def _mbr(disk, partitions):

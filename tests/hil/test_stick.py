@@ -1,16 +1,34 @@
 """Sticks with packs: put in, the artifacts change on the screen and in the status; unsigned, pulled out half-way, two at once."""
 
+import screen
 import sticks
-from bench import eventually
+from bench import UPRIGHT, USUAL, WIDTH, eventually
 from hil_test import CENTRE_M
 from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
 
 LARGE_MIB = 8
 SLOW_BYTES_PER_S = 700_000  # of it: a dozen seconds
+TOLD_PIXELS = 300  # two short lines of words
 SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
 
 
 class Stick(StickTest):
+    # With words, so that the table says what is done with a stick.
+    settings = USUAL.replace("captions = false", 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"')
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        both = [screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], artifact)[0]) for artifact in ("amphora", "nautilus-cup")]
+        cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
+
+    def told_on_table(self, name=None):
+        """The number of pixels that are lit beside the prop; the picture is kept under this name."""
+        picture = self.bench.screendump()
+        if name:
+            screen.write_png(self.bench.out / f"{name}.png", picture)
+        return screen.count([row & ~prop for row, prop in zip(screen.lit(picture), self.prop)])
+
     def told_by_exhibit(self, import_id):
         """What its status says of this import; None: nothing yet."""
         told = (self.bench.status() or {}).get("import") or {}
@@ -18,6 +36,7 @@ class Stick(StickTest):
 
     def test_1_taken_and_shown(self):
         before = self.bench.main_process()
+        self.assertEqual(self.told_on_table(), 0)
         pack = self.signed("nautilus-cup", 1)
         part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
                                           "System Volume Information/IndexerVolumeGuid": b"x"})
@@ -32,7 +51,9 @@ class Stick(StickTest):
         # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
         told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
         self.assertEqual(told["stage"], "done")
+        eventually(lambda: self.told_on_table("stick_told") > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
         self.bench.buttons.tell("press", 2, "300ms")  # what the table says of the stick ends, and nothing else happens
+        eventually(lambda: self.told_on_table() == 0, 20.0, "what the table says stays")
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
@@ -48,6 +69,8 @@ class Stick(StickTest):
         pack = self.large(2, LARGE_MIB)
         self.plug("slow", self.make("slow", "vfat", {"vase.fspack": pack}), bytes_per_s=SLOW_BYTES_PER_S)
         self.stage("copying")
+        eventually(lambda: self.told_on_table("stick_copying") > TOLD_PIXELS, 20.0, "the table says nothing of the copy")
+        self.assertEqual(self.report()["stage"], "copying", "the copy was over before it was told: this proves nothing")
         self.pull("slow")
         report = self.outcome()
         self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
@@ -66,6 +89,13 @@ class Stick(StickTest):
         both = {("amphora", 3), ("nautilus-cup", 4)}
         eventually(lambda: both <= set(self.installed()), 2 * IMPORT_S, lambda: f"installed: {self.installed()}")
         self.outcome()
+
+    def test_6_usb_attached_scsi(self):
+        """Fast sticks and disks in enclosures speak another protocol, for which the kernel has another driver."""
+        self.plug("fast", self.make("fast", "exfat", {"amphora.fspack": self.signed("amphora", 7)}), driver="usb-uas")
+        self.assertEqual(pulled_packs(self.outcome()), {"amphora.fspack": ("taken", "none")})
+        self.assertIn("uas", self.bench.machine.check("cat /sys/bus/usb/drivers/uas/*:*/uevent"))
+        self.assertIn(("amphora", 7), self.installed())
 
     def test_5_no_file_system(self):
         self.image("noise").write_bytes(b"no file system " * 100_000)

@@ -122,6 +122,33 @@ TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
     EXPECT_NE(text("out.txt").find("does not count any more"), std::string::npos) << text("out.txt");
 }
 
+/// As udev writes it: mke2fs -L and blkid have the same bytes (util-linux, encode.c).
+TEST_F(ImportProgram, TakesTheLabelFromUdevsLinkWhateverItHolds) {
+    const auto label_of = [&](const std::string& link) {
+        std::filesystem::remove_all(folder / "labels");
+        std::filesystem::create_directory(folder / "labels");
+        std::filesystem::create_symlink("../../sda1", folder / "labels" / link);
+        EXPECT_EQ(import("--report report.json --label-from labels"), 0) << text("err.txt");
+        const Result<ImportReport> report = parse_import_report(text("report.json"));
+        EXPECT_TRUE(report) << text("report.json");
+        return report ? report->stick : std::string();
+    };
+    EXPECT_EQ(label_of("label=MUSÉE"), "MUSÉE");
+    EXPECT_EQ(label_of("label=Oak\\x20Room\\x2f2"), "Oak Room/2");
+    EXPECT_EQ(label_of("label=.."), "..");
+    EXPECT_EQ(label_of("label=A\\x4"), "A\\x4");
+    EXPECT_EQ(label_of("label="), "");
+    EXPECT_EQ(label_of("other"), "");
+    for (const char* hostile : {"label=\\x1b\\x5b2J", "label=\\xff\\xc0", "label=\\x0a\\x0aREAD\\x00"}) {
+        const std::string label = label_of(hostile);
+        EXPECT_TRUE(std::none_of(label.begin(), label.end(), [](unsigned char c) {
+            return c < ' ' || c == 0x7f || c >= 0xf8;
+        })) << hostile;
+    }
+    std::filesystem::remove_all(folder / "labels");
+    EXPECT_EQ(import("--report report.json --label-from labels"), 0) << text("err.txt");
+}
+
 TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
     EXPECT_EQ(run("frustumscreen-import --from stick"), 2);
     EXPECT_EQ(run("frustumscreen-import --from stick --into library"), 2);

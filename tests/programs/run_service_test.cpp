@@ -284,6 +284,18 @@ TEST_F(RunService, WithoutAPackShowsWhyAndStops) {
     EXPECT_EQ(ending(), 0);
 }
 
+TEST_F(RunService, WithoutAPackASetThatIsInstalledIsTakenUpAtOnce) {
+    fs::remove(folder / "rings.fspack");
+    fs::create_directory(folder / "library");
+    start("library = \"library\"\n");
+    ASSERT_TRUE(hears("READY=1")) << errors();
+    ASSERT_TRUE(fed_within(seconds(10)));
+    std::ofstream(folder / "library/set.txt.new") << "of a stick";
+    fs::rename(folder / "library/set.txt.new", folder / "library/set.txt");
+    EXPECT_EQ(ending(), 0) << "after its minute it would be 1";
+    EXPECT_NE(errors().find("a set of packs was installed"), std::string::npos) << errors();
+}
+
 TEST_F(RunService, StopsInTheMiddleOfLoading) {
     start();
     ::kill(process, SIGTERM);

@@ -199,6 +199,20 @@ TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
     EXPECT_EQ(sets->status()->packs[0].title, "Rings 4");
 }
 
+TEST_F(SetSwitching, ANewSetsPicturesLieOnTheTableAsAfterAStart) {
+    settings.exhibit.table_pictures = true;
+    const Image8 expected = picture_of({3, 4, 5});
+    const InstalledSet one = put(1, {0});
+    install(one);
+    start();
+    visit();
+    install(put(2, {3, 4, 5}), one);
+    ASSERT_TRUE(await_switches(1));
+    ASSERT_NE(shown.table, nullptr);
+    EXPECT_GE(shown.table->pictures().size(), 2U);
+    EXPECT_TRUE(await([&] { return picture().texels == expected.texels; }));
+}
+
 TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
     settings.exhibit.table_pictures = false; // the others' names would differ
     install(put(1, {0, 1, 2}));

@@ -66,6 +66,33 @@ TEST_F(WatchedFolder, AFolderThatComesLaterIsWatchedToo) {
     EXPECT_TRUE(*watch->take());
 }
 
+TEST_F(WatchedFolder, FoldersThatLinksLeadToAreWatchedToo) {
+    const fs::path elsewhere = folder.string() + "_scans";
+    fs::create_directories(elsewhere / "deep");
+    fs::create_directory_symlink(elsewhere, folder / "scans");
+    fs::create_directory_symlink(folder, folder / "recordings" / "back"); // and round and round
+    fs::create_directory_symlink(folder / "recordings", elsewhere / "deep" / "again");
+    fs::create_symlink("itself", folder / "itself");
+    Result<FolderWatch> watch = FolderWatch::open(folder);
+    ASSERT_TRUE(watch) << watch.error().message;
+    std::ofstream(elsewhere / "deep" / "scan.glb") << "x";
+    EXPECT_TRUE(*watch->take());
+    put("artifact.toml");
+    EXPECT_TRUE(*watch->take());
+    EXPECT_FALSE(*watch->take()) << "once";
+    fs::create_directories(elsewhere / "later");
+    EXPECT_TRUE(*watch->take());
+    fs::create_directory_symlink(elsewhere / "later", folder / "linked");
+    fs::create_symlink("nowhere", folder / "nowhere");
+    EXPECT_TRUE(*watch->take());
+    std::ofstream(elsewhere / "later" / "scan.glb") << "x";
+    EXPECT_TRUE(*watch->take());
+    fs::remove_all(elsewhere);
+    EXPECT_TRUE(*watch->take());
+    fs::remove_all(folder / "scans");
+    EXPECT_TRUE(*watch->take()) << "and the folder itself is still there";
+}
+
 TEST_F(WatchedFolder, ThatItIsGoneIsSaid) {
     Result<FolderWatch> watch = FolderWatch::open(folder);
     ASSERT_TRUE(watch);

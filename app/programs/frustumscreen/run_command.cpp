@@ -13,6 +13,7 @@
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
 #include "app/show/run_report.h"
+#include "app/show/set_arrival.h"
 #include "app/simulation/visitor_view.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
@@ -98,7 +99,7 @@ constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
 /// While the machine boots, udev may not have given the card to the exhibit's user yet.
 constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
 /// A service shows for this long why it has nothing to show. Then it ends, is started again and looks for
-/// packs again.
+/// packs again; at once when a set of packs is installed meanwhile.
 constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
 
 Nanoseconds nanoseconds(double seconds) {
@@ -308,14 +309,20 @@ Result<int> run(const Request& request) {
     // Simulated time starts at zero, real time when everything is loaded.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());
+    const std::filesystem::path& library = (*settings)->exhibit.library;
+    const std::optional<FileStamp> set_before = stamp_of_set(library);
     Result<std::unique_ptr<Show>> show = [&] {
         const StopSignals::AtOnce at_once(stop_signals); // loading takes long and leaves nothing behind
         return make_show(request, **settings, devices, **display, now());
     }();
     std::optional<Error> excuse;
+    std::optional<SetArrival> arrival;
     if (!show && manager.listens()) {
         excuse = show.error();
         show = make_excuse(**settings, journal, *excuse);
+        if (!library.empty()) {
+            arrival.emplace(library, set_before);
+        }
     }
     if (!show) {
         return tl::unexpected<Error>(show.error());
@@ -343,6 +350,9 @@ Result<int> run(const Request& request) {
     options.stills = request.out.empty() ? 0 : request.stills;
     options.keep_rows = !request.out.empty();
     options.stop = &stop_signals;
+    if (arrival) {
+        options.ends = [&] { return arrival->came(); };
+    }
     Screenshot screenshot((*display)->width(), (*display)->height());
     options.screenshot = request.staff_socket.empty() ? nullptr : &screenshot;
     const std::unique_ptr<StaffSocket> staff = open_staff_socket(request.staff_socket, screenshot, journal);
@@ -351,6 +361,12 @@ Result<int> run(const Request& request) {
     const Result<LoopResult> result =
         run_loop(**settings, **display, *inputs, **show, options, status_file, watch, start);
     manager.stopping();
+    if (result && arrival && arrival->came()) {
+        journal.note(LogPriority::Notice, "a set of packs was installed; the exhibit starts anew with it",
+                     {{"DEVICE", "set"}});
+        end_within(longest_stop);
+        return 0;
+    }
     const bool excused = excuse && result && result->status.uptime_s >= to_seconds(excuse_length);
     if (!result || excused) { // not told to stop
         const Error& why = result ? *excuse : result.error();

@@ -2,6 +2,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
+#include "app/programs/import/stick_label.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -73,7 +74,11 @@ int run(int argc, char** argv) {
     app.add_option("--report-stands", arguments.report_stands_s,
                    "s that another stick's report stands once it is over, before this one's replaces it")
         ->check(CLI::Range(0.0, 60.0));
-    app.add_option("--label", arguments.label, "the stick's name, for the report");
+    auto* label = app.add_option("--label", arguments.label, "the stick's name, for the report");
+    std::string label_folder;
+    app.add_option("--label-from", label_folder,
+                   "folder in which udev left the stick's name, as a link label=NAME")
+        ->excludes(label);
     app.add_flag("--json", arguments.json, "for programs");
     auto* list_flag = app.add_flag(
         "--list", to_list,
@@ -98,6 +103,9 @@ int run(int argc, char** argv) {
         }
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!label_folder.empty()) {
+        arguments.label = label_in(label_folder);
     }
     if (has_ended) {
         const char* result = std::getenv("SERVICE_RESULT");

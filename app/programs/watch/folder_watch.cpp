@@ -61,19 +61,26 @@ FolderWatch::FolderWatch(FolderWatch&& other) noexcept
       watched_(std::move(other.watched_)) {}
 
 Result<void> FolderWatch::add(const std::filesystem::path& folder) {
+    std::set<int> seen;
+    return add(folder, seen);
+}
+
+Result<void> FolderWatch::add(const std::filesystem::path& folder, std::set<int>& seen) {
     const int number = ::inotify_add_watch(descriptor_, folder.c_str(), changes | IN_ONLYDIR);
-    if (number < 0 && !watched_.empty() && (errno == ENOENT || errno == ENOTDIR)) {
-        return {}; // it is gone already, which is told as a change
+    if (number < 0 && !watched_.empty() && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP)) {
+        return {}; // it is gone already, which is told as a change, or a link that leads to no folder
     }
     if (number < 0) {
         return bad_input(fmt::format("{}: cannot be watched: {}", folder.string(), std::strerror(errno)));
     }
+    if (!seen.insert(number).second) {
+        return {};
+    }
     watched_[number] = folder;
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-        if (entry.is_directory(none) && !entry.is_symlink(none) &&
-            !is_passing_name(entry.path().filename().string())) {
-            if (Result<void> added = add(entry.path()); !added) {
+        if (entry.is_directory(none) && !is_passing_name(entry.path().filename().string())) {
+            if (Result<void> added = add(entry.path(), seen); !added) {
                 return added;
             }
         }
@@ -95,8 +102,11 @@ Result<bool> FolderWatch::take() {
                 return bad_input(
                     fmt::format("{}: this folder is gone; it was watched until now", folder_.string()));
             }
-            const bool is_new_folder =
-                (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0 && (event.mask & IN_ISDIR) != 0;
+            const bool is_new = (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0;
+            std::error_code none;
+            const bool is_new_link = is_new && place != watched_.end() && !is_passing_name(name) &&
+                                     std::filesystem::is_symlink(place->second / name, none);
+            const bool is_new_folder = is_new && ((event.mask & IN_ISDIR) != 0 || is_new_link);
             const bool missed_some = (event.mask & IN_Q_OVERFLOW) != 0; // new folders perhaps
             if (missed_some || (is_new_folder && place != watched_.end() && !is_passing_name(name))) {
                 if (Result<void> added = add(missed_some ? folder_ : place->second / name); !added) {
@@ -106,7 +116,7 @@ Result<bool> FolderWatch::take() {
             if ((event.mask & IN_IGNORED) != 0) {
                 watched_.erase(event.wd);
             }
-            changed = changed || counts(event, name) || missed_some;
+            changed = changed || counts(event, name) || is_new_link || missed_some;
         }
     }
     return changed;

@@ -1,6 +1,7 @@
 /// Tells when a file of a folder, or of a folder in it, has changed: written and closed, renamed, removed.
 ///
-/// Files that editors keep only while they write, and hidden ones, do not count.
+/// Files that editors keep only while they write, and hidden ones, do not count. Folders that links lead to are watched as if they
+/// lay there; of a file that a link leads to, only the link is.
 ///
 /// Errors   no such folder, too many watches; later: the folder itself is gone.
 /// Threads  one caller. Nothing blocks.
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace frustumscreen {
@@ -37,6 +39,8 @@ private:
         : descriptor_(descriptor), folder_(std::move(folder)) {}
     /// Of a folder and those in it.
     [[nodiscard]] Result<void> add(const std::filesystem::path& folder);
+    /// `seen`: the kernel's numbers in this walk; a link may lead back to where it lies.
+    [[nodiscard]] Result<void> add(const std::filesystem::path& folder, std::set<int>& seen);
 
     int descriptor_;
     std::filesystem::path folder_;

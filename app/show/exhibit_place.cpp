@@ -1,0 +1,26 @@
+#include "app/show/exhibit_place.h"
+
+#include "app/exhibit/guidance_setup.h"
+#include "app/settings/guided.h"
+#include "app/settings/lit_zone.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+ExhibitPlace exhibit_place(const Settings& settings) {
+    ExhibitPlace place;
+    place.prop = make_prop(settings.prop);
+    place.lens_m = settings.projector.table_from_projector.translation;
+    place.picture_m = picture_on_table(settings, 0.0);
+    place.attract_place_m = lit_rectangle(settings).centre_m;
+    place.buttons = settings.panel.buttons();
+    if (guides_visitors(settings)) {
+        place.guidance = guidance_setup(settings);
+    }
+    place.table_pictures = chooses_on_table(settings);
+    place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
+    return place;
+}
+
+} // namespace frustumscreen
