@@ -112,13 +112,18 @@ void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
     if (!is_unsure_) { // every line says so
-        const ImportFailure of_each{failure.refusal, "nothing of this stick was taken: " + failure.reason,
-                                    false};
         removed_.clear();
-        refuse_all(packs_, of_each);
+        const bool is_by_exhibit_file =
+            exhibit_line_ && (exhibit_line_->outcome == ImportOutcome::Refused ||
+                              failure.reason.find(exhibit_file_name) != std::string::npos);
+        std::string of_each =
+            "nothing of this stick was taken" +
+            (is_by_exhibit_file ? fmt::format(", because of {}", exhibit_file_name) : ": " + failure.reason);
         if (exhibit_line_ && exhibit_line_->outcome != ImportOutcome::Refused) {
-            refuse(*exhibit_line_, of_each);
+            refuse(*exhibit_line_,
+                   is_by_exhibit_file ? failure : ImportFailure{failure.refusal, of_each, false});
         }
+        refuse_all(packs_, {failure.refusal, std::move(of_each), false});
     }
     tell(ImportStage::Failed);
 }

@@ -57,7 +57,7 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
     const InstalledPack* installed = find_same(shown, pack);
     if (installed != nullptr && holds_the_same(*installed, pack)) {
         if (is_sound(*installed)) {
-            be_there_already(candidate, "it is installed already");
+            be_there_already(candidate, "");
         } else {
             candidate.mends = true;
             candidate.told.reason = "its file on the kiosk's disk was damaged or gone, and is replaced";

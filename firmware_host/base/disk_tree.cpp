@@ -223,7 +223,10 @@ FileResult<std::uint64_t> DiskTree::free_bytes() {
 Result<std::unique_ptr<WritableTree>> open_tree(const std::filesystem::path& folder) {
     Descriptor root(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (root.number() < 0) {
-        return bad_input(folder.string() + ": cannot be opened as a folder: " + std::strerror(errno));
+        const std::string why = errno == ENOENT
+                                    ? "there is no such folder"
+                                    : std::string("cannot be opened as a folder: ") + std::strerror(errno);
+        return bad_input(folder.string() + ": " + why);
     }
     return std::make_unique<DiskTree>(std::move(root));
 }

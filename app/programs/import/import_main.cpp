@@ -1,5 +1,6 @@
 /// frustumscreen-import: takes a stick's packs into the installed set.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/stick_label.h"
@@ -7,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -39,7 +41,17 @@ int say(const ImportReport& report, const ImportArguments& arguments) {
     if (arguments.json) {
         fmt::print("{}", write_import_report(report));
     }
-    return report.stage == ImportStage::Failed ? complain(report.reason) : 0;
+    if (report.stage != ImportStage::Failed) {
+        if (report.packs.empty() && !arguments.json) {
+            fmt::print("no pack (*.fspack) was found; packs lie on the stick itself, or one folder down\n");
+        }
+        return 0;
+    }
+    const bool is_said = std::any_of(report.packs.begin(), report.packs.end(), [&](const ImportedPack& pack) {
+        return pack.reason.ends_with(report.reason) ||
+               (!pack.reason.empty() && report.reason.ends_with(pack.reason));
+    });
+    return is_said ? 1 : complain(report.reason);
 }
 
 int list(const ImportArguments& arguments) {
@@ -89,20 +101,21 @@ int run(int argc, char** argv) {
     auto* id = app.add_option("--id", arguments.id, "name of this import; another one for each stick");
     ended->needs(id)->needs(report);
     list_flag->needs(into)->excludes(from);
-    try {
-        app.parse(argc, argv);
-        if (!to_list && !is_unmounted && !has_ended) {
-            for (const CLI::Option* wanted : {from, into}) {
-                if (wanted->count() == 0) {
-                    throw CLI::RequiredError(wanted->get_name());
-                }
-            }
-            if (keys->count() + config->count() == 0 && unsigned_packs == "refuse") {
-                throw CLI::RequiredError("--keys or --config");
+    const auto check = [&] {
+        if (to_list || is_unmounted || has_ended) {
+            return;
+        }
+        for (const CLI::Option* wanted : {from, into}) {
+            if (wanted->count() == 0) {
+                throw CLI::RequiredError(wanted->get_name());
             }
         }
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        if (keys->count() + config->count() == 0 && unsigned_packs == "refuse") {
+            throw CLI::RequiredError("--keys or --config");
+        }
+    };
+    if (const auto end = end_of_arguments(app, argc, argv, check)) {
+        return *end;
     }
     if (!label_folder.empty()) {
         arguments.label = label_in(label_folder);
