@@ -22,6 +22,8 @@ class Safe(HilTest):
     def setUp(self):
         super().setUp()
         self.addCleanup(self.bench.machine.run, f"rm -f {REASON}; echo detect > {CONNECTOR}; systemctl start --no-block {UNIT}")
+        # It would bring the exhibit back; it comes again with that.
+        self.bench.machine.check("systemctl stop frustumscreen-watchdog.service")
         self.bench.machine.check(f"mkdir -p {REASON.rsplit('/', 1)[0]}")
         self.bench.machine.write(REASON, FIRST)
         self.bench.machine.check(f"systemctl start {SAFE}")
