@@ -10,7 +10,7 @@ import sticks
 from hil_test import long
 from stick_bench import IMPORT_S, QUIET, LongStickTest, pulled_packs
 
-import hostile_sticks  # isort: skip; stick_bench says where
+import hostile_cases  # isort: skip; stick_bench says where
 import plain_pack  # isort: skip
 
 MOST_MIB = 64.0
@@ -34,9 +34,9 @@ def many_files(folder, _):
 
 
 CASES = {
-    "lying ZIP directories": ("vfat", hostile_sticks.zip_directories), "zip bombs": ("exfat", hostile_sticks.bombs),
-    "65,535 parts": ("ntfs", hostile_sticks.many_parts), "links, pipes, devices": ("ext4", hostile_sticks.no_files),
-    "30,000 files": ("ext4", many_files), "a set file too much": ("vfat", hostile_sticks.set_files),
+    "lying ZIP directories": ("vfat", hostile_cases.zip_directories), "zip bombs": ("exfat", hostile_cases.bombs),
+    "65,535 parts": ("ntfs", hostile_cases.many_parts), "links, pipes, devices": ("ext4", hostile_cases.no_files),
+    "30,000 files": ("ext4", many_files), "a set file too much": ("vfat", hostile_cases.set_files),
 }
 
 

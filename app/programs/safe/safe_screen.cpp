@@ -6,6 +6,10 @@
 
 namespace frustumscreen {
 
+namespace {
+constexpr int pictures_between_asking = 10;
+} // namespace
+
 Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
                                                      std::vector<std::string_view> languages) {
     Result<KmsCard> card = KmsCard::open(name, {});
@@ -28,8 +32,11 @@ SafeScreen::SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view
                  {}) {}
 
 Result<bool> SafeScreen::show(const SafeText& text) {
-    // Asking the projectors disturbs some: while one is lit, only the kernel is asked.
-    CardSeen seen = look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, !presenter_.lit());
+    // The kernel knows what was unplugged, but of another mode it learns only when the projector is asked, which disturbs some.
+    // Without udev nobody says when to ask.
+    const bool thoroughly = !presenter_.lit() || ++pictures_since_asked_ >= pictures_between_asking;
+    pictures_since_asked_ = thoroughly ? 0 : pictures_since_asked_;
+    CardSeen seen = look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, thoroughly);
     add_usual_modes(seen);
     if (seen != seen_) {
         presenter_.connected(seen);

@@ -37,6 +37,7 @@ private:
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;
     std::optional<CardSeen> seen_;
+    int pictures_since_asked_ = 0; ///< what is connected
 };
 
 } // namespace frustumscreen
