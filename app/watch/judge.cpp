@@ -82,8 +82,9 @@ Seen Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
     looked_ = now;
     count_endings(now, outcome.failures);
     if (mode == Mode::Safe) {
-        if (outcome.safe_pictures && *outcome.safe_pictures != pictures_) {
-            pictures_ = *outcome.safe_pictures;
+        // Without a projector there is nothing to show, and no reboot brings one.
+        if (outcome.projector == false || (outcome.safe_pictures && *outcome.safe_pictures != pictures_)) {
+            pictures_ = outcome.safe_pictures.value_or(pictures_);
             counted_ = now;
         }
         const bool dead = now - counted_ >= patience_.safe_picture;

@@ -186,6 +186,9 @@ TEST(Judge, TheSafePictureIsJudgedByItself) {
         scene.outcome.safe_pictures = flips;
         EXPECT_FALSE(scene.look().trouble);
     }
+    scene.outcome.projector = false; // it is switched off, and no picture can be shown
+    EXPECT_EQ(scene.trouble_after(Cause::SafePictureFails), -1);
+    scene.outcome.projector = true;
     EXPECT_NEAR(scene.trouble_after(Cause::SafePictureFails), 30, 2);
 }
 
