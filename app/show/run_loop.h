@@ -9,6 +9,7 @@
 
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
+#include "app/show/run_hours.h"
 #include "app/show/run_report.h"
 #include "app/show/run_watch.h"
 #include "app/show/show.h"
@@ -33,6 +34,7 @@ struct LoopOptions {
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
     const StopSignals* stop = nullptr; ///< one of them ends the loop
+    RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
 };
 
 struct Still {
