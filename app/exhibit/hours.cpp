@@ -48,7 +48,7 @@ sys_seconds utc_of_local(sys_seconds local, Edge edge, const OffsetAt& offset_at
     const sys_seconds by_before = local - before;
     const sys_seconds by_after = local - after;
     return edge == Edge::Opens ? (by_before < change ? by_before : std::max(change, by_after))
-                               : (by_after >= change ? by_after : std::min(change, by_before));
+                               : (by_after > change ? by_after : std::min(change, by_before));
 }
 
 Timetable::Timetable(HoursSettings hours, OffsetAt offset_at)

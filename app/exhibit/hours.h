@@ -3,8 +3,8 @@
 ///     Timetable(settings, local_offset_at).at(time) -> open, until
 ///
 /// Zones    only `offset_at` knows them. Where clocks are put forward, a time that there is not is the moment at which they are.
-///          Where they are put back, a time that comes twice opens at its first and closes at its second coming: each span of the
-///          settings is open once, without a gap.
+///          Where they are put back, a span lasts from the first second that is not before its opening to the last one that is before
+///          its closing: each span of the settings is open once, without a gap.
 /// Units    seconds of UTC, as sys_seconds; a local time is written as if it were UTC.
 /// Threads  pure; any.
 /// Errors   none.
@@ -100,8 +100,8 @@ public:
     [[nodiscard]] bool falls_asleep() const { return wants_dark_ && share_ > 0.0; }
     /// Of the picture's light, 0..1.
     [[nodiscard]] double light() const;
-    /// It is closed, and a button keeps it awake until then.
-    [[nodiscard]] const std::optional<MonotonicTime>& woken_until() const { return woken_until_; }
+    /// It is closed, and a button keeps it awake.
+    [[nodiscard]] bool is_woken() const { return woken_until_.has_value(); }
 
 private:
     void move_light(MonotonicTime now);

@@ -12,7 +12,7 @@ namespace {
 /// The timetable is asked again after so long even if nothing is to change: another program may have set the zone.
 constexpr std::chrono::minutes between_looks{1};
 
-/// "Mon 18:00", local.
+/// "Mon 2026-11-23 18:00", local.
 Sentence words_of(std::chrono::sys_seconds time) {
     const std::chrono::sys_seconds local = time + local_offset_at(time);
     return format_sentence("{:%a %F %H:%M}", fmt::gmtime(std::chrono::system_clock::to_time_t(local)));
@@ -56,7 +56,7 @@ void RunHours::step(MonotonicTime now, const Input& input) {
     sleep_.step(now, {is_open(), input.pressed, input.used, input.may_sleep});
 }
 
-HoursStatus RunHours::status(MonotonicTime now) const {
+HoursStatus RunHours::status() const {
     if (timetable_.always_open()) {
         return {};
     }
@@ -66,10 +66,11 @@ HoursStatus RunHours::status(MonotonicTime now) const {
                        clock_set_,
                        sleep_.asleep()};
     if (!plausible_) {
+        const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(wall_));
         status.why = format_sentence(
-            "awake: the machine's clock says {}, so it was never set; set it with timedatectl, or give "
-            "the machine a new battery",
-            words_of(wall_).view());
+            "awake: by the machine's clock it is the year {}, so it was never set; set it with "
+            "timedatectl, or give the machine a new battery",
+            static_cast<int>(day.year()));
         return status;
     }
     const Sentence until =
@@ -79,10 +80,10 @@ HoursStatus RunHours::status(MonotonicTime now) const {
     } else if (sleep_.asleep()) {
         status.why = format_sentence("asleep: closed{}; any button wakes it for ten minutes{}", until.view(),
                                      zone_missing_.view());
-    } else if (sleep_.woken_until()) {
-        const auto left = std::chrono::floor<std::chrono::seconds>(*sleep_.woken_until() - now);
-        status.why = format_sentence("awake: closed{}, but a button was pressed; it sleeps at {}",
-                                     until.view(), words_of(wall_ + left).view());
+    } else if (sleep_.is_woken()) {
+        status.why = format_sentence(
+            "awake: closed{}, but a button was pressed; it sleeps ten minutes after the latest press{}",
+            until.view(), zone_missing_.view());
     } else {
         status.why =
             format_sentence("awake: closed{}; it sleeps when nobody has used the prop for two minutes, after "

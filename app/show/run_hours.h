@@ -31,7 +31,8 @@ public:
     [[nodiscard]] bool asleep() const { return sleep_.asleep(); }
     /// Of the picture's light, 0..1.
     [[nodiscard]] double light() const { return sleep_.light(); }
-    [[nodiscard]] HoursStatus status(MonotonicTime now) const;
+    /// Its sentence changes with what is the case, not with the time.
+    [[nodiscard]] HoursStatus status() const;
 
 private:
     void look_at_clock(MonotonicTime now, std::chrono::sys_seconds wall);

@@ -271,7 +271,7 @@ private:
         status.left_out = state.left_out;
         status.set = state.set;
         status.library_hangs = state.library_hangs;
-        status.hours = hours_ != nullptr ? hours_->status(now) : HoursStatus{};
+        status.hours = hours_ != nullptr ? hours_->status() : HoursStatus{};
         status.state = status.hours.asleep ? asleep_name : name_of(state.state);
         status.artifact = state.state != State::Fault ? state.artifact : std::string_view{};
         status.loaded = state.loaded;
