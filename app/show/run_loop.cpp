@@ -109,7 +109,7 @@ private:
             renew_status(now);
             show_.tell(result_.status);
         }
-        if (asleep()) {
+        if (asleep_) {
             return sleep(now, situation, begin);
         }
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
@@ -166,14 +166,14 @@ private:
         if (hours_ == nullptr) {
             return;
         }
-        const bool slept = asleep();
+        const bool was_dark = hours_->asleep();
         hours_->step(now, {std::chrono::system_clock::now(), !commands_.empty(), used_, watch_.ready()});
-        if (slept) {
+        if (was_dark) {
             commands_.clear();
         }
-        show_.set_light(asleep() ? 0.0 : std::max(hours_->light(), least_light));
+        asleep_ = was_dark && hours_->asleep(); // the last picture before is drawn, and black
+        show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
     }
-    [[nodiscard]] bool asleep() const { return hours_ != nullptr && hours_->asleep(); }
 
     /// The projector is dark; the devices are read, and heard of by the watchdog.
     [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
@@ -327,6 +327,7 @@ private:
     StatusFile& status_file_;
     RunWatch& watch_;
     RunHours* hours_; ///< none: it never sleeps
+    bool asleep_ = false;
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;
