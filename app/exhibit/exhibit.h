@@ -178,6 +178,8 @@ public:
     [[nodiscard]] Catalogue show_set(Catalogue catalogue, std::optional<TableBrowser> table,
                                      std::vector<AdviceLanguage> words, std::size_t artifact,
                                      MonotonicTime now);
+    /// When the prop moved last, something was pressed or told; nothing: never.
+    [[nodiscard]] const std::optional<MonotonicTime>& used() const { return presence_.touched(); }
     /// The chosen artifact; it may not be visible yet.
     [[nodiscard]] std::size_t chosen() const { return selection_.artifact(); }
     /// The chosen language.

@@ -170,6 +170,8 @@ inline constexpr std::array transitions{
 [[nodiscard]] constexpr const EventNote& note_of(Event event) {
     return event_notes[static_cast<std::size_t>(event)];
 }
+/// In the place of a state's name while the exhibit sleeps (hours.h); behind it the states go on.
+inline constexpr std::string_view asleep_name = "asleep";
 [[nodiscard]] constexpr std::string_view name_of(State state) {
     return note_of(state).name;
 }

@@ -215,6 +215,20 @@ void check_sound(const Settings& settings, Fitness& fitness) {
                     "sound.hours", "goes back in time or names an hour twice; sort it by from_h");
 }
 
+/// A day cannot be closed and open.
+void check_hours(const Settings& settings, Fitness& fitness) {
+    const std::vector<HoursException>& exceptions = settings.hours.exceptions;
+    for (const HoursException& each : exceptions) {
+        const auto open = [&each](const HoursException& other) {
+            return other.day == each.day && other.open;
+        };
+        fitness.require(each.open || std::none_of(exceptions.begin(), exceptions.end(), open),
+                        "hours.exceptions",
+                        fmt::format("has \"{}\" and times of that day; take one of the two out",
+                                    text_of_exception(each)));
+    }
+}
+
 } // namespace
 
 std::optional<std::string> unfit(const Settings& settings, const std::string& file, const KeyLines& lines) {
@@ -225,6 +239,7 @@ std::optional<std::string> unfit(const Settings& settings, const std::string& fi
     check_devices(settings, fitness);
     check_sound(settings, fitness);
     check_keys(settings, fitness);
+    check_hours(settings, fitness);
     return fitness.error();
 }
 

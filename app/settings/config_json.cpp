@@ -74,6 +74,13 @@ public:
                 std::string_view) {
         json_[key] = to_text(value);
     }
+    void parsed_list(const char* key, const auto& values, std::size_t, const auto& to_text, const auto&,
+                     std::string_view, std::string_view) {
+        json_[key] = Json::array();
+        for (const auto& value : values) {
+            json_[key].push_back(to_text(value));
+        }
+    }
     void table(const char* name, std::string_view, const auto& describe) {
         Report inner;
         describe(inner);

@@ -29,6 +29,16 @@ inline constexpr std::string_view allowed_last_days = "days such as \"2030-12-31
 inline constexpr std::size_t most_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
 inline constexpr std::size_t most_hours = 24;
+inline constexpr std::size_t most_spans = 8;
+inline constexpr std::size_t most_exceptions = 1000;
+inline constexpr std::string_view allowed_spans =
+    "times such as \"10:00-18:00\"; \"20:00-02:00\" goes on after midnight, \"00:00-24:00\" is a whole day";
+inline constexpr std::string_view allowed_exceptions =
+    "days such as \"2026-12-24 10:00-14:00\" and \"2026-12-25 closed\"";
+inline constexpr std::string_view allowed_time_zones =
+    "names such as \"Europe/Berlin\"; timedatectl list-timezones lists them";
+inline constexpr std::array<const char*, 7> weekday_names{"monday", "tuesday",  "wednesday", "thursday",
+                                                          "friday", "saturday", "sunday"};
 inline constexpr Range sound_gain{-60.0, 12.0, "decibels"};
 inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
@@ -293,6 +303,20 @@ void sound_settings(auto& fields, auto& sound) {
         "quieter at night: in the order of their hours; the last one holds over midnight");
 }
 
+void hours_settings(auto& fields, auto& hours) {
+    for (std::size_t day = 0; day < weekday_names.size(); ++day) {
+        fields.parsed_list(weekday_names[day], hours.weekdays[day], most_spans, text_of_span, parse_open_span,
+                           allowed_spans,
+                           day == 0 ? "when the exhibit is awake; []: not at all" : "the same");
+    }
+    fields.parsed_list("exceptions", hours.exceptions, most_exceptions, text_of_exception,
+                       parse_hours_exception, allowed_exceptions,
+                       "days on which other times hold, in place of the weekday's; several of one day count "
+                       "together");
+    fields.parsed("time_zone", hours.time_zone, std::identity(), parse_time_zone, allowed_time_zones,
+                  "whose times these are; left out: the machine's own");
+}
+
 void all_settings(auto& file, auto& settings) {
     const auto table = [&file](const char* name, const char* sentence, const auto& describe) {
         file.table(name, sentence, describe);
@@ -314,6 +338,11 @@ void all_settings(auto& file, auto& settings) {
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
     table("sound", "What is said aloud, and how loud.",
           [&](auto& fields) { sound_settings(fields, settings.sound); });
+    table(
+        "hours",
+        "When the exhibit is awake. Outside of these times the projector is dark and the sound off, until a "
+        "button is pressed.",
+        [&](auto& fields) { hours_settings(fields, settings.hours); });
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "app/settings/missing_files.h"
 
+#include "firmware_host/base/local_time.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -31,6 +32,13 @@ std::vector<std::string> missing_files(const Settings& settings) {
     if (settings.tracker.kind == TrackerKind::Replay) {
         look(settings.tracker.poses_key, settings.tracker.poses,
              "make it with frustumscreen record, or choose another tracker.kind");
+    }
+    const std::string& zone = settings.hours.time_zone;
+    if (!zone.empty() && !has_time_zone(zone)) {
+        lines.push_back(
+            fmt::format("hours.time_zone: this machine has no time zone \"{}\", its own is taken; "
+                        "timedatectl list-timezones lists what there is",
+                        zone));
     }
     return lines;
 }

@@ -1,4 +1,4 @@
-/// Files that the settings name and that are not there.
+/// Files and time zones that the settings name and that are not there.
 ///
 /// The settings themselves are right without them: an exhibit shows the packs that there are, and a pack may be baked
 /// after the settings are written. So this is said, not refused; what cannot go on without a file refuses by itself.

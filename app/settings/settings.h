@@ -15,6 +15,7 @@
 #include "app/geometry/transform.h"
 #include "app/pack/signature.h"
 #include "app/settings/display_mode.h"
+#include "app/settings/hours_settings.h"
 #include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 
@@ -168,6 +169,7 @@ struct Settings {
     PanelSettings panel;
     ExhibitSettings exhibit;
     SoundSettings sound;
+    HoursSettings hours;
 };
 
 /// A prop in the hand has no zone on the table, and one that is not tracked never leaves it.

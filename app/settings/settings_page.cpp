@@ -72,6 +72,15 @@ public:
                 std::string_view allowed, std::string_view sentence) {
         text_row(key, to_text(value), allowed, sentence);
     }
+    void parsed_list(const char* key, const auto& values, std::size_t most, const auto& to_text,
+                     const auto& /*from_text*/, std::string_view allowed, std::string_view sentence) {
+        std::vector<std::string> texts;
+        for (const auto& value : values) {
+            texts.push_back(fmt::format("\"{}\"", to_text(value)));
+        }
+        row(key, fmt::format("`[{}]`", fmt::join(texts, ", ")),
+            fmt::format("at most {} texts: {}", most, allowed), sentence);
+    }
     void path(const char* key, const std::filesystem::path& /*value*/, std::string_view sentence) {
         row(key, "", "a file", sentence);
     }

@@ -91,6 +91,25 @@ public:
             refuse_text(key, written, allowed);
         }
     }
+    /// The same for each text of a list; a key that is left out leaves `values` as they are.
+    template <typename Value>
+    void parsed_list(std::string_view key, std::vector<Value>& values, std::size_t most,
+                     const auto& /*to_text*/, const auto& from_text, std::string_view allowed,
+                     std::string_view /*sentence*/) {
+        std::vector<std::string> written;
+        texts(key, written, most);
+        if (!has(key)) {
+            return;
+        }
+        values.clear();
+        for (const std::string& each : written) {
+            if (const auto read = from_text(each)) {
+                values.push_back(*read);
+            } else {
+                refuse_text(key, each, allowed);
+            }
+        }
+    }
     void table(std::string_view key, std::string_view /*sentence*/, const auto& describe) {
         TableReader inner = table_of(key);
         describe(inner);

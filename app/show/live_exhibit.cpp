@@ -40,6 +40,31 @@ ToldText told_by(const Presentation& presentation) {
     return {presentation.advice ? ToldText::Kind::Words : ToldText::Kind::Nothing, 0};
 }
 
+/// Towards sleep all is dimmed alike.
+void dim(Presentation& presentation, double light) {
+    if (light >= 1.0) {
+        return;
+    }
+    presentation.settled = false;
+    presentation.brightness *= light;
+    presentation.set_share *= light;
+    presentation.title_brightness *= light;
+    presentation.zone_share *= light;
+    const auto dim_part = [light](auto& part) {
+        if (part && light > 0.0) {
+            part->brightness *= light;
+        } else {
+            part.reset(); // what is dark is not presented
+        }
+    };
+    dim_part(presentation.stand_in);
+    dim_part(presentation.caption);
+    dim_part(presentation.sign);
+    dim_part(presentation.advice);
+    dim_part(presentation.hotspot);
+    dim_part(presentation.notice);
+}
+
 } // namespace
 
 Volume volume_of(const SoundSettings& settings) {
@@ -66,18 +91,24 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
 }
 
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
-    if (set_switch_ && set_switch_->step(now, presentation_.state, exhibit_)) {
+    const bool asleep = light_ <= 0.0;
+    if (set_switch_ && !asleep && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
         speaker_.forget();
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
-    if (set_switch_) {
+    if (set_switch_ && !asleep) { // a set that nobody could see is neither good nor bad
         set_switch_->report(now, presentation_.state);
     }
     notice_.step(now, on_table, presentation_);
+    dim(presentation_, light_);
     follow_staff_mode();
+    if (asleep) {
+        speaker_.fall_silent();
+        return;
+    }
     if (speaker_.step(presentation_, *stage_, notice_.announcement())) {
         notice_.announced();
     }
@@ -109,6 +140,7 @@ ShowState LiveExhibit::state() const {
     state.set = set_switch_ ? set_switch_->status() : nullptr;
     state.library_hangs = set_switch_ && set_switch_->library_hangs();
     state.import = notice_.import();
+    state.used = exhibit_.used();
     return state;
 }
 

@@ -44,6 +44,8 @@ public:
     [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
+    [[nodiscard]] bool sleeps() const override { return true; }
+    void set_light(double light) override { light_ = light; }
 
 private:
     /// Those that a notice leaves to the exhibit.
@@ -60,6 +62,7 @@ private:
     Speaker speaker_;
     NoticeShow notice_;
     Volume volume_;
+    double light_ = 1.0;                   ///< 0: asleep
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
 };

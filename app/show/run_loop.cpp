@@ -20,6 +20,9 @@ constexpr std::size_t most_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
+/// Above it something is drawn: what is asleep draws nothing, and is silent.
+constexpr double least_light = 1e-6;
+
 std::optional<Command> command_of(const PanelEvent& event) {
     switch (event.kind) {
     case PressKind::Press:
@@ -44,7 +47,7 @@ public:
     Loop(const Settings& settings, Display& display, Inputs& inputs, Show& show, const LoopOptions& options,
          StatusFile& status_file, RunWatch& watch, MonotonicTime start)
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
-          watch_(watch), start_(start),
+          watch_(watch), hours_(options.fast || !show.sleeps() ? nullptr : options.hours), start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
           head_is_followed_(settings.eye.tracked),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
@@ -95,6 +98,7 @@ private:
         const MonotonicTime begin = monotonic_now();
         watch_.enters("asks its devices");
         poll(now);
+        follow_hours(now);
         watch_.enters("draws");
         Situation situation = situation_.at(now + light_delay_.from_now());
         situation.prop_known = situation.prop_known || !inputs_.tracker;
@@ -108,6 +112,9 @@ private:
         if (std::find(commands_.begin(), commands_.end(), Command::StaffMode) != commands_.end()) {
             renew_status(now);
             show_.tell(result_.status);
+        }
+        if (asleep_) {
+            return sleep(now, situation, begin);
         }
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
@@ -139,6 +146,7 @@ private:
         result_.status.prop_known = situation.prop_known;
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
+        used_ = state.used;
         fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
         if (const Sentence artifact(shown_artifact(state)); artifact != artifact_) {
             artifact_ = artifact;
@@ -162,6 +170,42 @@ private:
         }
         watch_.enters("rests until the next display time");
         take_still(now, state);
+        return {};
+    }
+
+    /// What is pressed while it sleeps wakes it and does nothing else.
+    void follow_hours(MonotonicTime now) {
+        if (hours_ == nullptr) {
+            return;
+        }
+        const bool was_dark = hours_->asleep();
+        hours_->step(now, {std::chrono::system_clock::now(), !commands_.empty(), used_, watch_.ready()});
+        if (was_dark) {
+            commands_.clear();
+        }
+        asleep_ = was_dark && hours_->asleep(); // the last picture before is drawn, and black
+        show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
+    }
+
+    /// The projector is dark; the devices are read, and heard of by the watchdog.
+    [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
+        watch_.enters("waits for the display");
+        if (Result<void> dark = display_.stay_dark(); !dark) {
+            return dark;
+        }
+        presented_ = now - between_probes; // the first picture afterwards is presented in any case
+        fault_since_
+            .reset(); // nobody sees that there is nothing to show, and a new start would light the projector
+        watch_.enters("reports its status");
+        watch_.asleep(now);
+        watch_.look(now, display_, inputs_);
+        count(false, false, now, milliseconds_since(begin));
+        result_.status.prop_known = situation.prop_known;
+        result_.status.head_known = situation.head_known;
+        if (inputs_.panel) {
+            inputs_.panel->light(0);
+        }
+        watch_.enters("rests until the next display time");
         return {};
     }
 
@@ -239,7 +283,8 @@ private:
         status.left_out = state.left_out;
         status.set = state.set;
         status.library_hangs = state.library_hangs;
-        status.state = name_of(state.state);
+        status.hours = hours_ != nullptr ? hours_->status() : HoursStatus{};
+        status.state = status.hours.asleep ? asleep_name : name_of(state.state);
         status.artifact = shown_artifact(state);
         status.shown_for_s = to_seconds(now - artifact_since_);
         status.shown_since =
@@ -300,6 +345,8 @@ private:
     const LoopOptions& options_;
     StatusFile& status_file_;
     RunWatch& watch_;
+    RunHours* hours_; ///< none: it never sleeps
+    bool asleep_ = false;
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;
@@ -314,6 +361,7 @@ private:
     Sentence artifact_;             ///< that is shown
     MonotonicTime artifact_since_;
     std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
+    std::optional<MonotonicTime> used_;        ///< when somebody used the exhibit last
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     std::size_t stills_taken_ = 0;

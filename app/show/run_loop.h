@@ -9,6 +9,7 @@
 
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
+#include "app/show/run_hours.h"
 #include "app/show/run_report.h"
 #include "app/show/run_watch.h"
 #include "app/show/screenshot.h"
@@ -37,6 +38,7 @@ struct LoopOptions {
     const StopSignals* stop = nullptr; ///< one of them ends the loop
     Screenshot* screenshot = nullptr;  ///< of the display's size; whoever asks it for a picture gets one
     std::function<bool()> ends = {};   ///< asked in each frame: yes ends it too
+    RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
 };
 
 struct Still {

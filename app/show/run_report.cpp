@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/local_time.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -109,6 +110,14 @@ nlohmann::ordered_json json_of(const SharedImport& import) {
                   : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json json_of(const HoursStatus& hours) {
+    return {{"state", hours.state},
+            {"until", hours.until ? nlohmann::ordered_json(local_time_text(*hours.until))
+                                  : nlohmann::ordered_json(nullptr)},
+            {"why", hours.why.view()},
+            {"clock", hours.clock.view()}};
+}
+
 /// The kernel's name for the time since it was started (random(4)); empty where it does not say.
 Sentence boot_id() {
     std::string id;
@@ -175,6 +184,8 @@ std::string status_json(const RunStatus& status) {
         {"left_out", left_out},
         {"set", json_of(status.set, status.library_hangs)},
         {"state", status.state},
+        {"asleep", status.hours.asleep},
+        {"hours", json_of(status.hours)},
         {"artifact", status.artifact},
         {"shown_since", utc_text(status.shown_since)},
         {"shown_for_s", rounded(status.shown_for_s)},

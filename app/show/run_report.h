@@ -88,6 +88,15 @@ struct PresentedPicture {
     bool settled = false;             ///< nothing in it fades
 };
 
+/// What the timetable says, and whether the exhibit follows it (run_hours.h).
+struct HoursStatus {
+    std::string_view state{"always"};              ///< always, open, closed, clock_wrong
+    std::optional<std::chrono::sys_seconds> until; ///< none: for long
+    Sentence why;                                  ///< it is awake or asleep; empty: it has no timetable
+    Sentence clock; ///< when the wall clock was set, and by how much; empty: never
+    bool asleep = false;
+};
+
 struct RunStatus {
     std::chrono::system_clock::time_point written_at; ///< `stamp` sets these four when the status is written
     MonotonicTime written_at_monotonic;
@@ -130,6 +139,7 @@ struct RunStatus {
     Sentence recording;
     std::uint64_t sound_underruns = 0; ///< how often the loudspeaker had nothing to play
     double hour_of_day = 12.0;         ///< local time
+    HoursStatus hours;
     bool prop_known = false;
     bool head_known = false;
     std::size_t loaded = 0; ///< artifacts that can be shown at once

@@ -35,6 +35,12 @@ public:
     /// A picture was presented; `has_code`: a code was written into it. It looks at what the projector shows
     /// if that can be read, else at the display's framebuffer.
     void presented(MonotonicTime now, const Display& display, bool has_code);
+    /// No picture is presented, on purpose.
+    void asleep(MonotonicTime now) {
+        if (watchdog_) {
+            watchdog_->asleep(now);
+        }
+    }
     /// Call in every frame.
     void look(MonotonicTime now, const Display& display, const Inputs& inputs);
     /// The service manager was told that the run is ready; until then every frame is presented.
@@ -63,7 +69,8 @@ private:
     std::optional<std::uint8_t> shown_code_;
     SharedSetStatus noted_set_;
     bool library_hung_ = false;
-    Sentence display_, tracker_, panel_, sound_, recording_, set_, artifact_, language_, level_;
+    Sentence display_, tracker_, panel_, sound_, recording_, hours_, clock_, set_, artifact_, language_,
+        level_;
     ImportJournal imports_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above
 };

@@ -35,7 +35,8 @@ struct ShowState {
     std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
     State state = State::Staff;
     ToldText told = {};
-    SharedImport import = {}; ///< what the importer says; none: nothing
+    SharedImport import = {};               ///< what the importer says; none: nothing
+    std::optional<MonotonicTime> used = {}; ///< when somebody used it last; nothing: never
 };
 
 class Show {
@@ -44,6 +45,10 @@ public:
     /// Decides what `draw` draws next. `commands`: those since the step before, in their order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
                       const Situation& /*on_table*/) {}
+    /// Whether it may be dark by the timetable; an alignment pattern may not.
+    [[nodiscard]] virtual bool sleeps() const { return false; }
+    /// How much light all that is drawn has, 0..1, from the next step on. 0: it is asleep, silent and not drawn.
+    virtual void set_light(double /*light*/) {}
     /// What is to be heard.
     [[nodiscard]] virtual const SoundWish& wish() const {
         static const SoundWish silence;

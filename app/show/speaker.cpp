@@ -15,11 +15,7 @@ bool Speaker::step(const Presentation& presentation, const Stage& stage,
     reader_->want(SpokenUse::Description,
                   presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
     if (presentation.staff) {
-        if (is_alive(std::max(description_, advice_))) {
-            wish_.stop();
-        }
-        told_.reset();
-        word_.reset();
+        fall_silent();
         return false;
     }
     tell(presentation, stage);
@@ -112,6 +108,13 @@ void Speaker::advise(const Presentation& presentation, const Stage& stage) {
 void Speaker::forget() {
     told_.reset();
     word_.reset();
+}
+
+void Speaker::fall_silent() {
+    if (is_alive(std::max(description_, advice_))) {
+        wish_.stop();
+    }
+    forget();
 }
 
 void Speaker::hear(const SoundReport& report) {

@@ -30,6 +30,8 @@ public:
     void hear(const SoundReport& report);
     /// Another set is shown: what was decided of the one before names nothing of this one, and what is heard of it ends.
     void forget();
+    /// What is heard ends, and nothing that waits begins.
+    void fall_silent();
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
     [[nodiscard]] const SoundWish& wish() const { return wish_; }

@@ -30,6 +30,8 @@ public:
     virtual void changed(const PixelRectangle& /*part*/) {}
     /// Shows what was drawn; returns the time at which it was (or will be) lit.
     [[nodiscard]] virtual Result<MonotonicTime> present(MonotonicTime now) = 0;
+    /// Keeps the projector dark on purpose: in every frame in place of `present`, which lights it again.
+    [[nodiscard]] virtual Result<void> stay_dark() { return {}; }
     /// When the frame after the one that began at `now` should begin, for one frame every `period`: on a
     /// flip, where there are flips.
     [[nodiscard]] virtual MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {

@@ -45,12 +45,25 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
           },
           make_udev_hotplug()) {}
 
-Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
-    glFinish(); // without a projector too: the exhibit's pace and its watchdog do not depend on one
-    presented_ = true;
+void KmsDisplay::take_news() {
     if (std::optional<CardSeen> seen = watch_.news()) {
         presenter_.connected(std::move(*seen));
     }
+}
+
+/// Nobody asks a projector that sleeps: some wake by that.
+Result<void> KmsDisplay::stay_dark() {
+    take_news();
+    const std::unique_lock quiet = watch_.quiet();
+    Result<void> dark = presenter_.stay_dark(quiet.owns_lock());
+    watch_.set_lit(true);
+    return dark;
+}
+
+Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
+    glFinish(); // without a projector too: the exhibit's pace and its watchdog do not depend on one
+    presented_ = true;
+    take_news();
     const PixelRectangle told = std::exchange(changed_, {});
     const std::unique_lock quiet = watch_.quiet();
     Result<MonotonicTime> shown =

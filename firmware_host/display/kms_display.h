@@ -34,6 +34,7 @@ public:
     void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
     /// Waits until the picture is drawn, and at most `flip_patience` for the flip before.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
+    [[nodiscard]] Result<void> stay_dark() override;
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
         return presenter_.next_frame(now, period);
     }
@@ -46,6 +47,8 @@ public:
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
 
 private:
+    void take_news();
+
     KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputRequest& request);
 
     KmsCard card_;

@@ -13,6 +13,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
+constexpr std::string_view sleeps = "the projector is dark on purpose";
 constexpr std::string_view projector_is_elsewhere =
     "a projector is at another graphics card; the exhibit must be started anew to take it up";
 
@@ -34,11 +35,11 @@ void Presenter::connected(CardSeen seen) {
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = why_dark(seen_, request_);
+        state_ = rest_ != Rest::None ? Sentence(sleeps) : why_dark(seen_, request_);
     }
 }
 
-Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may_set) {
+Result<void> Presenter::check_card() {
     if (seen_.state == CardState::Back) {
         return fail(ErrorKind::DeviceLost,
                     "display: the graphics card is there again; the exhibit must be started anew "
@@ -47,6 +48,51 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     if (seen_.state == CardState::Elsewhere) {
         return fail(ErrorKind::DeviceLost, fmt::format("display: {}", projector_is_elsewhere));
     }
+    return {};
+}
+
+void Presenter::take_flips() {
+    while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
+        take(*flipped);
+    }
+    wait_for_flip();
+}
+
+/// Somebody waits for the picture, so the projector is lit with the next one.
+void Presenter::wake() {
+    if (rest_ != Rest::None) {
+        rest_ = Rest::None;
+        try_again_.reset();
+        stuck_since_.reset();
+        if (lit_) {
+            say_lit();
+        } else {
+            state_ = why_dark(seen_, request_);
+        }
+    }
+}
+
+Result<void> Presenter::stay_dark(bool may_set) {
+    if (Result<void> card = check_card(); !card) {
+        return card;
+    }
+    if (rest_ == Rest::None) {
+        rest_ = Rest::Wanted;
+        try_again_.reset();
+    }
+    take_flips();
+    const bool may_try = !(try_again_ && device_.now() < *try_again_);
+    if (rest_ == Rest::Wanted && seen_.state == CardState::There && !queued_ && may_set && may_try) {
+        darken();
+    }
+    return {};
+}
+
+Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may_set) {
+    if (Result<void> card = check_card(); !card) {
+        return tl::unexpected<Error>(card.error());
+    }
+    wake();
     if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
         stuck_since_.reset();
         if (choose_connector(seen_, request_) != nullptr) {
@@ -59,10 +105,7 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     for (PixelRectangle& stale : stale_) {
         stale = united(stale, changed);
     }
-    while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
-        take(*flipped);
-    }
-    wait_for_flip();
+    take_flips();
     if (seen_.state == CardState::There && !queued_) {
         if (darken_ && may_set) {
             darken();
@@ -168,6 +211,9 @@ void Presenter::darken() {
     clock_ = {};
     if (answer != KmsAnswer::Done && answer != KmsAnswer::Refused) {
         went_wrong(answer);
+    } else if (rest_ != Rest::None) {
+        rest_ = Rest::Dark;
+        state_ = Sentence(sleeps);
     } else {
         state_ = why_dark(seen_, request_);
     }

@@ -2,6 +2,8 @@
 ///
 /// Without a projector, pictures are accepted and not shown; when one comes, the next picture lights it.
 ///
+/// Dark on purpose, with `stay_dark`, it is turned off as DPMS does, whatever comes and goes; the next picture lights it.
+///
 /// A picture without a size of its own is drawn in the mode's. A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
 /// picture is scaled on its way into memory.
 ///
@@ -41,6 +43,9 @@ public:
     /// mode, because nobody else is asking the card.
     [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
 
+    /// Keeps the projector dark, in place of `present`; `may_set` and errors as there.
+    [[nodiscard]] Result<void> stay_dark(bool may_set);
+
     /// Waits at most `flip_patience`; true: the picture presented last is on the screen.
     [[nodiscard]] bool wait_until_shown();
 
@@ -74,6 +79,9 @@ private:
     [[nodiscard]] bool about_to_light() const {
         return !try_again_ && choose_connector(seen_, request_) != nullptr;
     }
+    [[nodiscard]] Result<void> check_card();
+    void take_flips();
+    void wake();
     void wait_for_flip();
     void take(const Flipped& flipped);
     /// Is what is lit still what should be lit?
@@ -112,6 +120,8 @@ private:
     bool late_ = false; ///< the queued flip did not come in time
     bool master_ = true;
     bool darken_ = false; ///< what was lit is to be turned off
+    enum class Rest : std::uint8_t { None, Wanted, Dark };
+    Rest rest_ = Rest::None; ///< dark on purpose: to be turned off, or turned off
     Sentence state_;
 };
 

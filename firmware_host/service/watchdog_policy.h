@@ -2,6 +2,7 @@
 ///
 /// Fed      while pictures (at rest: the probe, once a second) are presented on time, the reserved code that
 ///          is read back from them changes each time, and every device thread keeps its promise.
+/// Asleep   a projector that is dark on purpose shows no picture; the promises count all the same.
 /// Lost     a lost device does not stop the feeding: its thread lives and says so, and the exhibit goes on.
 /// Time     a parameter, monotonic.
 /// Threads  values; one caller. Allocates nothing.
@@ -44,6 +45,8 @@ public:
 
     /// A picture was presented.
     void presented(MonotonicTime now) { presented_ = now; }
+    /// The projector is dark on purpose: the next picture is due within `picture_within` of the latest call.
+    void asleep(MonotonicTime now) { presented_ = changed_ = now; }
     /// Whether the next picture's code is worth reading back: not in every frame.
     [[nodiscard]] bool wants_code(MonotonicTime now) const { return now - changed_ >= feed_every_ / 2; }
     void read_back(MonotonicTime now, const ReadBack& read);

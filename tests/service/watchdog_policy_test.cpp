@@ -99,6 +99,24 @@ TEST(WatchdogPolicy, StarvesAnExhibitThatPresentsNothing) {
     EXPECT_EQ(exhibit.health(), Health::Well);
 }
 
+TEST(WatchdogPolicy, IsFedWhileTheProjectorIsDarkOnPurpose) {
+    Exhibit exhibit;
+    exhibit.run(seconds(10));
+    exhibit.presents = false;
+    const MonotonicTime slept = exhibit.now;
+    for (int k = 0; k < 200; ++k) {
+        exhibit.policy.asleep(exhibit.now);
+        exhibit.run(milliseconds(100));
+        ASSERT_EQ(exhibit.health(), Health::Well);
+    }
+    EXPECT_LE(exhibit.hunger(slept), seconds(2));
+    exhibit.promises = {exhibit.now - milliseconds(1)};
+    EXPECT_EQ(exhibit.health(), Health::ThreadHangs) << "devices are read in sleep too";
+    exhibit.promises.clear();
+    exhibit.run(WatchdogPolicy::picture_within + milliseconds(1)); // it woke, and shows nothing
+    EXPECT_EQ(exhibit.health(), Health::NoPicture);
+}
+
 TEST(WatchdogPolicy, StarvesAPictureThatStaysThoughItIsPresented) {
     for (const bool blank : {false, true}) {
         Exhibit exhibit;

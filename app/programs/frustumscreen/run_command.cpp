@@ -17,6 +17,7 @@
 #include "app/simulation/visitor_view.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
+#include "firmware_host/base/local_time.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
 #include "firmware_host/service/crash_line.h"
@@ -289,6 +290,7 @@ Result<int> run(const Request& request) {
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
+    static_cast<void>(use_time_zone((*settings)->hours.time_zone)); // before there is a second thread
     if (!request.out.empty()) {
         std::error_code failed;
         std::filesystem::create_directories(request.out, failed);
@@ -356,6 +358,9 @@ Result<int> run(const Request& request) {
     Screenshot screenshot((*display)->width(), (*display)->height());
     options.screenshot = request.staff_socket.empty() ? nullptr : &screenshot;
     const std::unique_ptr<StaffSocket> staff = open_staff_socket(request.staff_socket, screenshot, journal);
+    const std::string& zone = (*settings)->hours.time_zone;
+    RunHours hours((*settings)->hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
+    options.hours = &hours;
     StatusFile status_file(request.status_file);
     RunWatch watch(manager, journal);
     const Result<LoopResult> result =

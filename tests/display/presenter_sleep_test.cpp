@@ -1,0 +1,117 @@
+// A projector that is dark on purpose.
+
+#include "tests/display/presented_exhibit.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+ConnectorSeen unplugged() {
+    ConnectorSeen off = a_projector();
+    off.plugged = Plugged::No;
+    off.modes.clear();
+    return off;
+}
+
+/// An exhibit whose projector was lit; frames of sleep are frames of 60 Hz.
+class SleepingExhibit : public Exhibit {
+public:
+    SleepingExhibit() {
+        presenter.connected(a_card({a_projector()}));
+        frames(10);
+    }
+    void sleep(int count, bool may_set = true) {
+        for (int k = 0; k < count; ++k) {
+            const MonotonicTime called = kms.time;
+            EXPECT_TRUE(presenter.stay_dark(may_set));
+            EXPECT_LE(kms.time - called, flip_patience) << "sleep held up the exhibit";
+            kms.time += one_refresh;
+        }
+    }
+};
+
+TEST(PresenterSleep, TurnsTheProjectorOffOnceAndLightsItWithTheNextPicture) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(600);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.darkenings, 1);
+    EXPECT_EQ(exhibit.kms.lights, 1);
+    EXPECT_TRUE(exhibit.says("dark on purpose")) << exhibit.presenter.state();
+    const MonotonicTime pressed = exhibit.kms.time;
+    exhibit.frames(2);
+    ASSERT_TRUE(exhibit.kms.screen);
+    EXPECT_LE(exhibit.kms.time - pressed, std::chrono::milliseconds(100));
+    EXPECT_EQ(exhibit.kms.lights, 2);
+    EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
+}
+
+TEST(PresenterSleep, StaysDarkWhateverComesAndGoes) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(10);
+    for (int k = 0; k < 5; ++k) {
+        exhibit.presenter.connected(a_card({unplugged()}));
+        exhibit.sleep(120);
+        exhibit.presenter.connected(a_card({a_projector()}));
+        exhibit.sleep(120);
+    }
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.lights, 1);
+    EXPECT_TRUE(exhibit.says("dark on purpose")) << exhibit.presenter.state();
+    exhibit.frames(2);
+    EXPECT_TRUE(exhibit.kms.screen);
+}
+
+TEST(PresenterSleep, WakesWithoutAProjectorAndLightsItWhenItComes) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(10);
+    exhibit.presenter.connected(a_card({unplugged()}));
+    exhibit.sleep(10);
+    exhibit.frames(60);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_TRUE(exhibit.says("no projector is connected")) << exhibit.presenter.state();
+    exhibit.presenter.connected(a_card({a_projector()}));
+    exhibit.frames(2);
+    EXPECT_TRUE(exhibit.kms.screen);
+}
+
+TEST(PresenterSleep, FallsAsleepWithoutAProjector) {
+    Exhibit exhibit;
+    exhibit.presenter.connected(a_card({unplugged()}));
+    exhibit.frames(10);
+    EXPECT_TRUE(exhibit.presenter.stay_dark(true));
+    EXPECT_TRUE(exhibit.says("dark on purpose")) << exhibit.presenter.state();
+    exhibit.frames(10);
+    EXPECT_EQ(exhibit.kms.lights, 0);
+}
+
+TEST(PresenterSleep, WaitsForAGoodMomentAndTriesAgain) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(10, false);
+    EXPECT_EQ(exhibit.kms.darkenings, 0) << "somebody asks the card";
+    exhibit.kms.busy = 3;
+    exhibit.sleep(60);
+    EXPECT_EQ(exhibit.kms.darkenings, 1);
+    EXPECT_FALSE(exhibit.kms.screen);
+}
+
+TEST(PresenterSleep, APressBeforeItIsDarkChangesNothing) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(1, false);
+    exhibit.frames(10);
+    EXPECT_TRUE(exhibit.kms.screen);
+    EXPECT_EQ(exhibit.kms.lights, 1);
+    EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+}
+
+TEST(PresenterSleep, ACardThatIsBackNeedsANewStart) {
+    SleepingExhibit exhibit;
+    exhibit.sleep(10);
+    CardSeen back = a_card({a_projector()});
+    back.state = CardState::Back;
+    exhibit.presenter.connected(back);
+    EXPECT_FALSE(exhibit.presenter.stay_dark(true));
+}
+
+} // namespace
+} // namespace frustumscreen
