@@ -162,6 +162,7 @@ class Machine:
     def may_start_anew(self):
         """From now on the hardware's watchdog, a panic or a reboot starts the machine anew; else that ends it."""
         self.monitor("set-action", reboot="reset", watchdog="reset")
+        self._monitor.event_came("RESET")
 
     def resets_within(self, timeout_s):
         """Whether the machine is reset in this time; its monitor tells."""
