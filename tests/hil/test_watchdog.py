@@ -25,6 +25,8 @@ SYSTEM_BACK_S = 120.0
 
 
 class Watchdog(HilTest):
+    broken_s = None
+
     def setUp(self):
         super().setUp()
         self.bench.machine.check(BEGIN)
@@ -61,16 +63,23 @@ class Watchdog(HilTest):
                 seen.add(code)
             return len(seen) > 1
 
-        eventually(lit_anew, timeout_s, f"no living picture comes; codes seen: {seen}")
+        eventually(lit_anew, timeout_s, lambda: f"no living picture comes; codes seen: {seen}")
+        if self.broken_s is not None:
+            print(f"  lit {self.bench.machine.granted_s() - self.broken_s:.0f} s after the fault", flush=True)
 
     def assert_untouched(self):
         self.assert_lives()
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
         self.assertEqual(self.faults(), [], "a step was taken though the exhibit was well")
 
+    def broken(self):
+        """From here on it is counted how long it takes until the screen is lit again."""
+        self.broken_s = self.bench.machine.granted_s()
+
     def kill(self):
         """Kills the exhibit, and waits until systemd has started it again."""
         process = self.bench.main_process()
+        self.broken()
         self.bench.machine.check(f"kill -KILL {process}")
         eventually(lambda: self.bench.main_process() not in (0, process), BACK_S, "systemd does not restart it")
 
@@ -102,6 +111,7 @@ class Watchdog(HilTest):
         self.addCleanup(machine.run, f"{END}; systemctl restart --no-block {UNIT}")
         self.addCleanup(machine.write, SETTINGS, USUAL)
         machine.write(SETTINGS, SPOILT)
+        self.broken()
         machine.check(f"kill -KILL {self.process}")
         self.took("built_in", "keeps_ending", 2 * BACK_S)
         self.bench.status_says("mode", "^built_in$", START_S)
@@ -112,19 +122,21 @@ class Watchdog(HilTest):
         self.assert_lives()
 
     def test_tracker_hung_until_its_port_is_reset(self):
+        self.broken()
         self.bench.tracker.tell("hang-until-reset")
         self.bench.status_says("tracker_hangs", "True")
         self.took("reset_device", "device_silent")
         self.bench.status_says("tracker", "is running", START_S)
         self.bench.place((0.05, 0.0, 0.0))
         self.assert_at((0.05, 0.0, 0.0))
+        self.assert_lives()
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
 
     def test_clock_leaps(self):
         machine = self.bench.machine
         self.addCleanup(machine.run, "date -s \"@$(cat /run/hil/now)\"")
         machine.check("date +%s > /run/hil/now")
-        for leap in ("1 year", "-2 years", "1 year"):
+        for leap in ("1 year", "-2 years"):
             machine.check(f"date -s '{leap}'")
             self.settle()
         self.assert_untouched()
@@ -135,7 +147,8 @@ class Watchdog(HilTest):
         machine = self.bench.machine
         self.addCleanup(machine.run, f"{END}; mv /run/hil-packs/* {PACKS}; systemctl restart --no-block {UNIT}")
         machine.check(f"mkdir -p /run/hil-packs; mv {PACKS}/*.fspack /run/hil-packs; "
-                      f"for pack in amphora nautilus-cup; do echo spoilt > {PACKS}/$pack.fspack; done; kill -KILL {self.process}")
+                      f"for pack in amphora nautilus-cup; do echo spoilt > {PACKS}/$pack.fspack; done")
+        self.kill()
         self.took("built_in", "nothing_to_show", 4 * BACK_S)
         self.bench.status_says("artifact", "^Amphora$", START_S)
         self.assert_at((0.0, 0.0, 0.0), artifact="amphora")
@@ -162,6 +175,7 @@ class Watchdog(HilTest):
     @long
     def test_leak(self):
         """A process of the unit takes memory until MemoryMax=: the kernel ends it, and systemd starts the exhibit again."""
+        self.broken()
         self.bench.machine.spawn(f"echo $$ > {GROUP}/cgroup.procs; exec tail /dev/zero")
         eventually(lambda: self.bench.main_process() not in (0, self.process), 2 * BACK_S, "it was not started again")
         self.assertIn("oom-kill", self.bench.machine.read(ENDS))
@@ -192,12 +206,14 @@ class Watchdog(HilTest):
     def test_frozen_service_manager(self):
         """Only the hardware's watchdog is left: it resets the machine."""
         self.bench.machine.may_start_anew()
+        self.broken()
         self.bench.machine.spawn("echo 1 > /sys/fs/cgroup/init.scope/cgroup.freeze")
         self.assert_started_anew()
 
     @long
     def test_panic(self):
         self.bench.machine.may_start_anew()
+        self.broken()
         self.bench.machine.spawn("sleep 1; echo c > /proc/sysrq-trigger")
         self.assert_started_anew()
 
@@ -207,7 +223,7 @@ class Watchdog(HilTest):
         self.bench.status_says("tracker", "is running", SYSTEM_BACK_S)
         self.assert_lives(SYSTEM_BACK_S)
 
-    def settle(self, seconds=6.0):
+    def settle(self, seconds=5.0):
         """Lets the watchdog look for so long."""
         begun = self.said()["monotonic_ns"]
         eventually(lambda: self.said().get("monotonic_ns", 0) > begun + 1e9 * seconds, 10 * seconds, "it does not look")

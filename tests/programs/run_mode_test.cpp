@@ -39,13 +39,14 @@ protected:
 
 TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
     EXPECT_EQ(status().at("mode"), "normal");
-    EXPECT_EQ(text("err.txt"), "");
+    EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
     write("mode", "sideways\n");
     EXPECT_EQ(status().at("mode"), "normal");
-    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set and built_in are"), std::string::npos);
+    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set and built_in are"),
+              std::string::npos);
     write("mode", "normal\n");
     EXPECT_EQ(status().at("mode"), "normal");
-    EXPECT_EQ(text("err.txt"), "");
+    EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
 }
 
 TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
@@ -73,7 +74,9 @@ TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {
 
     write("cache/settings_last_good.toml", good);
     why = status().at("settings");
-    EXPECT_EQ(why.find("the last good settings, cache/settings_last_good.toml, are used in their place: "), 0U) << why;
+    EXPECT_EQ(why.find("the last good settings, cache/settings_last_good.toml, are used in their place: "),
+              0U)
+        << why;
 
     write("cache/settings_last_good.toml", "spoilt as well");
     why = status().at("settings");

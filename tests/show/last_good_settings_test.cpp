@@ -1,5 +1,4 @@
 #include "app/show/last_good_settings.h"
-
 #include "firmware_host/base/file.h"
 
 #include <gtest/gtest.h>
