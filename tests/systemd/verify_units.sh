@@ -36,6 +36,7 @@ grep -q "museum's own" "$root$settings" || die "a museum's own settings were ove
 
 if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; then
     cp --no-clobber --recursive /usr/lib/systemd/system/. "$units" # the targets that it depends on
+    install -D -m 755 /bin/sh "$root/bin/sh" # Debian's own, which a unit calls
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
     # For a key that it does not know the tool only prints a warning.
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
