@@ -27,12 +27,25 @@ install(FILES systemd/frustumscreen.sysusers
 install(FILES systemd/frustumscreen.tmpfiles
     DESTINATION /usr/lib/tmpfiles.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 
+# What is shown when nothing else can be: the amphora with few triangles and small images, so that any machine shows it.
+set(built_in ${CMAKE_BINARY_DIR}/kiosk/built_in)
+add_custom_command(OUTPUT ${built_in}.fspack
+    COMMAND frustumscreen-artifact amphora --triangles 2000 -o ${built_in}.glb
+    COMMAND frustumscreen-bake ${built_in}.glb -o ${built_in}.fspack --size 256 --title Amphora --language en >${built_in}.log
+    DEPENDS frustumscreen-artifact frustumscreen-bake
+    BYPRODUCTS ${built_in}.glb ${built_in}.log
+    COMMENT "Baking the built-in artifact" VERBATIM)
+add_custom_target(frustumscreen-built-in ALL DEPENDS ${built_in}.fspack)
+install(FILES ${built_in}.fspack DESTINATION /usr/share/frustumscreen COMPONENT kiosk EXCLUDE_FROM_ALL)
+
 # The settings as shipped, with the packs where a kiosk has them. A museum's own settings stay.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/kiosk.toml)
 file(READ ${CMAKE_SOURCE_DIR}/config/kiosk.toml kiosk_settings)
 string(REPLACE "../out/packs/" "/var/lib/frustumscreen/packs/" kiosk_settings "${kiosk_settings}")
 string(REPLACE "../out/words.fswords" "/var/lib/frustumscreen/words.fswords" kiosk_settings "${kiosk_settings}")
 file(WRITE ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml "${kiosk_settings}")
+install(FILES ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml DESTINATION /usr/share/frustumscreen
+    COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(CODE "
     # DESTDIR goes in front by itself.
     if(NOT EXISTS \"\$ENV{DESTDIR}/etc/frustumscreen/kiosk.toml\")

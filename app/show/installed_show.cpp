@@ -15,7 +15,7 @@ bool library_is_there(const Settings& settings) {
 }
 
 InstalledShow show_installed_set(
-    const Settings& settings, const ArtifactShowOptions& options,
+    const Settings& settings, const ArtifactShowOptions& options, Trust trust,
     const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create) {
     InstalledShow installed;
     if (!library_is_there(settings)) {
@@ -31,7 +31,7 @@ InstalledShow show_installed_set(
         own.attract = request.attract;
         return own;
     };
-    installed.start = start_library(library);
+    installed.start = start_library(library, trust);
     if (!installed.start.trouble.empty()) {
         say_line(options.program, installed.start.trouble);
     }

@@ -26,7 +26,7 @@ struct InstalledShow {
 };
 /// `options`: what is the same for every set. `create`: ArtifactShow::create of these.
 [[nodiscard]] InstalledShow show_installed_set(
-    const Settings& settings, const ArtifactShowOptions& options,
+    const Settings& settings, const ArtifactShowOptions& options, Trust trust,
     const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create);
 
 } // namespace frustumscreen

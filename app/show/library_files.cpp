@@ -57,7 +57,7 @@ Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict
     return write_file(path, as_bytes(write_verdict(verdict)));
 }
 
-LibraryStart start_library(const std::filesystem::path& library) {
+LibraryStart start_library(const std::filesystem::path& library, Trust trust) {
     LibraryStart start;
     Result<std::optional<SetChoice>> choice = read_choice(library);
     if (!choice) {
@@ -68,7 +68,7 @@ LibraryStart start_library(const std::filesystem::path& library) {
         return start;
     }
     clear_partial_files(library / verdict_file_name);
-    start.trial.emplace(std::move(**choice), read_verdict(library));
+    start.trial.emplace(std::move(**choice), read_verdict(library), trust);
     const Result<void> kept = keep_verdict(library, start.trial->verdict());
     start.trial->note_kept(kept.has_value());
     start.trouble = kept ? "" : kept.error().message;

@@ -36,7 +36,7 @@ struct LibraryStart {
     std::string trouble;           ///< a sentence; empty: all is well
 };
 /// Counts the start. Where it cannot be counted, a set on trial makes way for the one before.
-[[nodiscard]] LibraryStart start_library(const std::filesystem::path& library);
+[[nodiscard]] LibraryStart start_library(const std::filesystem::path& library, Trust trust = Trust::Newest);
 
 /// A set without packs shows those of the settings.
 [[nodiscard]] SetRequest request_of(const InstalledSet& set, const std::filesystem::path& library,

@@ -186,7 +186,7 @@ void LibraryWatch::post() {
         status.packs = shown_set_.packs;
     }
     if (trial_) {
-        status.newest = trial_->verdict();
+        status.newest = trial_->told();
         status.on_trial = trial_->on_trial();
     }
     status.trouble = !trouble_.empty() ? trouble_ : verdict_trouble_;

@@ -312,6 +312,9 @@ private:
         status.health = watch_.health();
         status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
         status.display = Sentence(display_.state());
+        status.mode = options_.mode;
+        status.settings = options_.settings;
+        status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});

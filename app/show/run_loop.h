@@ -35,6 +35,8 @@ struct LoopOptions {
     Redraw redraw = Redraw::Changes;
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
+    std::string_view mode = "normal"; ///< this and the next for the status
+    Sentence settings;
     const StopSignals* stop = nullptr; ///< one of them ends the loop
     Screenshot* screenshot = nullptr;  ///< of the display's size; whoever asks it for a picture gets one
     std::function<bool()> ends = {};   ///< asked in each frame: yes ends it too

@@ -181,6 +181,8 @@ std::string status_json(const RunStatus& status) {
         {"health", word_of(status.health)},
         {"presented", json_of(status.presented)},
         {"shown_code", json_of(status.shown_code)},
+        {"mode", status.mode},
+        {"settings", status.settings.view()},
         {"left_out", left_out},
         {"set", json_of(status.set, status.library_hangs)},
         {"state", status.state},
@@ -211,6 +213,7 @@ std::string status_json(const RunStatus& status) {
         {"device_errors", status.bad_samples},
         {"display", status.display.view()},
         {"tracker", status.tracker.view()},
+        {"tracker_hangs", status.tracker_hangs},
         {"tracker_counts", json_of(status.tracker_counts)},
         {"panel", status.panel.view()},
         {"sound", status.sound.view()},
@@ -244,7 +247,8 @@ void stamp(RunStatus& status) {
     status.resident_mib = resident_mib();
 }
 
-StatusFile::StatusFile(std::filesystem::path file) : file_(std::move(file)) {
+StatusFile::StatusFile(std::filesystem::path file, std::function<void(const RunStatus&)> written)
+    : file_(std::move(file)), written_(std::move(written)) {
     if (!file_.empty()) {
         writer_ = std::jthread([this] { work(); });
     }
@@ -304,6 +308,9 @@ void StatusFile::work() {
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
             complained = true;
+        }
+        if (written_) {
+            written_(status);
         }
         lock.lock();
         surroundings_ = std::move(status.surroundings);

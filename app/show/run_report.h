@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -132,8 +133,12 @@ struct RunStatus {
     std::uint64_t late = 0;        ///< display times that passed without a new frame
     std::uint64_t bad_samples = 0; ///< samples that were no pose; polls that were answered with an error
     double uptime_s = 0.0;
-    Sentence display; ///< states of the devices; empty where there is nothing to say
+    std::string_view mode =
+        "normal";      ///< what is shown at all, as --mode-file says: a word of app/watch/step.h
+    Sentence settings; ///< why others than those of the file are used; empty: they are those of the file
+    Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
+    bool tracker_hangs = false; ///< Tracker::hangs
     Sentence panel;
     Sentence sound;
     Sentence recording;
@@ -160,8 +165,9 @@ void stamp(RunStatus& status);
 /// Writes the latest status posted, by rename; and reads, as often, what others know of the exhibit.
 class StatusFile {
 public:
-    explicit StatusFile(std::filesystem::path file); ///< an empty path: posts go nowhere
-    ~StatusFile();                                   ///< writes what is still to be written
+    /// An empty path: posts go nowhere. `written`: called on the writer's thread after each status.
+    explicit StatusFile(std::filesystem::path file, std::function<void(const RunStatus&)> written = {});
+    ~StatusFile(); ///< writes what is still to be written
     StatusFile(const StatusFile&) = delete;
     StatusFile& operator=(const StatusFile&) = delete;
     void post(const RunStatus& status);
@@ -176,6 +182,7 @@ private:
     void work();
 
     std::filesystem::path file_;
+    std::function<void(const RunStatus&)> written_;
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;

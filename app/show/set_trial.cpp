@@ -6,7 +6,8 @@
 
 namespace frustumscreen {
 
-SetTrial::SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict) : choice_(std::move(choice)) {
+SetTrial::SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict, Trust trust)
+    : choice_(std::move(choice)), trust_(choice_.last_good ? trust : Trust::Newest) {
     verdict_.number = choice_.set.number;
     if (verdict && verdict->number == verdict_.number) {
         verdict_ = *verdict;
@@ -16,8 +17,12 @@ SetTrial::SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict) :
 
 void SetTrial::take(SetChoice choice) {
     const bool other = choice.set.number != choice_.set.number;
+    if (!other && trust_ == Trust::Before && !choice.last_good) {
+        choice.last_good = std::move(choice_.last_good);
+    }
     choice_ = std::move(choice);
     if (other) {
+        trust_ = Trust::Newest;
         verdict_ = {choice_.set.number, Verdict::Trying, 0, {}};
         since_.reset();
         begin();
@@ -25,8 +30,8 @@ void SetTrial::take(SetChoice choice) {
 }
 
 void SetTrial::begin() {
-    if (verdict_.verdict != Verdict::Trying) {
-        return;
+    if (verdict_.verdict != Verdict::Trying || trust_ == Trust::Before) {
+        return; // it is not begun with
     }
     if (choice_.last_good && verdict_.starts >= most_starts) {
         refuse(verdict_.number,
@@ -35,6 +40,14 @@ void SetTrial::begin() {
     } else {
         ++verdict_.starts;
     }
+}
+
+SetVerdict SetTrial::told() const {
+    if (trust_ == Trust::Newest || verdict_.verdict == Verdict::Bad) {
+        return verdict_;
+    }
+    return {verdict_.number, Verdict::Bad, verdict_.starts,
+            "the watchdog went back to the set before, and tries this one again after ten good minutes"};
 }
 
 void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string& fault) {

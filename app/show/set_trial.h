@@ -17,19 +17,26 @@
 
 namespace frustumscreen {
 
+enum class Trust : std::uint8_t {
+    Newest,
+    Before ///< the watchdog saw no good come of the newest: for this run the one before is shown, if there is one
+};
+
 class SetTrial {
 public:
     static constexpr Nanoseconds long_enough = std::chrono::seconds(30);
     static constexpr Nanoseconds longest_silence = std::chrono::seconds(2);
 
-    /// The exhibit starts. `verdict`: as it was left; of another set it says nothing.
-    SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict);
-    /// Something else was installed, or the same is without `last_good` now: nothing is lost then.
+    /// The exhibit starts. `verdict`: as it was left; of another set it says nothing. `trust`: in the newest set.
+    SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict, Trust trust = Trust::Newest);
+    /// Something else was installed, which is trusted, or the same is without `last_good` now: nothing is lost then. A set that is
+    /// not trusted does not come back by that.
     void take(SetChoice choice);
 
     /// To show now. This start is counted already, so that `set_to_show` of the verdict is about the next one.
     [[nodiscard]] const InstalledSet& target() const {
-        const bool other = verdict_.verdict == Verdict::Bad || (on_trial() && !is_kept_);
+        const bool other =
+            trust_ == Trust::Before || verdict_.verdict == Verdict::Bad || (on_trial() && !is_kept_);
         return other && choice_.last_good ? *choice_.last_good : choice_.set;
     }
     /// Whether the verdict could be written. A set on trial whose starts cannot be counted is not begun with: it might end the
@@ -37,10 +44,13 @@ public:
     void note_kept(bool is_kept) { is_kept_ = is_kept; }
     /// To keep; written before `target` is shown.
     [[nodiscard]] const SetVerdict& verdict() const { return verdict_; }
+    /// To tell: a set that is not trusted is bad for this run, whatever is kept of it.
+    [[nodiscard]] SetVerdict told() const;
     [[nodiscard]] const SetChoice& choice() const { return choice_; }
     /// There is another set to go back to, and no verdict.
     [[nodiscard]] bool on_trial() const {
-        return choice_.last_good.has_value() && verdict_.verdict == Verdict::Trying;
+        return choice_.last_good.has_value() && verdict_.verdict == Verdict::Trying &&
+               trust_ == Trust::Newest;
     }
 
     /// The set of this number is on show now; `fault`: why it is not good, a sentence; empty: there is none.
@@ -53,6 +63,7 @@ private:
 
     SetChoice choice_;
     SetVerdict verdict_;
+    Trust trust_ = Trust::Newest;
     bool is_kept_ = true;
     std::optional<MonotonicTime> since_; ///< it has been on show in one piece
     MonotonicTime latest_;               ///< when that was told

@@ -29,6 +29,7 @@ public:
     [[nodiscard]] bool reports_table_frame() const override { return true; }
     [[nodiscard]] std::string_view state() const override { return device_->state(); }
     [[nodiscard]] TrackerHealth health() const override { return device_->health(); }
+    [[nodiscard]] bool hangs() const override { return device_->hangs(); }
     [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 

@@ -76,6 +76,8 @@ public:
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     [[nodiscard]] virtual TrackerHealth health() const { return TrackerHealth::Well; }
+    /// It is plugged in and does not do what it should, so that a reset of its port may help.
+    [[nodiscard]] virtual bool hangs() const { return false; }
     /// As they stood at the latest `poll`.
     [[nodiscard]] virtual TrackerCounts counts() const { return {}; }
     /// Until when its thread has promised to be heard from again; nothing: it has none.

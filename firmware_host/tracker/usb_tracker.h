@@ -33,6 +33,7 @@ public:
     [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
     [[nodiscard]] TrackerHealth health() const override { return health_of(state_); }
+    [[nodiscard]] bool hangs() const override { return frustumscreen::hangs(state_); }
     [[nodiscard]] TrackerCounts counts() const override { return seen_counts_; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();

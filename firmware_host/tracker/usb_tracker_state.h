@@ -98,6 +98,12 @@ enum class UsbTrackerState {
     }
 }
 
+/// It is plugged in, may be opened, and does not do what it should: a reset of its port may help.
+[[nodiscard]] constexpr bool hangs(UsbTrackerState state) {
+    return state == UsbTrackerState::CannotBeOpened || state == UsbTrackerState::SetUpRefused ||
+           state == UsbTrackerState::Silent || state == UsbTrackerState::DeviceFault;
+}
+
 /// Poses come in, good or less good.
 [[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
     return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||

@@ -14,6 +14,7 @@ if $build; then
     ./setup.sh hil kiosk
     printf '== building (release)\n'
     cmake/build.sh release --without tests --without window \
-        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-safe frustumscreen-bake frustumscreen-artifact
+        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-safe frustumscreen-watchdog frustumscreen-built-in \
+        frustumscreen-bake frustumscreen-artifact
 fi
 exec tests/hil/run_tests.py "$@"

@@ -42,6 +42,7 @@ class JsonLines:
                 time.sleep(0.05)
         self._socket.settimeout(timeout_s)
         self._bytes = b""
+        self._events = set()
 
     def close(self):
         self._socket.close()
@@ -58,11 +59,18 @@ class JsonLines:
         line, self._bytes = self._bytes.split(b"\n", 1)
         return json.loads(line.lstrip(b"\xff"))
 
+    def event_came(self, name):
+        """Whether this event came since it was last asked for."""
+        came = name in self._events
+        self._events.discard(name)
+        return came
+
     def answer(self, message):
-        """Sends a command and returns its answer; skips events in between."""
+        """Sends a command and returns its answer; notes events in between."""
         self.send(message)
         while True:
             answer = self.receive()
+            self._events.add(answer.get("event"))
             if "return" in answer:
                 return answer["return"]
             if "error" in answer:
@@ -141,6 +149,7 @@ class Machine:
             "-audiodev", f"wav,id=heard,path={self.heard},out.frequency=48000,out.channels=2",
             "-device", "intel-hda", "-device", "hda-output,audiodev=heard",
             "-device", "qemu-xhci,id=usb,p2=12,p3=12",  # with fewer ports QEMU adds hubs, of the slowest kind
+            "-device", "i6300esb", "-action", "watchdog=none",  # the hardware's watchdog; a test lets it act
         ]
         for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
             command += ["-drive", f"if=none,id={serial},format=raw,readonly=on,file={image}",
@@ -149,6 +158,26 @@ class Machine:
             command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
                         "-device", f"usb-redir,id=usb-{name},chardev={name}"]
         return [str(word) for word in command]
+
+    def may_start_anew(self):
+        """From now on the hardware's watchdog, a panic or a reboot starts the machine anew; else that ends it."""
+        self.monitor("set-action", reboot="reset", watchdog="reset")
+        self._monitor.event_came("RESET")
+
+    def resets_within(self, timeout_s):
+        """Whether the machine is reset in this time; its monitor tells."""
+        deadline = self.granted_s() + timeout_s
+        while self.granted_s() < deadline:
+            if self._monitor.event_came("RESET"):
+                return True
+            self.monitor("query-status")
+            time.sleep(0.5)
+        return False
+
+    def wait_for_start(self):
+        """After the machine was reset: until its agent answers again."""
+        self._agent.close()
+        self._connect_agent()
 
     def _connect_agent(self):
         """The agent answers once the guest's user space runs; what was sent earlier may be lost."""

@@ -79,9 +79,10 @@ protected:
         return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0}).value();
     }
     void start() {
-        InstalledShow installed = show_installed_set(settings, options, [&](const ArtifactShowOptions& each) {
-            return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
-        });
+        InstalledShow installed =
+            show_installed_set(settings, options, Trust::Newest, [&](const ArtifactShowOptions& each) {
+                return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
+            });
         ASSERT_TRUE(installed.show);
         show = std::move(installed.show);
         exhibit.emplace(make_exhibit(settings, *show, now));
@@ -344,10 +345,11 @@ TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
 
 TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
     install(put(2, {3}), put(1, {0}));
-    InstalledShow none = show_installed_set(
-        settings, options, [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
-            return fail(ErrorKind::DeviceLost, "the driver has no memory");
-        });
+    InstalledShow none =
+        show_installed_set(settings, options, Trust::Newest,
+                           [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
+                               return fail(ErrorKind::DeviceLost, "the driver has no memory");
+                           });
     EXPECT_FALSE(none.show);
     EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
     start();

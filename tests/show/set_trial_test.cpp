@@ -135,6 +135,28 @@ TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
     EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
 }
 
+TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
+    const SetVerdict good{8, Verdict::Good, 1, ""};
+    SetTrial trial(on_trial(), good, Trust::Before);
+    EXPECT_EQ(trial.target().number, 7U);
+    EXPECT_EQ(trial.verdict(), good); // the next normal start shows it again
+    EXPECT_EQ(trial.told().verdict, Verdict::Bad);
+    EXPECT_FALSE(trial.on_trial());
+    show(trial, start, seconds(60), 7);
+    EXPECT_EQ(trial.target().number, 7U);
+    trial.take({set_of(8), std::nullopt}); // the importer lets go of the one before
+    EXPECT_EQ(trial.target().number, 7U);
+    trial.take({set_of(9), set_of(8)}); // a newer one comes
+    EXPECT_EQ(trial.target().number, 9U);
+    EXPECT_EQ(trial.told(), trial.verdict());
+
+    const SetTrial tried(on_trial(), SetVerdict{8, Verdict::Trying, 2, ""}, Trust::Before);
+    EXPECT_EQ(tried.verdict().starts, 2); // it is not begun with
+    const SetTrial alone({set_of(8), std::nullopt}, std::nullopt, Trust::Before);
+    EXPECT_EQ(alone.target().number, 8U);
+    EXPECT_EQ(alone.told().verdict, Verdict::Trying);
+}
+
 TEST(SetTrial, AVerdictOnAnotherSetSaysNothing) {
     const SetTrial trial(on_trial(), SetVerdict{9, Verdict::Bad, 3, "damaged"});
     EXPECT_EQ(trial.target().number, 8U);

@@ -28,12 +28,15 @@ settings=$(sed -n 's/^ExecStart=.*--config \([^ ]*\).*/\1/p' "$unit")
 resolved=$("$root$program" config --config "$root$settings" --json)
 grep -q '"/var/lib/frustumscreen/packs/amphora.fspack"' <<<"$resolved" ||
     die "the installed settings do not name the installed packs"
+[[ $(stat -c %s "$root/usr/share/frustumscreen/built_in.fspack") -lt 400000 ]] || die "the built-in artifact is large"
+"$root$program" config --config "$root/usr/share/frustumscreen/kiosk.toml" --json >/dev/null || die "the shipped settings are wrong"
 echo '# the museum'"'"'s own' >"$root$settings"
 DESTDIR=$root cmake --install "$build" --component kiosk >/dev/null
 grep -q "museum's own" "$root$settings" || die "a museum's own settings were overwritten"
 
 if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; then
     cp --no-clobber --recursive /usr/lib/systemd/system/. "$units" # the targets that it depends on
+    install -D -m 755 /bin/sh "$root/bin/sh" # Debian's own, which a unit calls
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
     # For a key that it does not know the tool only prints a warning.
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
@@ -45,6 +48,10 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-safe.service" 2>&1) || die "systemd-analyze verify: $said"
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the safe picture"
     locked_in frustumscreen-safe.service 4
+    said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-watchdog.service" 2>&1) || die "systemd-analyze verify: $said"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the watchdog"
+    locked_in frustumscreen-watchdog.service 4
+    locked_in frustumscreen-step@reboot.service 11
     # The units of sticks, for a stick that is stick1p1; what they start is there, their sandbox too.
     for name in stick ntfs import import-refused; do
         instance=$units/frustumscreen-$name@stick1p1.service
@@ -67,7 +74,7 @@ if command -v systemd-sysusers >/dev/null && command -v systemd-tmpfiles >/dev/n
     for group in video render input plugdev gpio; do
         grep -Eq "^$group:.*[:,]frustumscreen(,|$)" "$root/etc/group" || die "the user is not in the group $group"
     done
-    for user in frustumscreen-import frustumscreen-ntfs frustumscreen-safe; do
+    for user in frustumscreen-import frustumscreen-ntfs frustumscreen-safe frustumscreen-watchdog; do
         grep -q "^$user:" "$root/etc/passwd" || die "there is no user $user"
         grep -Eq "[:,]$user(,|$)" "$root/etc/group" && die "the user $user is in a group"
     done

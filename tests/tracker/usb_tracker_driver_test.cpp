@@ -179,6 +179,7 @@ TEST(UsbTrackerDriver, ADeviceThatFallsSilentIsReportedAndTakenUpAgain) {
             bench.device.mute = true;
             bench.run(length);
             EXPECT_EQ(bench.state(), UsbTrackerState::Silent);
+            EXPECT_TRUE(hangs(bench.state()));
             bench.device.mute = false;
             EXPECT_TRUE(bench.until_streaming(seconds(2)));
             bench.run(seconds(1));
@@ -220,6 +221,7 @@ TEST(UsbTrackerDriver, MetalAndAMissingSensorAreSaid) {
         bench.device.distortion = 200;
         bench.run(seconds(1));
         EXPECT_EQ(bench.state(), UsbTrackerState::MetalNear);
+        EXPECT_FALSE(hangs(bench.state()));
         EXPECT_EQ(health_of(bench.state()), TrackerHealth::MetalNear);
         bench.device.distortion = 0;
         bench.run(seconds(1));

@@ -29,7 +29,7 @@ protected:
         write("sys/class/thermal/thermal_zone1/temp", "71500\n");
         write("sys/block/mmcblk0/device/life_time", "0x02 0x09\n");
         status("b1", 100);
-        fs::create_directories(root_ / "var/lib/frustumscreen");
+        fs::create_directories(root_ / "var/lib/frustumscreen-watchdog");
     }
     ~KioskOfFiles() override { fs::remove_all(root_); }
 

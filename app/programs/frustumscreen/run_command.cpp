@@ -3,6 +3,7 @@
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/read_arguments.h"
+#include "app/programs/frustumscreen/run_mode.h"
 #include "app/programs/frustumscreen/staff_service.h"
 #include "app/programs/frustumscreen/wiring.h"
 #include "app/settings/settings.h"
@@ -41,13 +42,14 @@ namespace frustumscreen {
 namespace {
 
 struct Request {
-    std::filesystem::path config;
+    RunPlaces places;
     std::filesystem::path out;
     std::filesystem::path status_file;
     std::filesystem::path staff_socket;
     std::filesystem::path record;
     ArtifactShowOptions show;
-    double seconds = 0.0; ///< 0 = until told to stop
+    Trust trust = Trust::Newest; ///< in the installed sets
+    double seconds = 0.0;        ///< 0 = until told to stop
     int stills = 8;
     int changes = 0;
     bool headless = false;
@@ -60,7 +62,7 @@ struct Request {
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     bool everything = false;
     CLI::App app("Runs the exhibit until SIGTERM or SIGINT, or for some seconds.", "frustumscreen run");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--config", request.places.config, "the kiosk's settings, TOML")->required();
     app.add_flag("--headless", request.headless, "without a screen");
     CLI::Option* seconds = app.add_option("--seconds", request.seconds, "stop after so many seconds")
                                ->check(seconds_between(0.01, 1e6));
@@ -73,6 +75,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--status-file", request.status_file, "JSON, renewed every second");
     app.add_option("--staff-socket", request.staff_socket,
                    "a local socket on which the staff ask for the picture; see frustumscreen status");
+    app.add_option("--mode-file", request.places.mode_file,
+                   "what is to be shown: normal, last_good_set or built_in; the watchdog's");
+    app.add_option("--shipped", request.places.shipped,
+                   "folder of the built-in artifact and of the settings as shipped")
+        ->capture_default_str();
+    app.add_option("--cache", request.places.cache, "folder for a copy of the last good settings");
     app.add_option("--record", request.record,
                    "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
@@ -160,7 +168,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     };
     InstalledShow installed;
     if (from_library) {
-        installed = show_installed_set(settings, options, create);
+        installed = show_installed_set(settings, options, request.trust, create);
     }
     Result<std::unique_ptr<ArtifactShow>> artifacts =
         installed.show ? std::move(installed.show) : create(options);
@@ -281,15 +289,20 @@ int end_with(const Error& why) {
 }
 
 /// The exit status, or an error that is still to be said.
-Result<int> run(const Request& request) {
+Result<int> run(Request& request) {
     leave_a_line_at_a_crash();
     const StopSignals stop_signals;
     const Journal journal("frustumscreen");
     ServiceManager manager;
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
+    const Result<RunMode> mode = choose_run_mode(request.places, journal);
+    if (!mode) {
+        return tl::unexpected<Error>(mode.error());
     }
+    const CheckedSettings* settings = &mode->used.settings;
+    if (!mode->packs.empty()) {
+        request.show.packs = mode->packs;
+    }
+    request.trust = mode->mode == Mode::LastGoodSet ? Trust::Before : Trust::Newest;
     static_cast<void>(use_time_zone((*settings)->hours.time_zone)); // before there is a second thread
     if (!request.out.empty()) {
         std::error_code failed;
@@ -361,7 +374,9 @@ Result<int> run(const Request& request) {
     const std::string& zone = (*settings)->hours.time_zone;
     RunHours hours((*settings)->hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
     options.hours = &hours;
-    StatusFile status_file(request.status_file);
+    options.mode = word_of(mode->mode);
+    options.settings = Sentence(mode->used.instead);
+    StatusFile status_file(request.status_file, keeper_of(request.places, *mode));
     RunWatch watch(manager, journal);
     const Result<LoopResult> result =
         run_loop(**settings, **display, *inputs, **show, options, status_file, watch, start);

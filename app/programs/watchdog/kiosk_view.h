@@ -25,7 +25,8 @@ struct KioskPlaces {
     std::filesystem::path group = "sys/fs/cgroup/system.slice/frustumscreen.service";
     std::filesystem::path device = "dev/frustumscreen/tracker"; ///< made by udev while one is plugged in
     std::filesystem::path last_good = "var/lib/frustumscreen/library/set.txt";
-    std::filesystem::path data = "var/lib/frustumscreen";
+    std::filesystem::path data =
+        "var/lib/frustumscreen-watchdog"; ///< on the disk of all data; the one folder there that its sandbox lets it write
 };
 
 /// Of this boot.

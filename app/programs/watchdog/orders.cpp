@@ -31,6 +31,9 @@ Result<void> Orders::begin(Mode mode) const {
     std::error_code failed; // said by `set_mode`, as the folder it is in is missing then
     std::filesystem::remove_all(folder_ / "steps", failed);
     std::filesystem::create_directories(folder_ / "steps", failed);
+    // Who takes a step has this group, and no right to pass over permissions; it removes the order.
+    std::filesystem::permissions(folder_ / "steps", std::filesystem::perms::group_write,
+                                 std::filesystem::perm_options::add, failed);
     return set_mode(mode);
 }
 

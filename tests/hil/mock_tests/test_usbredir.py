@@ -73,6 +73,15 @@ class Bulk(UsbredirHost):
         self.device.hang(False)
         await self.hears("65000000 0A000000 0600000000000000 02 00 0100 00000000 0000")
 
+    async def test_a_reset_of_the_port_is_told_to_the_device(self):
+        await self.connects()
+        resets = []
+        self.device.was_reset = lambda: resets.append(True)
+        self.says("03000000 00000000 0000000000000000")
+        self.says("64000000 0A000000 0700000000000000 80 00 80 00 0000 0000 0200")
+        await self.skips(16 + 12)
+        self.assertEqual(resets, [True])
+
     async def test_another_virtual_machine_after_the_first(self):
         await self.connects()
         self.writer.close()

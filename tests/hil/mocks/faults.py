@@ -28,6 +28,7 @@ KINDS = {
     "reorder": Kind(0.1, _PROBABILITY, "each frame comes after its successor with this probability"),
     "stall": Kind(None, None, "no frames; commands are still answered"),
     "hang": Kind(None, None, "nothing goes in or out, though the device stays connected"),
+    "hang-until-reset": Kind(None, None, "as hang; a reset of its USB port, or switching it off, ends it"),
     "nan": Kind(None, None, "positions that are no numbers"),
     "wrong-units": Kind(None, None, "inches, whatever it is told"),
     "filter-stays": Kind(None, None, "a VIPER's filters stay on, whatever it is told"),

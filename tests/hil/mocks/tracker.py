@@ -77,6 +77,12 @@ class Tracker(UsbDevice):
         self.counter = 0
         self._path.clear()
 
+    def was_reset(self):
+        if self.faults.on("hang-until-reset"):
+            self.faults.tell("hang-until-reset", ["off"])
+            self.start_anew()
+            self.hang(False)
+
     def lose_units(self):
         """Called when `wrong-units` begins; a device whose frames do not name their units starts again."""
 

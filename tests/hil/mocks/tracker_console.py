@@ -70,13 +70,13 @@ class TrackerConsole:
         duration = self._tracker.faults.tell(name, words)
         self._disarm(name)
         self._begin_or_end(name, not ends)
-        if duration is not None and name in ("unplug", "hang"):
+        if duration is not None and name in ("unplug", "hang", "hang-until-reset"):
             loop = asyncio.get_running_loop()
             self._alarms[name] = loop.call_later(duration, self._begin_or_end, name, False)
         return {"t_ns": time.monotonic_ns()}
 
     def _good(self):
-        for name in ("unplug", "hang", "replug"):
+        for name in ("unplug", "hang", "hang-until-reset", "replug"):
             if self._tracker.faults.on(name):
                 self._begin_or_end(name, False)
         for name in list(self._alarms):
@@ -97,7 +97,7 @@ class TrackerConsole:
                 tracker.start_anew()
             else:
                 tracker.link.plug()
-        elif name == "hang":
+        elif name in ("hang", "hang-until-reset"):
             tracker.hang(begins)
         elif name == "replug":
             self._replug(begins)

@@ -74,6 +74,9 @@ class UsbDevice:
         for queue in self.waiting.values():
             queue.clear()
 
+    def was_reset(self):
+        """The host has reset its port."""
+
     def greet(self):
         """On a link without endpoint 0: sends what a host would ask for when it opens the device."""
 

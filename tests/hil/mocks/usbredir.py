@@ -160,6 +160,8 @@ class UsbredirLink:
                 self.plug()
         elif not self.connected:
             return  # sent before the host knew that the cable was out
+        elif kind == RESET:
+            self._device.was_reset()
         elif kind in (SET_CONFIGURATION, GET_CONFIGURATION):
             number = body[0] if kind == SET_CONFIGURATION else 1
             taken = self._device.control(Request(0, _SET_CONFIGURATION_REQUEST, number, 0, 0)) is not None

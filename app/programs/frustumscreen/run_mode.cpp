@@ -1,0 +1,75 @@
+#include "app/programs/frustumscreen/run_mode.h"
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::uintmax_t most_bytes = 64;
+
+std::filesystem::path last_good(const RunPlaces& places) {
+    return places.cache.empty() ? std::filesystem::path() : places.cache / "settings_last_good.toml";
+}
+
+} // namespace
+
+Mode read_run_mode(const std::filesystem::path& file) {
+    std::error_code failed;
+    if (file.empty() || !std::filesystem::exists(file, failed)) {
+        return Mode::Normal;
+    }
+    const Result<Bytes> bytes = read_file(file, most_bytes);
+    if (!bytes) {
+        say_line("frustumscreen", fmt::format("{}; the mode is normal", bytes.error().message));
+        return Mode::Normal;
+    }
+    std::string_view word = as_text(*bytes);
+    word = word.substr(0, word.find_first_of(" \r\n"));
+    const std::optional<Mode> mode = mode_named(word);
+    if (!mode) {
+        say_line(
+            "frustumscreen",
+            fmt::format("{}: '{}' is no mode; normal, last_good_set and built_in are; the mode is normal",
+                        file.string(), word));
+    }
+    // A person who starts the exhibit while the safe picture is wanted wants to see it.
+    return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
+}
+
+Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal) {
+    const Mode mode = read_run_mode(places.mode_file);
+    std::optional<SettingsFallback> fallback;
+    std::vector<std::filesystem::path> packs;
+    if (mode == Mode::BuiltIn) {
+        packs = {places.shipped / "built_in.fspack"};
+        fallback = SettingsFallback{last_good(places), places.shipped / "kiosk.toml"};
+    }
+    Result<UsedSettings> used = use_settings(places.config, fallback);
+    if (!used) {
+        return tl::unexpected<Error>(used.error());
+    }
+    if (mode != Mode::Normal) {
+        journal.note(LogPriority::Warning, fmt::format("the watchdog wants the mode {}", word_of(mode)));
+    }
+    if (!used->instead.empty()) {
+        journal.note(LogPriority::Error, used->instead);
+    }
+    return RunMode{mode, std::move(*used), std::move(packs)};
+}
+
+std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode) {
+    if (places.cache.empty() || mode.mode == Mode::BuiltIn) {
+        return {};
+    }
+    return [keeper = SettingsKeeper(last_good(places), mode.used.text)](const RunStatus& status) mutable {
+        keeper.note(status);
+    };
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,83 @@
+#include "app/show/last_good_settings.h"
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// More than the settings may have.
+constexpr std::uintmax_t most_bytes = 1U << 20U;
+
+/// `as`: whose folder relative paths begin at, and whose name messages bear.
+Result<UsedSettings> read_from(const std::filesystem::path& file, const std::filesystem::path& as) {
+    const Result<Bytes> bytes = read_file(file, most_bytes);
+    if (!bytes) {
+        return fail(ErrorKind::BadConfiguration, bytes.error().message);
+    }
+    std::string text(as_text(*bytes));
+    Result<CheckedSettings> settings = parse_settings(text, as);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    return UsedSettings{std::move(*settings), std::move(text), {}};
+}
+
+} // namespace
+
+Result<UsedSettings> use_settings(const std::filesystem::path& file,
+                                  const std::optional<SettingsFallback>& fallback) {
+    Result<UsedSettings> own = read_from(file, file);
+    if (own || !fallback) {
+        return own;
+    }
+    const auto instead = [&](const std::filesystem::path& other, const std::filesystem::path& as,
+                             std::string_view which) -> std::optional<UsedSettings> {
+        Result<UsedSettings> used = other.empty() ? own : read_from(other, as);
+        if (!used) {
+            return std::nullopt;
+        }
+        used->instead =
+            fmt::format("{}, {}, are used in their place: {}", which, other.string(), own.error().message);
+        return std::move(*used);
+    };
+    std::optional<UsedSettings> used = instead(fallback->last_good, file, "the last good settings");
+    if (!used) {
+        used = instead(fallback->shipped, fallback->shipped, "the settings as shipped");
+    }
+    return used ? Result<UsedSettings>(std::move(*used)) : own;
+}
+
+SettingsKeeper::SettingsKeeper(std::filesystem::path file, std::string text)
+    : file_(std::move(file)), text_(std::move(text)) {}
+
+void SettingsKeeper::note(const RunStatus& status) {
+    const MonotonicTime now = status.written_at_monotonic;
+    const bool is_good = status.health == Health::Well && !status.artifact.empty();
+    if (!is_good || (since_ && now - latest_ > longest_silence)) {
+        since_.reset();
+    }
+    latest_ = now;
+    if (is_done_ || !is_good) {
+        return;
+    }
+    since_ = since_ ? since_ : now;
+    if (now - *since_ < long_enough) {
+        return;
+    }
+    is_done_ = true;
+    const Result<Bytes> kept = read_file(file_, most_bytes);
+    if (kept && as_text(*kept) == text_) {
+        return;
+    }
+    if (const Result<void> written = write_file(file_, as_bytes(text_)); !written) {
+        say_line("frustumscreen", "the last good settings are not kept: " + written.error().message);
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,229 @@
+"""The watchdog service: whatever fails, the exhibit comes back, by the shortest ladder; docs/recovery.md is the table.
+
+Each test looks at the screen: what is lit, and the code in the picture's corner, which changes while the picture lives.
+"""
+
+import json
+
+import screen
+from bench import SETTINGS, UNIT, USUAL, eventually
+from hil_test import START_S, HilTest, long
+
+WATCHDOG = "frustumscreen-watchdog.service"
+STATUS = "/run/frustumscreen-watchdog/status.json"
+LAST_GOOD = "/var/cache/frustumscreen/settings_last_good.toml"
+ENDS = "/run/frustumscreen/ends"
+GROUP = "/sys/fs/cgroup/system.slice/frustumscreen.service"
+PACKS = "/var/lib/frustumscreen/packs"
+SPOILT = "[projector]\nwidth = \n"
+BEGIN = f"""systemctl stop {WATCHDOG}; rm -rf /var/lib/frustumscreen-watchdog/*; touch /run/hil-watchdog
+systemctl start {WATCHDOG}"""
+END = f"rm -f /run/hil-watchdog; systemctl stop {WATCHDOG}"
+BACK_S = 60.0  # a start on a slow processor
+LIT_PIXELS = 300
+SYSTEM_BACK_S = 120.0
+
+
+class Watchdog(HilTest):
+    broken_s = None
+
+    def setUp(self):
+        super().setUp()
+        self.bench.machine.check(BEGIN)
+        self.addCleanup(self.bench.machine.run, END)
+        eventually(lambda: self.said().get("lit"), BACK_S, "the watchdog does not see that the exhibit is lit")
+        self.process = self.bench.main_process()
+
+    def said(self):
+        text = self.bench.machine.read(STATUS)
+        try:
+            return json.loads(text) if text else {}
+        except ValueError:
+            return {}
+
+    def faults(self):
+        return self.said().get("faults", [])
+
+    def took(self, step, cause, timeout_s=BACK_S):
+        """Waits until the watchdog has taken this step for this cause, and prints what it took before."""
+        def found():
+            return [fault for fault in self.faults() if (fault["step"], fault["cause"]) == (step, cause)]
+
+        eventually(found, timeout_s, lambda: f"no step {step} for {cause}, only {self.faults()}")
+        print("  " + ", ".join(f"{fault['cause']}: {fault['step']}" for fault in self.faults()), flush=True)
+
+    def assert_lives(self, timeout_s=BACK_S):
+        """The screen is lit, and its picture is another one soon."""
+        seen = set()
+
+        def lit_anew():
+            picture = self.bench.screendump()
+            code = screen.probe(picture)
+            if code is not None and screen.count(screen.lit(picture)) >= LIT_PIXELS:
+                seen.add(code)
+            return len(seen) > 1
+
+        eventually(lit_anew, timeout_s, lambda: f"no living picture comes; codes seen: {seen}")
+        if self.broken_s is not None:
+            print(f"  lit {self.bench.machine.granted_s() - self.broken_s:.0f} s after the fault", flush=True)
+
+    def assert_untouched(self):
+        self.assert_lives()
+        self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
+        self.assertEqual(self.faults(), [], "a step was taken though the exhibit was well")
+
+    def broken(self):
+        """From here on it is counted how long it takes until the screen is lit again."""
+        self.broken_s = self.bench.machine.granted_s()
+
+    def kill(self):
+        """Kills the exhibit, and waits until systemd has started it again."""
+        process = self.bench.main_process()
+        self.broken()
+        self.bench.machine.check(f"kill -KILL {process}")
+        eventually(lambda: self.bench.main_process() not in (0, process), BACK_S, "systemd does not restart it")
+
+    def process_of(self, unit):
+        return int(self.bench.machine.check(f"systemctl show --value -p MainPID {unit}"))
+
+    def test_watchdog_killed_and_stopped(self):
+        for signal in ("KILL", "STOP"):
+            before, process = self.said()["monotonic_ns"], self.process_of(WATCHDOG)
+            self.bench.machine.check(f"kill -{signal} {process}")
+            eventually(lambda: self.process_of(WATCHDOG) not in (0, process), BACK_S, "systemd does not restart it")
+            eventually(lambda: self.said().get("monotonic_ns", 0) > before and self.said()["lit"], BACK_S,
+                       "it runs again and sees nothing")
+        self.assert_untouched()
+
+    def test_exhibit_killed_again_and_again(self):
+        for _ in range(3):
+            self.kill()
+        self.took("reset_device", "keeps_ending")
+        self.bench.status_says("tracker", "is running", START_S)
+        self.assert_lives()
+        self.assertEqual(len(self.faults()), 1, f"more steps than one: {self.faults()}")
+
+    def test_spoilt_settings(self):
+        machine = self.bench.machine
+        self.show("nautilus-cup")
+        eventually(lambda: machine.read(LAST_GOOD) == USUAL, BACK_S, "good settings are not kept")
+        # The mode goes with the watchdog's folder.
+        self.addCleanup(machine.run, f"{END}; systemctl restart --no-block {UNIT}")
+        self.addCleanup(machine.write, SETTINGS, USUAL)
+        machine.write(SETTINGS, SPOILT)
+        self.broken()
+        machine.check(f"kill -KILL {self.process}")
+        self.took("built_in", "keeps_ending", 2 * BACK_S)
+        self.bench.status_says("mode", "^built_in$", START_S)
+        status = self.bench.status_says("artifact", "^Amphora$", START_S)
+        self.assertIn(f"the last good settings, {LAST_GOOD}, are used in their place: {SETTINGS}:2", status["settings"])
+        self.bench.status_says("tracker", "is running", START_S)
+        self.assert_at((0.0, 0.0, 0.0), artifact="amphora")  # the pack of this name has the same triangles
+        self.assert_lives()
+
+    def test_tracker_hung_until_its_port_is_reset(self):
+        self.broken()
+        self.bench.tracker.tell("hang-until-reset")
+        self.bench.status_says("tracker_hangs", "True")
+        self.took("reset_device", "device_silent")
+        self.bench.status_says("tracker", "is running", START_S)
+        self.bench.place((0.05, 0.0, 0.0))
+        self.assert_at((0.05, 0.0, 0.0))
+        self.assert_lives()
+        self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
+
+    def test_clock_leaps(self):
+        machine = self.bench.machine
+        self.addCleanup(machine.run, "date -s \"@$(cat /run/hil/now)\"")
+        machine.check("date +%s > /run/hil/now")
+        for leap in ("1 year", "-2 years"):
+            machine.check(f"date -s '{leap}'")
+            self.settle()
+        self.assert_untouched()
+
+    @long
+    def test_spoilt_packs(self):
+        """The exhibit runs and has nothing to show."""
+        machine = self.bench.machine
+        self.addCleanup(machine.run, f"{END}; mv /run/hil-packs/* {PACKS}; systemctl restart --no-block {UNIT}")
+        machine.check(f"mkdir -p /run/hil-packs; mv {PACKS}/*.fspack /run/hil-packs; "
+                      f"for pack in amphora nautilus-cup; do echo spoilt > {PACKS}/$pack.fspack; done")
+        self.kill()
+        self.took("built_in", "nothing_to_show", 4 * BACK_S)
+        self.bench.status_says("artifact", "^Amphora$", START_S)
+        self.assert_at((0.0, 0.0, 0.0), artifact="amphora")
+        self.assert_lives()
+
+    @long
+    def test_full_disk(self):
+        """Nothing can be kept; the exhibit goes on, and the watchdog takes steps, but no reboot that it could not write down."""
+        machine = self.bench.machine
+        folders = ("/var/lib/frustumscreen-watchdog", "/var/cache/frustumscreen")
+        self.addCleanup(machine.run, f"{END}; systemctl stop {UNIT}; umount {' '.join(folders)}; systemctl start --no-block {UNIT}")
+        machine.check(f"systemctl stop {WATCHDOG} {UNIT}")
+        for folder in folders:
+            machine.check(f"mount -t tmpfs -o size=8k full {folder}; "
+                          f"head -c 8192 /dev/zero > {folder}/full; ! echo more > {folder}/more")
+        machine.check(f"systemctl start --no-block {UNIT}")
+        eventually(lambda: self.said().get("lit"), BACK_S, "it is not lit")
+        self.assert_lives()
+        for _ in range(3):
+            self.kill()
+        self.took("reset_device", "keeps_ending")
+        self.assert_lives()
+
+    @long
+    def test_leak(self):
+        """A process of the unit takes memory until MemoryMax=: the kernel ends it, and systemd starts the exhibit again."""
+        self.broken()
+        self.bench.machine.spawn(f"echo $$ > {GROUP}/cgroup.procs; exec tail /dev/zero")
+        eventually(lambda: self.bench.main_process() not in (0, self.process), 2 * BACK_S, "it was not started again")
+        self.assertIn("oom-kill", self.bench.machine.read(ENDS))
+        self.assert_lives()
+
+    @long
+    def test_fork_bomb(self):
+        """TasksMax= holds it; the exhibit goes on, and when it is killed it comes back without the bomb."""
+        machine = self.bench.machine
+        machine.spawn(f"echo $$ > {GROUP}/cgroup.procs; while :; do sleep 1000 & done")
+        eventually(lambda: int(machine.read(f"{GROUP}/pids.current")) == int(machine.read(f"{GROUP}/pids.max")), BACK_S,
+                   "the bomb does not go off")
+        self.assert_untouched()
+        self.kill()
+        self.assert_lives()
+        self.assertLess(int(machine.read(f"{GROUP}/pids.current")), int(machine.read(f"{GROUP}/pids.max")) // 2)
+
+    @long
+    def test_load(self):
+        """Twelve busy loops for ten minutes: no step is taken."""
+        self.addCleanup(self.bench.machine.run, "systemctl stop hil-load.service")
+        self.bench.machine.check("systemd-run --unit=hil-load sh -c 'for k in 1 2 3 4 5 6 7 8 9 10 11 12; do "
+                                 "while :; do :; done & done; wait'")
+        self.settle(600.0)
+        self.assert_untouched()
+
+    @long
+    def test_frozen_service_manager(self):
+        """Only the hardware's watchdog is left: it resets the machine."""
+        self.bench.machine.may_start_anew()
+        self.broken()
+        self.bench.machine.spawn("echo 1 > /sys/fs/cgroup/init.scope/cgroup.freeze")
+        self.assert_started_anew()
+
+    @long
+    def test_panic(self):
+        self.bench.machine.may_start_anew()
+        self.broken()
+        self.bench.machine.spawn("sleep 1; echo c > /proc/sysrq-trigger")
+        self.assert_started_anew()
+
+    def assert_started_anew(self):
+        self.assertTrue(self.bench.machine.resets_within(SYSTEM_BACK_S), "the machine was not reset")
+        self.bench.machine.wait_for_start()
+        self.bench.status_says("tracker", "is running", SYSTEM_BACK_S)
+        self.assert_lives(SYSTEM_BACK_S)
+
+    def settle(self, seconds=5.0):
+        """Lets the watchdog look for so long."""
+        begun = self.said()["monotonic_ns"]
+        eventually(lambda: self.said().get("monotonic_ns", 0) > begun + 1e9 * seconds, 10 * seconds, "it does not look")

@@ -1,0 +1,87 @@
+// `frustumscreen run --mode-file`: what the watchdog wants to be shown, and with which settings.
+
+#include "tests/programs/kiosk_folder.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+class RunMode : public KioskFolder {
+protected:
+    void SetUp() override {
+        KioskFolder::SetUp();
+        for (const char* name : {"shipped", "cache", "library"}) {
+            std::filesystem::create_directory(folder / name);
+        }
+        std::filesystem::copy_file(folder / "rings.fspack", folder / "shipped/built_in.fspack");
+    }
+    void write(const char* file, const std::string& text) const {
+        ASSERT_TRUE(write_file(folder / file, as_bytes(text)));
+    }
+    std::string text(const char* file) const { return std::string(as_text(*read_file(folder / file))); }
+    int run() const {
+        const int status =
+            std::system(fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --mode-file mode "
+                                    "--shipped shipped --cache cache --headless --fast --json --seconds 1 "
+                                    ">out.json 2>err.txt",
+                                    folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                            .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    nlohmann::json status() const {
+        EXPECT_EQ(run(), 0) << text("err.txt");
+        return nlohmann::json::parse(text("out.json"), nullptr, false);
+    }
+};
+
+TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
+    EXPECT_EQ(status().at("mode"), "normal");
+    EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
+    write("mode", "sideways\n");
+    EXPECT_EQ(status().at("mode"), "normal");
+    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set and built_in are"),
+              std::string::npos);
+    write("mode", "normal\n");
+    EXPECT_EQ(status().at("mode"), "normal");
+    EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
+}
+
+TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
+    std::filesystem::remove(folder / "rings.fspack");
+    EXPECT_NE(run(), 0);
+    write("mode", "built_in\n");
+    const nlohmann::json said = status();
+    EXPECT_EQ(said.at("mode"), "built_in");
+    EXPECT_EQ(said.at("artifact"), "Rings");
+    EXPECT_EQ(said.at("settings"), "");
+    EXPECT_EQ(said.at("set"), nullptr);
+}
+
+TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {
+    const std::string good = text("kiosk.toml");
+    write("kiosk.toml", "[projector]\nwidth = \"wide\"\n");
+    EXPECT_EQ(run(), 1);
+    EXPECT_NE(text("err.txt").find("kiosk.toml:2"), std::string::npos) << text("err.txt");
+
+    write("mode", "built_in\n");
+    EXPECT_EQ(run(), 1); // there are no others
+    write("shipped/kiosk.toml", "[projector]\nwidth = 640\nheight = 400\n[tracker]\nkind = \"none\"\n");
+    std::string why = status().at("settings");
+    EXPECT_EQ(why.find("the settings as shipped, shipped/kiosk.toml, are used in their place: "), 0U) << why;
+
+    write("cache/settings_last_good.toml", good);
+    why = status().at("settings");
+    EXPECT_EQ(why.find("the last good settings, cache/settings_last_good.toml, are used in their place: "),
+              0U)
+        << why;
+
+    write("cache/settings_last_good.toml", "spoilt as well");
+    why = status().at("settings");
+    EXPECT_EQ(why.find("the settings as shipped"), 0U) << why;
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

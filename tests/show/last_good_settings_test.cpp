@@ -1,0 +1,87 @@
+#include "app/show/last_good_settings.h"
+#include "firmware_host/base/file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::seconds;
+
+class LastGoodSettings : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    static RunStatus at(int second, Health health = Health::Well, std::string_view artifact = "Rings") {
+        RunStatus status;
+        status.written_at_monotonic = MonotonicTime(seconds(second));
+        status.health = health;
+        status.artifact = artifact;
+        return status;
+    }
+    [[nodiscard]] std::string kept() const {
+        const Result<Bytes> bytes = read_file(folder / "kept.toml", 1000);
+        return bytes ? std::string(as_text(*bytes)) : "";
+    }
+    std::filesystem::path folder;
+};
+
+TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {
+    SettingsKeeper keeper(folder / "kept.toml", "a = 1\n");
+    int second = 0;
+    for (; second < 20; ++second) {
+        keeper.note(at(second));
+    }
+    keeper.note(at(second++, Health::FrozenCode));
+    keeper.note(at(second++, Health::Well, "")); // the alignment pattern
+    const int begin = second;
+    for (; second < begin + 30; ++second) {
+        keeper.note(at(second));
+        EXPECT_EQ(kept(), "");
+    }
+    keeper.note(at(second));
+    EXPECT_EQ(kept(), "a = 1\n");
+}
+
+TEST_F(LastGoodSettings, ASilenceBeginsTheHalfMinuteAnew) {
+    SettingsKeeper keeper(folder / "kept.toml", "a = 1\n");
+    keeper.note(at(0));
+    keeper.note(at(40));
+    EXPECT_EQ(kept(), "");
+}
+
+TEST_F(LastGoodSettings, TheSameOnesAreNotWrittenAgain) {
+    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes("a = 1\n")));
+    const auto before = std::filesystem::last_write_time(folder / "kept.toml") - std::chrono::hours(1);
+    std::filesystem::last_write_time(folder / "kept.toml", before);
+    const auto show_with = [&](const char* text) {
+        SettingsKeeper keeper(folder / "kept.toml", text);
+        for (int second = 0; second <= 30; second += 2) {
+            keeper.note(at(second));
+        }
+    };
+    show_with("a = 1\n");
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "kept.toml"), before);
+    show_with("a = 2\n");
+    EXPECT_EQ(kept(), "a = 2\n");
+}
+
+TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
+    std::filesystem::create_directory(folder / "etc");
+    ASSERT_TRUE(write_file(folder / "etc/kiosk.toml", as_bytes("not TOML")));
+    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes("[exhibit]\npacks = [\"a.fspack\"]\n")));
+    EXPECT_FALSE(use_settings(folder / "etc/kiosk.toml", std::nullopt));
+    const Result<UsedSettings> used =
+        use_settings(folder / "etc/kiosk.toml", SettingsFallback{folder / "kept.toml", {}});
+    ASSERT_TRUE(used) << used.error().message;
+    EXPECT_EQ(used->settings->exhibit.packs.front(), folder / "etc/a.fspack");
+}
+
+} // namespace
+} // namespace frustumscreen
