@@ -190,8 +190,7 @@ TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
         ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
     }
     EXPECT_EQ(errors(), "frustumscreen: display: " + card.string() +
-                            " cannot be opened: Permission denied; the exhibit's user must be in the group "
-                            "video\n");
+                            " cannot be opened: Permission denied; this user must be in the group video\n");
     fs::permissions(card, fs::perms::all); // udev is done; that it is no card is another matter
     EXPECT_TRUE(comes("err.txt", "has no connectors")) << errors();
     ::kill(process, SIGTERM);

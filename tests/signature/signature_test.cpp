@@ -166,7 +166,7 @@ TEST(Signature, OfAKeyThatHasEndedSaysWhatTheClockSays) {
     EXPECT_TRUE(on(day(2026, 12, 31))) << "its last day counts";
     EXPECT_TRUE(on(std::nullopt));
     expect_refused(on(day(2027, 1, 1)), SignatureFault::KeyEnded,
-                   "whose last day was 2026-12-31, and the clock here says 2027-01-01");
+                   "whose last day was 2026-12-31, and here it is 2027-01-01");
     expect_refused(on(day(2100, 1, 1)), SignatureFault::KeyEnded, "2100-01-01");
     // The same key, prolonged.
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {key, minisigns_key()}, day(2100, 1, 1)));
