@@ -11,6 +11,7 @@
 #pragma once
 
 #include "app/settings/hours_settings.h"
+#include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/time.h"
 
 #include <chrono>
@@ -59,14 +60,14 @@ private:
 /// Says whether a wall clock can be believed. It is held against the monotonic clock, which nobody sets.
 class WallClock {
 public:
-    /// Before this program was written no clock was right.
-    static constexpr std::chrono::sys_days earliest{std::chrono::year(2026) / 1 / 1};
     /// A smaller step is a clock that is put right.
     static constexpr std::chrono::seconds leap{30};
 
     /// Returns by how much the clock was set since the look before; 0: it was not.
     std::chrono::seconds look(MonotonicTime now, std::chrono::sys_seconds wall);
-    [[nodiscard]] static bool plausible(std::chrono::sys_seconds wall) { return wall >= earliest; }
+    [[nodiscard]] static bool plausible(std::chrono::sys_seconds wall) {
+        return wall >= earliest_plausible_day;
+    }
 
 private:
     std::optional<std::chrono::sys_seconds>

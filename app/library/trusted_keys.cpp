@@ -11,8 +11,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// No signature and no clock that is right is older than this program.
-constexpr std::chrono::sys_days first_day = std::chrono::year(2026) / 1 / 1;
 constexpr std::chrono::days most_days_ahead(3653);
 
 const TrustedKey* find(std::span<const TrustedKey> keys, const PublicKey& key) {
@@ -94,7 +92,7 @@ std::optional<std::chrono::sys_days> signing_day(std::uint64_t serial) {
 }
 
 std::string latest_day(const std::string& latest, std::optional<std::chrono::sys_days> day) {
-    const std::chrono::sys_days known = parse_day(latest).value_or(first_day);
+    const std::chrono::sys_days known = parse_day(latest).value_or(earliest_plausible_day);
     return day && *day > known && *day <= known + most_days_ahead ? text_of_day(*day) : latest;
 }
 

@@ -1,6 +1,7 @@
 #include "app/show/run_report.h"
 
 #include "app/pack/pack_file.h"
+#include "firmware_host/base/boot_id.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
@@ -118,17 +119,6 @@ nlohmann::ordered_json json_of(const HoursStatus& hours) {
             {"clock", hours.clock.view()}};
 }
 
-/// The kernel's name for the time since it was started (random(4)); empty where it does not say.
-Sentence boot_id() {
-    std::string id;
-    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), id);
-    return Sentence(id);
-}
-
-std::string utc_text(std::chrono::system_clock::time_point time) {
-    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
-}
-
 } // namespace
 
 PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
@@ -243,7 +233,7 @@ double resident_mib() {
 void stamp(RunStatus& status) {
     status.written_at = std::chrono::system_clock::now();
     status.written_at_monotonic = monotonic_now();
-    status.boot_id = boot_id();
+    status.boot_id = Sentence(boot_id());
     status.resident_mib = resident_mib();
 }
 
@@ -291,6 +281,7 @@ SharedSurroundings StatusFile::surroundings() {
 void StatusFile::work() {
     begin_device_thread("status");
     bool complained = false;
+    Surroundings surroundings;
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return pending_ || closing_; });
@@ -302,8 +293,8 @@ void StatusFile::work() {
         pending_ = false;
         lock.unlock();
         stamp(status);
-        status.surroundings = std::make_shared<const Surroundings>(
-            read_surroundings(file_, usual_watchdog_file, status_clock()));
+        renew_surroundings(surroundings, file_, usual_watchdog_file, status_clock());
+        status.surroundings = std::make_shared<const Surroundings>(surroundings);
         const Result<void> written = write_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);

@@ -29,9 +29,7 @@ Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
     while (monotonic_now() < earliest_ && !stop.stop_requested()) {
         std::this_thread::sleep_for(between_looks);
     }
-    Turn turn = Turn::Nobody;
-    turn_.compare_exchange_strong(turn,
-                                  Turn::Asked); // else a copy hung the last time, and may be done by now
+    ask();
     if (!comes(monotonic_now() + patience, stop)) {
         return fail(ErrorKind::Internal, "the exhibit presents no picture; it hangs, or is ending");
     }

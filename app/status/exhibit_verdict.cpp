@@ -2,12 +2,14 @@
 
 #include "app/exhibit/states.h"
 #include "app/status/json_fields.h"
+#include "app/watch/step.h"
 #include "firmware_host/base/words_of_time.h"
 #include "firmware_host/service/watchdog_policy.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
@@ -51,7 +53,7 @@ std::string watchdog_complaint(const StatusDocument& watchdog) {
         return "The exhibit runs, and its watchdog says: " + trouble.text("sentence");
     }
     const std::string mode = fields.text("mode");
-    if (!mode.empty() && mode != watchdog_modes[0].word) {
+    if (!mode.empty() && mode != word_of(Mode::Normal)) {
         return fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(mode));
     }
     return {};
@@ -60,9 +62,8 @@ std::string watchdog_complaint(const StatusDocument& watchdog) {
 } // namespace
 
 std::string_view sentence_of_mode(std::string_view word) {
-    const auto* const known = std::find_if(watchdog_modes.begin(), watchdog_modes.end(),
-                                           [&](const WatchdogMode& mode) { return mode.word == word; });
-    return known != watchdog_modes.end() ? known->sentence : word;
+    const std::optional<Mode> mode = mode_named(word);
+    return mode ? sentence_of(*mode) : word;
 }
 
 ExhibitVerdict verdict_of(const KnownExhibit& known) {

@@ -2,6 +2,7 @@
 
 #include "app/pack/json_reader.h"
 #include "app/status/json_fields.h"
+#include "firmware_host/base/boot_id.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
@@ -38,9 +39,7 @@ std::string system_name() {
 } // namespace
 
 StatusClock status_clock() {
-    StatusClock clock{monotonic_now(), {}};
-    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), clock.boot_id);
-    return clock;
+    return {monotonic_now(), boot_id()};
 }
 
 StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
@@ -79,27 +78,36 @@ StatusDocument read_status(const std::filesystem::path& file, const StatusClock&
     return document;
 }
 
-Surroundings read_surroundings(const std::filesystem::path& status_file,
-                               const std::filesystem::path& watchdog_file, const StatusClock& clock) {
-    Surroundings surroundings{read_status(watchdog_file, clock), {}, {}, {}, system_name()};
-    surroundings.monotonic_s = to_seconds(clock.now.time_since_epoch());
-    const std::filesystem::path ends = status_file.parent_path() / "ends";
-    std::error_code unknown;
-    if (!std::filesystem::exists(ends, unknown)) {
-        return surroundings;
+void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
+                        const std::filesystem::path& watchdog_file, const StatusClock& clock) {
+    known.watchdog = read_status(watchdog_file, clock);
+    known.monotonic_s = to_seconds(clock.now.time_since_epoch());
+    if (known.system.empty()) {
+        known.system = system_name();
     }
-    const Result<Bytes> bytes = read_file(ends, most_ends_bytes);
-    if (bytes) {
-        surroundings.ends = parse_service_ends(as_text(*bytes));
-    } else {
-        surroundings.ends_trouble = printable(bytes.error().message, 300);
+    const std::filesystem::path file = status_file.parent_path() / "ends";
+    std::error_code missing;
+    const std::uintmax_t bytes =
+        std::filesystem::exists(file, missing) ? std::filesystem::file_size(file, missing) : 0;
+    if (bytes == known.ends_bytes && known.ends_trouble.empty()) {
+        return;
     }
-    return surroundings;
+    known.ends_bytes = bytes;
+    known.ends = {};
+    known.ends_trouble.clear();
+    const Result<Bytes> text = read_file(file, most_ends_bytes);
+    if (text) {
+        known.ends = parse_service_ends(as_text(*text));
+    } else if (bytes > 0) {
+        known.ends_trouble = printable(text.error().message, 300);
+    }
 }
 
 KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
                                 const std::filesystem::path& watchdog_file, const StatusClock& clock) {
-    return {read_status(status_file, clock), read_surroundings(status_file, watchdog_file, clock)};
+    KnownExhibit known{read_status(status_file, clock), {}};
+    renew_surroundings(known.surroundings, status_file, watchdog_file, clock);
+    return known;
 }
 
 } // namespace frustumscreen

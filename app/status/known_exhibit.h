@@ -6,7 +6,8 @@
 /// Errors   none: `why` says what could not be read. A file of another program may hold anything.
 #pragma once
 
-#include "app/status/service_ends.h"
+#include "app/watch/outcome.h"
+#include "app/watch/service_ends.h"
 #include "firmware_host/base/time.h"
 
 #include <nlohmann/json.hpp>
@@ -23,9 +24,6 @@ namespace frustumscreen {
 inline constexpr std::string_view usual_status_file = "/run/frustumscreen/status.json";
 inline constexpr std::string_view usual_watchdog_file = "/run/frustumscreen-watchdog/status.json";
 
-/// A status that is older is not of a program that runs: each is written once a second.
-inline constexpr double fresh_for_s = 5.0;
-
 /// A moment, by this machine's clocks.
 struct StatusClock {
     MonotonicTime now;
@@ -38,7 +36,7 @@ struct StatusDocument {
     std::string why;             ///< then one sentence
     std::optional<double> age_s; ///< none: it does not say when it was written, or says what cannot be
     bool other_boot = false;     ///< it was written before the machine was started
-    [[nodiscard]] bool fresh() const { return age_s && *age_s <= fresh_for_s; }
+    [[nodiscard]] bool fresh() const { return age_s && *age_s <= to_seconds(fresh_for); }
 };
 [[nodiscard]] StatusDocument parse_status(std::string_view json, const StatusClock& clock);
 [[nodiscard]] StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock);
@@ -47,15 +45,15 @@ struct StatusDocument {
 struct Surroundings {
     StatusDocument watchdog;
     ServiceEnds ends;
-    std::string ends_trouble; ///< why their file could not be read; one that is not there has no ends
-    double monotonic_s = 0.0; ///< when it was read
-    std::string system;       ///< name and version of the operating system and of the kernel
+    std::uintmax_t ends_bytes = 0; ///< of their file, to which lines are only ever added
+    std::string ends_trouble;      ///< why their file could not be read; one that is not there has no ends
+    double monotonic_s = 0.0;      ///< when it was read
+    std::string system;            ///< name and version of the operating system and of the kernel
 };
 using SharedSurroundings = std::shared_ptr<const Surroundings>;
-/// The ends' file lies beside the status file.
-[[nodiscard]] Surroundings read_surroundings(const std::filesystem::path& status_file,
-                                             const std::filesystem::path& watchdog_file,
-                                             const StatusClock& clock);
+/// Brings `known` up to now; what cannot have changed is not read again. The ends' file lies beside the status file.
+void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
+                        const std::filesystem::path& watchdog_file, const StatusClock& clock);
 
 struct KnownExhibit {
     StatusDocument status;

@@ -3,6 +3,7 @@
 #include "app/exhibit/states.h"
 #include "app/status/exhibit_verdict.h"
 #include "app/status/json_fields.h"
+#include "app/watch/step.h"
 #include "firmware_host/service/watchdog_policy.h"
 
 #include <fmt/format.h>
@@ -156,8 +157,9 @@ void add_watchdog(Metrics& metrics, const StatusDocument& watchdog) {
     }
     const JsonFields fields(watchdog.fields);
     metrics.family("watchdog_mode", "gauge", "1 for what the watchdog lets the exhibit show.");
-    for (const WatchdogMode& mode : watchdog_modes) {
-        metrics.sample("mode", mode.word, fields.text("mode") == mode.word ? 1.0 : 0.0);
+    for (std::size_t k = 0; k < mode_count; ++k) {
+        const std::string_view mode = word_of(static_cast<Mode>(k));
+        metrics.sample("mode", mode, fields.text("mode") == mode ? 1.0 : 0.0);
     }
     metrics.gauge("watchdog_trouble", fields.at("trouble").there() ? 1.0 : 0.0,
                   "1: it sees something wrong.");

@@ -26,6 +26,8 @@ inline constexpr std::size_t cause_count = 6;
 [[nodiscard]] std::optional<Cause> cause_named(std::string_view word);
 /// A sentence without its full stop.
 [[nodiscard]] std::string_view sentence_of(Cause cause);
+/// The same for what led to a step; none: ten good minutes.
+[[nodiscard]] std::string_view sentence_of(const std::optional<Cause>& cause);
 /// Whether the visitors see no picture, or none that means anything.
 [[nodiscard]] constexpr bool is_dark(Cause cause) {
     return cause != Cause::MemoryShort && cause != Cause::DeviceSilent;

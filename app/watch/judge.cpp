@@ -33,14 +33,14 @@ bool Judge::picture_lives(MonotonicTime now, const Outcome& outcome) {
     }
     process_ = outcome.process;
     const std::optional<ExhibitSays>& says = outcome.exhibit;
-    if (outcome.process == 0 || !says || says->age > fresh || !says->well) {
+    if (outcome.process == 0 || !says || says->age > fresh_for || !says->well) {
         return false;
     }
     if (says->pictures != pictures_ || says->asleep) {
         pictures_ = says->pictures;
         counted_ = now;
     }
-    return now - counted_ < fresh;
+    return now - counted_ < fresh_for;
 }
 
 bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience) {

@@ -28,7 +28,6 @@ struct Patience {
 
 class Judge {
 public:
-    static constexpr Nanoseconds fresh = std::chrono::seconds(5); ///< a status is
     static constexpr Nanoseconds late_look = std::chrono::seconds(5);
     static constexpr double least_memory_free = 0.04;
     static constexpr double most_exhibit_memory = 0.92;

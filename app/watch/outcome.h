@@ -10,6 +10,9 @@
 
 namespace frustumscreen {
 
+/// A status that is older is not of a program that runs: each is written once a second.
+inline constexpr Nanoseconds fresh_for = std::chrono::seconds(5);
+
 /// What the exhibit says of itself, in its status file (docs/status.md).
 struct ExhibitSays {
     Nanoseconds age{0};          ///< of what it says

@@ -33,6 +33,8 @@ inline constexpr std::size_t mode_count = 4;
 [[nodiscard]] std::string_view sentence_of(Step step);
 /// One word: normal, last_good_set, built_in, safe.
 [[nodiscard]] std::string_view word_of(Mode mode);
+/// What the watchdog does in it, as in: the watchdog ...
+[[nodiscard]] std::string_view sentence_of(Mode mode);
 [[nodiscard]] std::optional<Mode> mode_named(std::string_view word);
 
 } // namespace frustumscreen

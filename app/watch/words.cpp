@@ -27,7 +27,12 @@ constexpr std::array<Words, step_count> steps{{
     {"reboot", "the computer is started again"},
     {"return", "the exhibit goes back to its own set"},
 }};
-constexpr std::array<std::string_view, mode_count> modes{"normal", "last_good_set", "built_in", "safe"};
+constexpr std::array<Words, mode_count> modes{{
+    {"normal", "lets the exhibit show what it wants"},
+    {"last_good_set", "lets the exhibit show the last set of packs that was good"},
+    {"built_in", "lets the exhibit show a built-in artifact"},
+    {"safe", "shows the safe picture, with words for the staff"},
+}};
 
 template <typename Enum, std::size_t count>
 std::optional<Enum> named(const std::array<Words, count>& words, std::string_view word) {
@@ -50,6 +55,9 @@ std::optional<Cause> cause_named(std::string_view word) {
 std::string_view sentence_of(Cause cause) {
     return causes.at(static_cast<std::size_t>(cause)).sentence;
 }
+std::string_view sentence_of(const std::optional<Cause>& cause) {
+    return cause ? sentence_of(*cause) : "ten good minutes";
+}
 std::string_view word_of(Step step) {
     return steps.at(static_cast<std::size_t>(step)).word;
 }
@@ -60,15 +68,13 @@ std::string_view sentence_of(Step step) {
     return steps.at(static_cast<std::size_t>(step)).sentence;
 }
 std::string_view word_of(Mode mode) {
-    return modes.at(static_cast<std::size_t>(mode));
+    return modes.at(static_cast<std::size_t>(mode)).word;
+}
+std::string_view sentence_of(Mode mode) {
+    return modes.at(static_cast<std::size_t>(mode)).sentence;
 }
 std::optional<Mode> mode_named(std::string_view word) {
-    for (std::size_t k = 0; k < mode_count; ++k) {
-        if (modes.at(k) == word) {
-            return static_cast<Mode>(k);
-        }
-    }
-    return std::nullopt;
+    return named<Mode>(modes, word);
 }
 
 } // namespace frustumscreen

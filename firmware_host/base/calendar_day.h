@@ -14,6 +14,9 @@
 
 namespace frustumscreen {
 
+/// No clock that is right, and nothing that is signed, is older than this program.
+inline constexpr std::chrono::sys_days earliest_plausible_day = std::chrono::year(2026) / 1 / 1;
+
 [[nodiscard]] inline std::string text_of_day(std::chrono::sys_days day) {
     const std::chrono::year_month_day date(day);
     return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),

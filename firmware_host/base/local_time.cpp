@@ -36,6 +36,10 @@ std::chrono::seconds local_offset_at(std::chrono::sys_seconds time) {
     return std::chrono::seconds(::localtime_r(&seconds, &local) != nullptr ? local.tm_gmtoff : 0);
 }
 
+std::string utc_text(std::chrono::system_clock::time_point time) {
+    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
 std::string local_time_text(std::chrono::sys_seconds time) {
     const std::chrono::seconds offset = local_offset_at(time);
     const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(std::chrono::abs(offset)).count();

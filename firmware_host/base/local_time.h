@@ -21,6 +21,8 @@ namespace frustumscreen {
 /// How far local time is ahead of UTC then.
 [[nodiscard]] std::chrono::seconds local_offset_at(std::chrono::sys_seconds time);
 
+/// "2026-11-23T17:00:00Z"
+[[nodiscard]] std::string utc_text(std::chrono::system_clock::time_point time);
 /// "2026-11-23T18:00:00+01:00"
 [[nodiscard]] std::string local_time_text(std::chrono::sys_seconds time);
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <future>
 
 namespace frustumscreen {
@@ -58,6 +59,47 @@ TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
         ASSERT_EQ(texel, glm::u8vec4(0, 0, 0, 255));
     }
     EXPECT_GE(monotonic_now() - start, Screenshot::between_pictures);
+}
+
+/// A display whose picture cannot be read until somebody lets it.
+class HeldDisplay : public Display {
+public:
+    explicit HeldDisplay(Display& held) : held_(held) {}
+    [[nodiscard]] int width() const override { return held_.width(); }
+    [[nodiscard]] int height() const override { return held_.height(); }
+    [[nodiscard]] unsigned framebuffer() const override {
+        may_go_.wait(false);
+        return held_.framebuffer();
+    }
+    [[nodiscard]] int buffer_age() const override { return held_.buffer_age(); }
+    [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override { return held_.present(now); }
+    [[nodiscard]] std::string name() const override { return held_.name(); }
+    void release() {
+        may_go_ = true;
+        may_go_.notify_all();
+    }
+
+private:
+    Display& held_;
+    std::atomic<bool> may_go_ = false;
+};
+
+TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
+    draw(true, false, false);
+    HeldDisplay held(*display);
+    std::future<bool> answered = std::async(std::launch::async, [&] {
+        const bool was = screenshot.take(std::stop_token()).has_value();
+        held.release();
+        return was;
+    });
+    while (answered.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+        screenshot.serve(held); // it takes the question, and hangs until the one who asks has given up
+    }
+    EXPECT_FALSE(answered.get());
+    draw(false, true, false);
+    const Result<Image8> later = asked();
+    ASSERT_TRUE(later);
+    EXPECT_EQ(later->at(5, 5), glm::u8vec4(0, 255, 0, 255)) << "the picture of the copy that came too late";
 }
 
 TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {

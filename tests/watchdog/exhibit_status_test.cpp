@@ -30,7 +30,6 @@ TEST(ExhibitStatus, TakesItsFieldsAtTheirPlacesOnly) {
     EXPECT_FALSE(read->says.asleep);
     EXPECT_EQ(read->boot_id, "b1");
     EXPECT_EQ(read->written_at, MonotonicTime(std::chrono::seconds(5)));
-    EXPECT_TRUE(read->has_device);
 }
 
 TEST(ExhibitStatus, SaysWhatIsNotWell) {

@@ -30,8 +30,6 @@ public:
         } else if (is("monotonic_ns")) {
             status.written_at =
                 MonotonicTime(Nanoseconds(static_cast<Nanoseconds::rep>(std::min(value, most_ns))));
-        } else if (is("connections", 2)) {
-            status.has_device = value > 0;
         }
         return true;
     }
@@ -64,9 +62,7 @@ public:
 private:
     static constexpr int deepest = 16;
     static constexpr std::uint64_t most_ns = std::uint64_t{1} << 62U;
-    [[nodiscard]] bool is(std::string_view name, int depth = 1) const {
-        return depth_ == depth && key_ == name;
-    }
+    [[nodiscard]] bool is(std::string_view name) const { return depth_ == 1 && key_ == name; }
 
     std::string key_;
     int depth_ = 0;

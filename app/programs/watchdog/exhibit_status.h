@@ -16,7 +16,6 @@ struct ExhibitStatus {
     ExhibitSays says; ///< `age` is for the caller
     std::string boot_id;
     MonotonicTime written_at;
-    bool has_device = false; ///< it counts a tracker's connections: there is one, or was
 };
 
 [[nodiscard]] std::optional<ExhibitStatus> read_exhibit_status(std::string_view json);

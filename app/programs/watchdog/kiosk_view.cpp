@@ -1,6 +1,9 @@
 #include "app/programs/watchdog/kiosk_view.h"
 
 #include "app/programs/watchdog/exhibit_status.h"
+#include "app/watch/service_ends.h"
+#include "firmware_host/base/calendar_day.h"
+#include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 #include <sys/statvfs.h>
@@ -17,13 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::streamsize most_status_bytes = 1 << 20;
+constexpr std::uintmax_t most_status_bytes = 1 << 20;
 constexpr std::streamsize most_ends_bytes = 1 << 16; ///< at a look; more comes at the next one
 constexpr double full_disk = 0.03;
 constexpr double worn_disk = 0.8;
 constexpr double hot_c = 90.0;
-/// A clock before this was never set: the program is younger.
-constexpr std::chrono::sys_days youngest_day = std::chrono::year{2026} / 1 / 1;
 
 std::string first_line(const fs::path& file) {
     std::string line;
@@ -109,6 +110,18 @@ std::optional<bool> projector(const fs::path& root) {
     return connected;
 }
 
+/// Whether a JSON file has an object under this key, somewhere. It is read from one quotation mark to the next, as it may be larger
+/// than this program may grow.
+bool has_object(const fs::path& file, std::string_view key) {
+    std::ifstream stream(file, std::ios::binary);
+    for (std::string piece; std::getline(stream, piece, '"');) {
+        if (piece == key && std::getline(stream, piece, '"') && piece.find(':') != std::string::npos) {
+            return piece.find('{') != std::string::npos;
+        }
+    }
+    return false;
+}
+
 void look_at_disk(const fs::path& folder, Outcome& outcome) {
     struct statvfs disk {};
     if (::statvfs(folder.c_str(), &disk) == 0 && disk.f_blocks > 0) {
@@ -119,20 +132,13 @@ void look_at_disk(const fs::path& folder, Outcome& outcome) {
 
 } // namespace
 
-std::string boot_id(const fs::path& root) {
-    return first_line(root / "proc/sys/kernel/random/boot_id");
-}
-
 KioskView::KioskView(KioskPlaces places, std::string boot_id)
     : places_(std::move(places)), boot_id_(std::move(boot_id)) {}
 
 std::optional<ExhibitSays> KioskView::exhibit(MonotonicTime now) const {
-    std::ifstream stream(places_.root / places_.status, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (std::ssize(text) > most_status_bytes) {
-        return std::nullopt;
-    }
-    const std::optional<ExhibitStatus> status = read_exhibit_status(text);
+    const Result<Bytes> text = read_file(places_.root / places_.status, most_status_bytes);
+    const std::optional<ExhibitStatus> status =
+        text ? read_exhibit_status(as_text(*text)) : std::optional<ExhibitStatus>{};
     if (!status || status->boot_id != boot_id_) {
         return std::nullopt;
     }
@@ -150,11 +156,10 @@ void KioskView::count_ends() {
     for (std::streamsize read = 0; read < most_ends_bytes && std::getline(stream, line) && !stream.eof();) {
         read += std::ssize(line) + 1;
         ends_read_ += line.size() + 1;
-        const std::size_t blank = line.find(' '); // behind the time
-        const std::string end = blank == std::string::npos ? std::string() : line.substr(blank + 1);
-        if (!end.starts_with("success ")) {
+        if (const std::optional<ServiceEnd> end = parse_service_end(line); end && is_failure(*end)) {
             ++failures_;
-            last_end_ = end;
+            last_end_ =
+                fmt::format("{} {} {}", service_results.at(end->result).word, end->code, end->exit_status);
         }
     }
 }
@@ -176,19 +181,23 @@ Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point
     outcome.disk_worn = worn(root);
     outcome.hottest_c = hottest_c(root);
     outcome.projector = projector(root);
-    outcome.clock_plausible = wall_clock >= youngest_day;
+    outcome.clock_plausible = wall_clock >= earliest_plausible_day;
     return outcome;
 }
 
-Means KioskView::means() const {
-    // Whether the set can be gone back to is the exhibit's matter; here it matters that there is one.
-    std::ifstream stream(places_.root / places_.last_good, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    const std::size_t key = text.find("\"last_good\":");
-    const bool has_set =
-        key != std::string::npos && text.find_first_not_of(" \n", key + 12) == text.find('{', key);
+Means KioskView::means() {
+    const fs::path set = places_.root / places_.last_good;
     std::error_code missing;
-    return {has_set, fs::exists(places_.root / places_.device, missing), false};
+    const fs::file_time_type changed = fs::last_write_time(set, missing);
+    const std::uintmax_t bytes = missing ? 0 : fs::file_size(set, missing);
+    if (missing) {
+        has_last_good_ = false;
+    } else if (changed != set_changed_ || bytes != set_bytes_) {
+        has_last_good_ = has_object(set, "last_good");
+    }
+    set_changed_ = changed;
+    set_bytes_ = bytes;
+    return {has_last_good_, fs::exists(places_.root / places_.device, missing), false};
 }
 
 std::vector<std::string> notes_of(const Outcome& outcome) {

@@ -29,16 +29,13 @@ struct KioskPlaces {
         "var/lib/frustumscreen-watchdog"; ///< on the disk of all data; the one folder there that its sandbox lets it write
 };
 
-/// Of this boot.
-[[nodiscard]] std::string boot_id(const std::filesystem::path& root = "/");
-
 class KioskView {
 public:
     KioskView(KioskPlaces places, std::string boot_id);
 
     [[nodiscard]] Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
     /// All but whether a reboot can be written down.
-    [[nodiscard]] Means means() const;
+    [[nodiscard]] Means means();
     /// How the exhibit's process ended at last: `watchdog killed KILL`; empty: it did not.
     [[nodiscard]] const std::string& last_end() const { return last_end_; }
 
@@ -51,6 +48,10 @@ private:
     std::uint64_t ends_read_ = 0; ///< bytes of the file of ends
     std::uint32_t failures_ = 0;
     std::string last_end_;
+    std::filesystem::file_time_type
+        set_changed_; ///< this and the next: the library's set, as it was looked at last
+    std::uintmax_t set_bytes_ = 0;
+    bool has_last_good_ = false;
 };
 
 /// What no step mends, each a sentence for the staff.

@@ -7,7 +7,9 @@
 #include "app/programs/watchdog/orders.h"
 #include "app/programs/watchdog/watchdog_report.h"
 #include "app/watch/judge.h"
+#include "firmware_host/base/boot_id.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/local_time.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -38,10 +40,6 @@ Awake since_boot() {
     std::timespec time{};
     ::clock_gettime(CLOCK_BOOTTIME, &time);
     return std::chrono::duration_cast<Awake>(std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec));
-}
-
-std::string wall_clock_text() {
-    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 Patience patience_of(const Arguments& arguments) {
@@ -86,8 +84,13 @@ public:
 
 private:
     void take(const Act& act, MonotonicTime now) {
-        const std::string_view cause = act.cause ? sentence_of(*act.cause) : "ten good minutes";
-        faults_.enter({wall_clock_text(), ladder_.memory().awake, act.cause, act.step, view_.last_end(), {}});
+        const std::string_view cause = sentence_of(act.cause);
+        faults_.enter({utc_text(std::chrono::system_clock::now()),
+                       ladder_.memory().awake,
+                       act.cause,
+                       act.step,
+                       view_.last_end(),
+                       {}});
         const std::string reason = fmt::format("{}; {}", cause, sentence_of(act.step));
         journal_.note(act.cause ? LogPriority::Warning : LogPriority::Notice, reason,
                       {{"STEP", word_of(act.step)}, {"CAUSE", act.cause ? word_of(*act.cause) : ""}});
@@ -104,7 +107,7 @@ private:
 
     void report(MonotonicTime now, const Seen& seen, const Outcome& outcome) {
         const WatchdogReport report{now,
-                                    wall_clock_text(),
+                                    utc_text(std::chrono::system_clock::now()),
                                     boot_id_,
                                     ladder_.memory(),
                                     seen,

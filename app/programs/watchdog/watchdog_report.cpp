@@ -16,7 +16,7 @@ Json json_of(const Fault& fault) {
     return {{"at", fault.at},
             {"awake_s", seconds_of(fault.awake)},
             {"cause", fault.cause ? Json(word_of(*fault.cause)) : Json(nullptr)},
-            {"sentence", fault.cause ? sentence_of(*fault.cause) : "ten good minutes"},
+            {"sentence", sentence_of(fault.cause)},
             {"step", word_of(fault.step)},
             {"done", sentence_of(fault.step)},
             {"detail", fault.detail},

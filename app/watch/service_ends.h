@@ -47,6 +47,12 @@ struct ServiceEnds {
     [[nodiscard]] std::uint64_t count() const;
 };
 
+/// Nothing: the line is none.
+[[nodiscard]] std::optional<ServiceEnd> parse_service_end(std::string_view line);
+/// Nobody told it to stop.
+[[nodiscard]] inline bool is_failure(const ServiceEnd& end) {
+    return service_results.at(end.result).word != "success";
+}
 [[nodiscard]] ServiceEnds parse_service_ends(std::string_view text);
 
 } // namespace frustumscreen

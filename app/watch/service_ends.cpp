@@ -1,4 +1,4 @@
-#include "app/status/service_ends.h"
+#include "app/watch/service_ends.h"
 
 #include "firmware_host/base/printable.h"
 
@@ -21,7 +21,9 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-std::optional<ServiceEnd> parse_line(std::string_view line) {
+} // namespace
+
+std::optional<ServiceEnd> parse_service_end(std::string_view line) {
     ServiceEnd end;
     const std::string_view time = take_word(line);
     const char* const after = time.data() + time.size();
@@ -38,8 +40,6 @@ std::optional<ServiceEnd> parse_line(std::string_view line) {
     return end;
 }
 
-} // namespace
-
 std::uint64_t ServiceEnds::count() const {
     return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
@@ -48,7 +48,7 @@ ServiceEnds parse_service_ends(std::string_view text) {
     ServiceEnds ends;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
-        if (std::optional<ServiceEnd> parsed = parse_line(text.substr(0, end))) {
+        if (std::optional<ServiceEnd> parsed = parse_service_end(text.substr(0, end))) {
             ++ends.counts.at(parsed->result);
             ends.last = std::move(parsed);
         }
