@@ -14,8 +14,9 @@ namespace frustumscreen {
 
 struct ImportFailure {
     ImportRefusal refusal = ImportRefusal::NotAPack;
-    std::string reason; ///< one sentence
-    bool whole = false; ///< the stick as a whole, not this pack alone
+    std::string reason;       ///< one sentence
+    bool whole = false;       ///< the stick as a whole, not this pack alone
+    bool by_set_file = false; ///< that is because of what the set file says
 };
 
 /// Something on the stick could not be read. A file or folder that is closed to us is one thing, a stick that fails another.

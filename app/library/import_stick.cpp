@@ -114,8 +114,7 @@ void Import::fail_whole(const ImportFailure& failure) {
     if (!is_unsure_) { // every line says so
         removed_.clear();
         const bool is_by_exhibit_file =
-            exhibit_line_ && (exhibit_line_->outcome == ImportOutcome::Refused ||
-                              failure.reason.find(exhibit_file_name) != std::string::npos);
+            exhibit_line_ && (exhibit_line_->outcome == ImportOutcome::Refused || failure.by_set_file);
         std::string of_each =
             "nothing of this stick was taken" +
             (is_by_exhibit_file ? fmt::format(", because of {}", exhibit_file_name) : ": " + failure.reason);

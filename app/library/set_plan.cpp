@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 tl::unexpected<ImportFailure> no_set(ImportRefusal refusal, std::string reason) {
-    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), true});
+    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), true, true});
 }
 
 bool names(const std::vector<std::string>& ids, const std::string& id) {

@@ -1,7 +1,7 @@
 #include "app/show/run_report.h"
 
 #include "app/pack/pack_file.h"
-#include "firmware_host/base/boot_id.h"
+#include "firmware_host/base/this_boot.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"

@@ -2,7 +2,7 @@
 
 #include "app/pack/json_reader.h"
 #include "app/status/json_fields.h"
-#include "firmware_host/base/boot_id.h"
+#include "firmware_host/base/this_boot.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 

@@ -1,6 +1,6 @@
 // A kiosk made of files in a folder: what the watchdog sees of it.
 #include "app/programs/watchdog/kiosk_view.h"
-#include "firmware_host/base/boot_id.h"
+#include "firmware_host/base/this_boot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 /// frustumscreen-safe: a calm picture with words for visitors and staff, for when the exhibit itself cannot run.
 #include "app/image/image.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/safe/show_safe_picture.h"
 #include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/file.h"
@@ -76,10 +77,8 @@ int run(int argc, char** argv) {
                 throw CLI::ValidationError("--size", wrong);
             }
         });
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     if (!languages.empty()) {
         arguments.languages.assign(languages.begin(), languages.end());

@@ -3,6 +3,7 @@
 #include "app/programs/safe/safe_screen.h"
 #include "firmware_host/base/descriptor.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/this_boot.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/service/service_manager.h"
 
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <thread>
 
 namespace frustumscreen {
@@ -21,12 +21,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
-
-std::chrono::minutes since_boot() {
-    timespec time{};
-    ::clock_gettime(CLOCK_BOOTTIME, &time);
-    return std::chrono::duration_cast<std::chrono::minutes>(std::chrono::seconds(time.tv_sec));
-}
 
 /// One line: how many pictures were shown, and CLOCK_MONOTONIC in ns at the latest.
 Result<void> say_alive(const std::filesystem::path& file, std::uint64_t shown) {
@@ -83,7 +77,8 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
         }
         bool fed = screen == nullptr;
         if (screen != nullptr) {
-            const Result<bool> on = screen->show({read_reason(arguments.reason), since_boot()});
+            const Result<bool> on = screen->show(
+                {read_reason(arguments.reason), std::chrono::floor<std::chrono::minutes>(since_boot())});
             if (!on) {
                 return tl::unexpected<Error>(on.error());
             }

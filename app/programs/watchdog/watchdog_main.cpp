@@ -1,15 +1,16 @@
 /// frustumscreen-watchdog: watches what comes of the exhibit, and climbs the recovery ladder. No GL, no USB, no packs, no
 /// settings; one thread; its memory is locked, so that a machine without memory cannot stop it.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
 #include "app/programs/watchdog/fault_book.h"
 #include "app/programs/watchdog/kiosk_view.h"
 #include "app/programs/watchdog/memory_file.h"
 #include "app/programs/watchdog/orders.h"
 #include "app/programs/watchdog/watchdog_report.h"
 #include "app/watch/judge.h"
-#include "firmware_host/base/boot_id.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
+#include "firmware_host/base/this_boot.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -19,7 +20,6 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
-#include <ctime>
 #include <thread>
 
 namespace frustumscreen {
@@ -34,13 +34,6 @@ struct Arguments {
     double seconds = 0.0; ///< 0: until it is told to stop
     KioskPlaces places;
 };
-
-/// Since the boot, with the time that the machine slept.
-Awake since_boot() {
-    std::timespec time{};
-    ::clock_gettime(CLOCK_BOOTTIME, &time);
-    return std::chrono::duration_cast<Awake>(std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec));
-}
 
 Patience patience_of(const Arguments& arguments) {
     Patience patience;
@@ -184,10 +177,8 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seconds", arguments.seconds, "s after which it ends; 0: when it is told to")
         ->check(CLI::Range(0.0, 1e6));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    if (const auto end = end_of_arguments(app, argc, argv)) {
+        return *end;
     }
     return watch(arguments);
 }
