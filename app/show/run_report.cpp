@@ -1,12 +1,12 @@
 #include "app/show/run_report.h"
 
 #include "app/pack/pack_file.h"
-#include "firmware_host/base/this_boot.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/this_boot.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

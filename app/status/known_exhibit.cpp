@@ -2,9 +2,9 @@
 
 #include "app/pack/json_reader.h"
 #include "app/status/json_fields.h"
-#include "firmware_host/base/this_boot.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/this_boot.h"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
