@@ -31,6 +31,7 @@ class HilTest(unittest.TestCase):
     bench: Bench
     settings = USUAL  # the whole file
     before = after = "true"  # what the machine does while the exhibit stands: before it has these settings, after it had them
+    broken_s = broken_process = None
     longest_s = 0.0  # the longest time that a picture stood in any test while it should move
 
     @classmethod
@@ -51,6 +52,26 @@ class HilTest(unittest.TestCase):
         bench.status_says("tracker", "is running", START_S)
         bench.status_says("panel", "buttons are there")
         bench.status_says("display", LIT)
+
+    def broken(self):
+        """From here on it is counted how long it takes until the screen is lit again."""
+        self.broken_s, self.broken_process = self.bench.machine.granted_s(), self.bench.main_process()
+
+    def tell_lit(self):
+        """Prints how long it was dark, and how much of that was the exhibit's own start."""
+        if self.broken_s is None:
+            return
+        dark_s = self.bench.machine.granted_s() - self.broken_s
+        own = ""
+        if self.bench.main_process() != self.broken_process:
+            own = f", of which the exhibit's own start took {self.own_start_s():.1f} s"
+        print(f"  lit {dark_s:.1f} s after the fault{own}", flush=True)
+
+    def own_start_s(self):
+        """From the exhibit's process to its first picture, as systemd has seen it."""
+        began, ready = (int(self.bench.machine.check(f"systemctl show --value -p {name} {UNIT}"))
+                        for name in ("ExecMainStartTimestampMonotonic", "ActiveEnterTimestampMonotonic"))
+        return 1e-6 * (ready - began)
 
     def show(self, artifact):
         """Presses `next` if another of the two artifacts is shown."""
