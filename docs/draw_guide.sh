@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws the pictures of docs/guide anew that come from the programs, in some seconds: the shipped settings' drawings, the staff's
-# pattern, and a stick that is taken in. It needs what ./test builds. connections.svg and panel.svg are drawn by hand.
+# picture, and a stick that is taken in. It needs what ./test builds. connections.svg and panel.svg are drawn by hand.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=$PWD/build/release/bin
@@ -10,6 +10,8 @@ if [[ ! -f $built_in ]]; then
     echo "draw_guide.sh: $built_in: there is no such file; run ./test first" >&2
     exit 1
 fi
+cmake/build.sh release draw_staff_picture >/dev/null
+build/release/tests/draw_staff_picture "$guide/staff.png"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/table.svg"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/prop.svg" --sheet prop
 
@@ -39,10 +41,5 @@ import_report = "report.json"
 [sound]
 kind = "none"
 END
-last_picture() { # FOLDER
-    find "$1" -name 'frame_*.png' | sort | tail -n 1
-}
 "$bin/frustumscreen" run --config kiosk.toml --headless --seconds 6 --stills 4 --out stick_run >/dev/null 2>&1
-cp "$(last_picture stick_run)" "$guide/stick.png"
-"$bin/frustumscreen" run --config kiosk.toml --headless --fast --seconds 0.5 --stills 1 --out staff_run --pattern >/dev/null 2>&1
-cp "$(last_picture staff_run)" "$guide/staff.png"
+cp stick_run/frame_00003.png "$guide/stick.png"

@@ -102,7 +102,7 @@ void draw_above(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const Vi
 
 void draw_side(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const View& view) {
     const std::vector<glm::dvec2> side = trapezium(sizes.bottom_m, sizes.top_m, sizes.slant_m());
-    sheet.text({16.0, heading_mm}, "A side, in its own plane; there are four", heading);
+    sheet.text({16.0, heading_mm}, "A side (of four)", heading);
     sheet.begin_view("side", view.origin_mm, view.mm_per_m);
     sheet.polygon(view(side), outline, "side");
     sheet.end_view();

@@ -47,6 +47,11 @@ void draw_sample(SvgSheet& sheet, const glm::dvec2& at, const Pen& pen) {
     sheet.polygon(corners, pen);
 }
 
+struct Symbol {
+    glm::dvec2 place{0.0}; ///< metres
+    void (*draw)(SvgSheet& sheet, const glm::dvec2& at) = nullptr;
+};
+
 /// One view from the side (seen from the right: y to the right, z up) and one from above.
 class TableDrawing {
 public:
@@ -180,19 +185,31 @@ private:
             across(std::fmin(lens_.y, -half_depth()), std::fmax(lens_.y, -half_depth()), 24.0);
         }
         const double left_m = std::fmin(-half_depth(), eye.y);
-        sheet_.text({view({left_m, 0.0}).x - 3.0, table_y + 4.0}, "visitor's side", {2.8, Anchor::End});
+        constexpr double leftmost_mm = 44.0; // where these words end at the frame
+        sheet_.text({std::fmax(leftmost_mm, view({left_m, 0.0}).x - 3.0), table_y + 4.0}, "visitor's side",
+                    {2.8, Anchor::End});
     }
 
     [[nodiscard]] Extent top_extent() const {
         Extent extent;
         extent.include({-half_width(), -half_depth()});
         extent.include({half_width(), half_depth()});
-        extent.include(glm::dvec2(lens_));
-        extent.include(glm::dvec2(settings_.eye.default_m));
-        if (has_tracker_place(settings_)) {
-            extent.include(glm::dvec2(settings_.tracker.table_from_tracker.translation));
+        for (const auto& [place, draw] : symbols_from_above()) {
+            extent.include(place);
         }
         return extent;
+    }
+
+    /// Where lens, eyes and tracker are; what is far away would make the table small, and is told in words alone.
+    [[nodiscard]] std::vector<Symbol> symbols_from_above() const {
+        std::vector<Symbol> symbols{{glm::dvec2(lens_), draw_lens},
+                                    {glm::dvec2(settings_.eye.default_m), draw_eye}};
+        if (has_tracker_place(settings_)) {
+            symbols.push_back({glm::dvec2(settings_.tracker.table_from_tracker.translation), draw_tracker});
+        }
+        const double most_m = 2.5 * std::fmax(half_width(), half_depth());
+        std::erase_if(symbols, [&](const Symbol& symbol) { return glm::length(symbol.place) > most_m; });
+        return symbols;
     }
 
     void draw_top_view() {
@@ -214,17 +231,15 @@ private:
                                            place_ + glm::dvec2(half, -half), place_ + glm::dvec2(half, half),
                                            place_ + glm::dvec2(-half, half)};
         sheet_.polygon(view(prop), {"#000000", 0.5}, "prop");
-        draw_lens(sheet_, view(glm::dvec2(lens_)));
-        draw_eye(sheet_, view(glm::dvec2(settings_.eye.default_m)));
-        if (has_tracker_place(settings_)) {
-            draw_tracker(sheet_, view(glm::dvec2(settings_.tracker.table_from_tracker.translation)));
+        for (const auto& [place, draw] : symbols_from_above()) {
+            draw(sheet_, view(place));
         }
         sheet_.end_view();
         const double lane_mm = std::fmax(7.0, view(table[2]).y - view(extent.high).y + 7.0);
         draw_dimension(sheet_, view(table[3]), view(table[2]), {0.0, -lane_mm},
                        mm_words(settings_.table.width_m));
         const double right_mm = view(extent.high).x - view(table[1]).x + 8.0;
-        draw_dimension(sheet_, view(table[1]), view(table[2]), {right_mm, 0.0},
+        draw_dimension(sheet_, view(table[2]), view(table[1]), {right_mm, 0.0},
                        mm_words(settings_.table.depth_m));
     }
 

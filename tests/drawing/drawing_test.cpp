@@ -251,6 +251,20 @@ TEST_F(Drawing, NoWordsLieOnOthersOrBesideThePaper) {
     }
 }
 
+TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
+    for (const char* sheet : {"table", "prop"}) {
+        ASSERT_EQ(
+            run(fmt::format("frustumscreen drawing --config '{}/config/kiosk.toml' -o drawing.svg --sheet {}",
+                            FRUSTUMSCREEN_SOURCE_DIR, sheet)),
+            0)
+            << text("err.txt");
+        const Result<Bytes> committed =
+            read_file(fmt::format("{}/docs/guide/{}.svg", FRUSTUMSCREEN_SOURCE_DIR, sheet));
+        ASSERT_TRUE(committed);
+        EXPECT_EQ(text("drawing.svg"), as_text(*committed)) << "draw it again: docs/draw_guide.sh";
+    }
+}
+
 TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
     ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[prop]\ntop_m = 0.4\n")));
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg"), 1);
