@@ -3,7 +3,11 @@
 #include "app/drawing/drawing.h"
 #include "app/drawing/prop_net.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -50,6 +54,19 @@ Extent extent_of(const PropNet& net) {
     return extent;
 }
 
+/// The numbers are those of the staff's picture (app/exhibit/pattern.h).
+std::string_view words_of(std::string_view face) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words{{{"+X", "1, right"},
+                                                                                  {"-X", "2, left"},
+                                                                                  {"+Y", "3, back"},
+                                                                                  {"-Y", "4, front"},
+                                                                                  {"+Z", "5, top"},
+                                                                                  {"-Z", "6, bottom"}}};
+    const auto* const found =
+        std::find_if(words.begin(), words.end(), [&](const auto& each) { return each.first == face; });
+    return found != words.end() ? found->second : face;
+}
+
 void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
     sheet.begin_view("net", view.origin_mm, view.mm_per_m);
     for (const NetTab& tab : net.tabs) {
@@ -59,7 +76,7 @@ void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
         sheet.polygon(view(face.corners), cut, face.name);
         const glm::dvec2 middle =
             0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-        sheet.text(view(middle), face.name, {4.0, Anchor::Middle});
+        sheet.text(view(middle), words_of(face.name), {4.0, Anchor::Middle});
     }
     for (const NetFold& each : net.folds) {
         sheet.line(view(each.from), view(each.to), {"#ffffff", 0.5});
@@ -142,6 +159,7 @@ void draw_notes(SvgSheet& sheet, const Settings& settings, const View& views, co
     const std::string lines[] = {
         fmt::format("Scale {}; the net: {}.", scale_words(views), scale_words(net_view)),
         "All sizes are those of the outside, with the paint on.",
+        "The sides' numbers are those of the staff's picture.",
         "Red, dashed: fold. Black: cut. Grey: tabs for glue.",
         fmt::format("The net with its tabs takes {} x {}.", mm_words(net.high.x - net.low.x),
                     mm_words(net.high.y - net.low.y)),
@@ -150,7 +168,7 @@ void draw_notes(SvgSheet& sheet, const Settings& settings, const View& views, co
         "Red dot: the zero of the tracker's sensor, in the middle of the bottom;",
         "red arms: its x, to the right, and y, away from the visitor.",
         "frustumscreen drawing --sheet net draws the net in true size."};
-    double y_mm = 222.0;
+    double y_mm = 220.0;
     for (const std::string& line : lines) {
         sheet.text({269.0, y_mm}, line, {2.6});
         y_mm += 5.0;
