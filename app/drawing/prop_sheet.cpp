@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -67,6 +68,19 @@ std::string_view words_of(std::string_view face) {
     return found != words.end() ? found->second : face;
 }
 
+/// Of type that has room in every face.
+double lettering_mm(const PropNet& net, const View& view) {
+    double shortest_m = std::numeric_limits<double>::infinity();
+    for (const NetFace& face : net.faces) {
+        shortest_m = std::fmin(shortest_m, glm::distance(face.corners[0], face.corners[1]));
+        shortest_m = std::fmin(shortest_m, glm::distance(face.corners[2], face.corners[3]));
+    }
+    constexpr double most_mm = 4.0;
+    constexpr double least_mm = 1.2;
+    constexpr double letters = 7.0; // to a side
+    return std::clamp(view.mm_per_m * shortest_m / letters, least_mm, most_mm);
+}
+
 void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
     sheet.begin_view("net", view.origin_mm, view.mm_per_m);
     for (const NetTab& tab : net.tabs) {
@@ -76,7 +90,7 @@ void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
         sheet.polygon(view(face.corners), cut, face.name);
         const glm::dvec2 middle =
             0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-        sheet.text(view(middle), words_of(face.name), {4.0, Anchor::Middle});
+        sheet.text(view(middle), words_of(face.name), {lettering_mm(net, view), Anchor::Middle});
     }
     for (const NetFold& each : net.folds) {
         sheet.line(view(each.from), view(each.to), {"#ffffff", 0.5});
