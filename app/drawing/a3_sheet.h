@@ -31,8 +31,7 @@ inline SvgSheet a3_sheet(std::string_view title, std::string_view name) {
     sheet.line(field, {field.x, high.y}, {"#000000", 0.35});
     sheet.text(field + glm::dvec2(4.0, 7.5), title, {4.5, Anchor::Start, 0.0, true});
     sheet.text(field + glm::dvec2(4.0, 13.0), fmt::format("of the settings {}", name));
-    sheet.text(field + glm::dvec2(4.0, 18.0),
-               fmt::format("All lengths in mm. FrustumScreen {}.", FRUSTUMSCREEN_VERSION));
+    sheet.text(field + glm::dvec2(4.0, 18.0), "All lengths in mm.");
     return sheet;
 }
 
