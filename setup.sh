@@ -2,7 +2,7 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages]...    nothing: what ./run builds and runs. Each part comes on top of that:
 #                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
 #                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk
 set -euo pipefail
@@ -47,6 +47,7 @@ for part; do
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
+        packages) packages+=(dpkg-dev lintian) ;; # and looks at them
         hil)
             packages+=(
                 python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
@@ -54,7 +55,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages]..." >&2
             exit 2
             ;;
     esac
