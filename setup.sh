@@ -2,9 +2,10 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
-#                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
-#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages]...
+#
+# No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
+# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk
 set -euo pipefail
 
 packages=(
@@ -43,10 +44,12 @@ for part; do
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
+                lintian                           # looks at the Debian packages
                 shellcheck clang-format pyflakes3 # how it is written
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
+        packages) packages+=(dpkg-dev python3) ;; # python3: pages of the manual
         hil)
             packages+=(
                 python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
@@ -54,7 +57,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages]..." >&2
             exit 2
             ;;
     esac
