@@ -2,9 +2,10 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|image]...    nothing: what ./run builds and runs. Each part comes on top of that:
 #                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
-#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk
+#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk;
+#                                                  image: ./image_build/build
 set -euo pipefail
 
 packages=(
@@ -46,6 +47,13 @@ for part; do
                 shellcheck clang-format pyflakes3 # how it is written
             )
             ;;
+        image)
+            packages+=(
+                mmdebstrap uidmap kmod systemd util-linux uuid-runtime python3                   # Debian's packages, the root
+                squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
+                fdisk dosfstools mtools e2fsprogs                                                 # the disk
+            )
+            ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
         hil)
             packages+=(
@@ -54,7 +62,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|image]..." >&2
             exit 2
             ;;
     esac
