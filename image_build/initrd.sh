@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Makes the initrd: busybox, dmsetup, e2fsck, the drivers of modules.list that are marked so, and initrd/init.
 #
-#   initrd.sh DEBIAN ROOT OUT    DEBIAN: the packages' files; ROOT: the image's, with the modules
+#   initrd.sh DEBIAN ROOT LEVEL OUT    DEBIAN: the packages' files; ROOT: the image's, with the modules;
+#                                   LEVEL: of zstd
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
-debian=$1 root=$2 out=$3
+debian=$1 root=$2 level=$3 out=$4
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
@@ -36,4 +37,4 @@ printf '%s\n' squashfs dm_verity sha256_ssse3 ext4 crc32c_generic crc32c_intel o
 
 find "$tree" -exec touch --no-dereference --date="@$SOURCE_DATE_EPOCH" {} +
 (cd "$tree" && find . -print0 | LC_ALL=C sort -z | cpio --quiet --reproducible --null --owner=0:0 -o -H newc) |
-    zstd -q -19 --single-thread >"$out"
+    zstd -q "-$level" --single-thread >"$out"

@@ -2,7 +2,7 @@
 """Cuts the image's root out of Debian's packages and ours: only what files.list and modules.list name, each with a reason, and
 what that needs: the libraries that a program links, the modules that a module needs, what a symbolic link points to.
 
-    lean.py ROOT KEPT --from TREE [--from TREE]... --kernel TREE --files LIST... --modules LIST...
+    lean.py ROOT KEPT --from TREE [--from TREE]... --files LIST... [--kernel TREE --modules LIST...]
 
 --from    where files are looked for, the first tree that has one wins; --kernel: where the kernel's package is unpacked
 ROOT      a folder that is made; all files have the modes of their packages
@@ -150,12 +150,29 @@ def lay(source, target):
         os.link(source, target)  # files that are one in the package stay one
 
 
+def lay_modules(kernel, lists, root):
+    """Lays the modules that the lists name into the root; returns path -> reason."""
+    versions = os.listdir(kernel / "lib/modules")
+    if len(versions) != 1:
+        raise Wrong(f"{kernel} has not one kernel but {len(versions)}")
+    modules = kernel / "lib/modules" / versions[0]
+    subprocess.run(["depmod", "--basedir", kernel, versions[0]], check=True)
+    loaded, early = keep_modules(modules, lists)
+    place = pathlib.Path("usr/lib/modules") / versions[0]
+    for path in [*loaded, "modules.order", "modules.builtin", "modules.builtin.modinfo"]:
+        lay(modules / path, root / place / path)
+    (root / place / "initrd").write_text("".join(f"{path}\n" for path in early), encoding="ascii")
+    subprocess.run(["depmod", "--basedir", root / "usr", versions[0]], check=True)
+
+    return {str(place / path): reason for path, reason in loaded.items()}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--from", dest="trees", action="append", required=True, type=pathlib.Path)
-    parser.add_argument("--kernel", required=True, type=pathlib.Path)
+    parser.add_argument("--kernel", type=pathlib.Path)
     parser.add_argument("--files", nargs="+", required=True, type=pathlib.Path)
-    parser.add_argument("--modules", nargs="+", required=True, type=pathlib.Path)
+    parser.add_argument("--modules", nargs="+", type=pathlib.Path)
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("kept", type=pathlib.Path)
     arguments = parser.parse_args()
@@ -167,19 +184,8 @@ def main():
     for name in MERGED:
         os.symlink(f"usr/{name}", arguments.root / name)
 
-    versions = os.listdir(arguments.kernel / "lib/modules")
-    if len(versions) != 1:
-        raise Wrong(f"{arguments.kernel} has not one kernel but {len(versions)}")
-    modules = arguments.kernel / "lib/modules" / versions[0]
-    subprocess.run(["depmod", "--basedir", arguments.kernel, versions[0]], check=True)
-    loaded, early = keep_modules(modules, arguments.modules)
-    place = pathlib.Path("usr/lib/modules") / versions[0]
-    for path in [*loaded, "modules.order", "modules.builtin", "modules.builtin.modinfo"]:
-        lay(modules / path, arguments.root / place / path)
-    (arguments.root / place / "initrd").write_text("".join(f"{path}\n" for path in early), encoding="ascii")
-    subprocess.run(["depmod", "--basedir", arguments.root / "usr", versions[0]], check=True)
-
-    kept.update({str(place / path): reason for path, reason in loaded.items()})
+    if arguments.kernel:
+        kept.update(lay_modules(arguments.kernel, arguments.modules, arguments.root))
     with open(arguments.kept, "w", encoding="utf-8") as table:
         seen = set()
         for path, reason in sorted(kept.items()):

@@ -9,7 +9,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false keys= packages= firmware= data_size=64M out= record=false mirror=
+    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror=
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -17,6 +17,7 @@ parse_arguments() {
                 (($# > 1)) || { echo "build: $1 needs a value; --help says which" >&2; exit 2; }
                 ;;&
             --test) test_image=true ;;
+            --quick) level=1 ;;
             --record) record=true ;;
             --keys) keys=$(readlink -f "$2") && shift ;;
             --packages) packages=$(readlink -f "$2") && shift ;;
@@ -107,7 +108,7 @@ make_root() {
         printf 'IMAGE_ID=frustumscreen\nIMAGE_VERSION=%s\n' "$version"
     } >"$root/usr/lib/os-release"
     ln -sf ../usr/lib/os-release "$root/etc/os-release"
-    systemd-sysusers --root="$root"
+    systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
     rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
     name=$(awk -F: '$3 > 126 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
@@ -158,7 +159,7 @@ settings_of_image() {
 make_slot() {
     local slot=$work/slot blocks formatted
     # One thread's order; the numbers of users are all root's, since what others own is made at each start.
-    env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level 19 -b 256K -all-root -no-xattrs \
+    env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
         -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible >/dev/null
     blocks=$(($(stat -c %s "$slot") / 4096))
     (($(stat -c %s "$slot") % 4096 == 0)) || fail "the root's file system does not end with a block of 4096 bytes"
@@ -168,7 +169,7 @@ make_slot() {
     hash_blocks=$(($(stat -c %s "$slot") / 4096 - blocks - 1))
     formatted=$(veritysetup format "$slot" "$slot" --data-blocks=$blocks --hash-offset=$((blocks * 4096)) --salt="$salt" \
         --uuid="$(uuid_of "$salt")" --fec-device="$slot" --fec-offset=$(((blocks + 1 + hash_blocks) * 4096)) --fec-roots=2)
-    root_hash=$(sed -n 's/^Root hash: *//p' <<<"$formatted")
+    root_hash=$(sed -n 's/^Root hash:[[:space:]]*//p' <<<"$formatted")
     root_blocks=$blocks
     [[ ${#root_hash} == 64 ]] || fail "veritysetup has not said the root's hash"
 }
@@ -176,12 +177,11 @@ make_slot() {
 make_kernel_image() {
     local initrd=$work/initrd unpacked=$debian/tree/unpacked kernel
     kernel=$(ls "$unpacked/lib/modules")
-    image_build/initrd.sh "$debian/tree" "$work/root" "$initrd"
+    image_build/initrd.sh "$debian/tree" "$work/root" "$level" "$initrd"
     if $test_image; then
-        image_build/test_agent.sh "$debian" "$work/extra.cpio"
+        image_build/test_agent.sh "$debian/tree" "$work/root" "$work/extra.cpio"
         cat "$work/extra.cpio" >>"$initrd"
     fi
-    # $(cat) of one line each
     {
         printf '%s ' quiet loglevel=3 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
             net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
