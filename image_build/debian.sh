@@ -38,6 +38,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chmod 777 "$work" # without root, mmdebstrap works as another user
 touch "$work/preferences"
+cp "$here/contents/unpack_deb.sh" "$work/" # that user need not see this folder
 if ! $record; then
     [[ -f $list ]] || say_and_fail "$list is missing; --record makes it"
     # Above 1000 apt takes a version even where a newer one is there.
@@ -59,7 +60,7 @@ for package in ${unpack[*]}; do
     apt-get download -qq -o APT::Sandbox::User=root "\${real:-\$package}"
 done
 for deb in *.deb; do
-    dpkg-deb -x "\$deb" "\$root/unpacked"
+    sh "$work/unpack_deb.sh" "\$deb" "\$root/unpacked"
     dpkg-deb -W --showformat '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' "\$deb"
 done >"$work/unpacked.txt"
 dpkg-query --admindir="\$root/var/lib/dpkg" -W \

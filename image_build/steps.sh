@@ -83,7 +83,7 @@ unpack_ours() {
         for deb in "$packages"/*.deb; do
             [[ -e $deb ]] || break
             [[ $(dpkg-deb -f "$deb" Package) != frustumscreen-bake ]] || continue # a curator's
-            dpkg-deb -x "$deb" "$work/ours"
+            image_build/contents/unpack_deb.sh "$deb" "$work/ours"
             found=true
         done
         $found || fail "--packages: $packages has no package of ours (*.deb)"
@@ -213,6 +213,14 @@ make_disk() {
     cp "$work/kept" "$out/kept.tsv"
     cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
     echo "$root_hash" >"$out/root_hash"
+}
+
+# What is known of the packages goes beside the image, and from that and from the image itself comes what is in it.
+say_what_is_in_it() {
+    image_build/contents/keep_provenance.py "$out/provenance" --compiled-in image_build/contents/compiled_in.list \
+        --tree ours="$work/ours" --tree debian="$debian/tree" --tree unpacked="$debian/tree/unpacked"
+    image_build/contents/write_bill.py "$out"
+    image_build/why "$out" >"$out/why.txt"
 }
 
 compress() { zstd -q -f -3 --single-thread --sparse "$out/frustumscreen.raw" -o "$out/frustumscreen.raw.zst"; }
