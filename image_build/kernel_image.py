@@ -21,11 +21,14 @@ def end_of(stub):
 
 
 def without_time(file):
-    """objcopy writes the time of day into the header (TimeDateStamp): two builds would differ."""
+    """objcopy writes the time of day into the header (TimeDateStamp), and a checksum of that: two builds would differ. UEFI reads
+    neither."""
     with open(file, "r+b") as image:
         image.seek(0x3C)
         (header,) = struct.unpack("<I", image.read(4))
         image.seek(header + 8)
+        image.write(bytes(4))
+        image.seek(header + 88)
         image.write(bytes(4))
 
 
