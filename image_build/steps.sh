@@ -73,23 +73,33 @@ fetch_debian() {
 }
 
 unpack_ours() {
-    local deb found=false
-    mkdir "$work/ours"
-    if [[ -z $packages && -x image_build/packages ]]; then
+    local name deb
+    if [[ -z $packages ]]; then
         packages=$cache/packages
         image_build/packages --out "$packages"
     fi
-    if [[ -n $packages ]]; then
-        for deb in "$packages"/*.deb; do
-            [[ -e $deb ]] || break
-            [[ $(dpkg-deb -f "$deb" Package) != frustumscreen-bake ]] || continue # a curator's
-            image_build/contents/unpack_deb.sh "$deb" "$work/ours"
-            found=true
+    mkdir "$work/ours"
+    for name in frustumscreen-base frustumscreen; do
+        deb=("$packages/${name}"_*.deb)
+        [[ ${#deb[@]} == 1 && -e ${deb[0]} ]] || fail "--packages: $packages has not one package $name; ./image_build/packages makes it"
+        check_needs "${deb[0]}"
+        image_build/contents/unpack_deb.sh "${deb[0]}" "$work/ours"
+        mkdir -p "$work/packages" && cp "${deb[0]}" "$work/packages/"
+    done
+}
+
+# What our package depends on must be among Debian's that the image is made from.
+check_needs() {
+    local one need word missing=()
+    while IFS= read -r need; do
+        for one in ${need//|/ }; do # any of several will do; a version in brackets is no name
+            word=${one%%:*}
+            [[ $word =~ ^[a-z0-9][a-z0-9+.-]+$ ]] || continue
+            ! grep -q -e "^$word " "$debian/packages.txt" && [[ $word != frustumscreen* ]] || continue 2
         done
-        $found || fail "--packages: $packages has no package of ours (*.deb)"
-    else
-        DESTDIR=$work/ours cmake --install build/release --component kiosk --strip >/dev/null
-    fi
+        missing+=("$need")
+    done < <(dpkg-deb -f "$1" Depends | tr ',' '\n')
+    ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there, and build with --record"
 }
 
 make_root() {
@@ -212,6 +222,7 @@ make_disk() {
     mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
     cp "$work/kept" "$out/kept.tsv"
     cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
+    rm -rf "$out/packages" && mv "$work/packages" "$out/"
     echo "$root_hash" >"$out/root_hash"
 }
 
