@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Makes the Debian that the image is cut from: one tar with all files of the packages, and their licences and lists beside it.
+# Makes the Debian that the image is cut from: one tar with all files of the packages, dpkg's data bases and the licences among
+# them, and the packages' list beside it.
 #
 #   debian.sh [--record] [--mirror URL] [--firmware amd] FOLDER
 #
 # FOLDER/debian.tar             the packages' files; kernel, boot loader and busybox below /unpacked
 # FOLDER/packages.txt           name, version, architecture and source of each
-# FOLDER/licences.tar           /usr/share/doc/*/copyright and the licences that these name
 # With --record, packages.list is written anew; else it says which versions are taken, and any other is an error.
 # Works as root, and without by the kernel's user namespaces (mmdebstrap's mode "unshare").
 set -euo pipefail
@@ -98,8 +98,4 @@ elif ! diff <(grep -v '^#' "$list") "$work/taken" >"$work/differences"; then
     say_and_fail "Debian no longer has the versions above as ${list##*/} records them. --record takes what there is now;" \
         "--mirror https://snapshot.debian.org/archive/debian/DATE/ finds the old ones"
 fi
-tar -C "$work" -xf "$work/debian.tar" --wildcards './usr/share/doc/*/copyright' './unpacked/usr/share/doc/*/copyright' \
-    './usr/share/common-licenses'
-tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@${SOURCE_DATE_EPOCH:-0}" -cf "$folder/licences.tar" \
-    usr unpacked
 mv "$work/packages.txt" "$work/debian.tar" "$folder/"

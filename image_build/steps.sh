@@ -217,11 +217,12 @@ sign() { # FILE: with the time of the commit, so that the bytes are always the s
 
 make_disk() {
     image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
+    rm -f "$out"/frustumscreen_*.{slot,efi} # of another version
     mv "$work/disk" "$out/frustumscreen.raw"
     mv "$work/slot" "$out/frustumscreen_$version.slot"
     mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
     cp "$work/kept" "$out/kept.tsv"
-    cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
+    cp "$debian/packages.txt" "$out/"
     rm -rf "$out/packages" && mv "$work/packages" "$out/"
     echo "$root_hash" >"$out/root_hash"
 }
