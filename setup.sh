@@ -56,6 +56,7 @@ for part; do
                 mmdebstrap uidmap kmod systemd uuid-runtime python3                  # Debian's packages, the root
                 squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
                 fdisk dosfstools mtools e2fsprogs                                    # the disk
+                python3-jsonschema python3-license-expression                        # read its bill of materials
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;

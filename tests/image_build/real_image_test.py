@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The bill of materials of the image that was built, held against the image, taken apart by other programs.
 
-    real_image_test.py SOURCE [IMAGE-FOLDER]    default: out/image of the repository; without an image there, nothing is tested
+    real_image_test.py SOURCE [IMAGE-FOLDER]    default: out/image of the repository, or out/image/test; without an image there,
+                                                nothing is tested
 """
 
 import hashlib
@@ -16,7 +17,9 @@ import unittest
 import spdx_list
 
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
-OUT = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else SOURCE / "out/image")
+OUT = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else SOURCE / "out/image"
+if len(sys.argv) == 2 and not (OUT / "sbom.json").exists():
+    OUT = OUT / "test"
 MADE = "frustumscreen-image-settings"
 
 

@@ -14,6 +14,7 @@ image_build/build --quick --test
 FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/image)/logs
 export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS PYTHONDONTWRITEBYTECODE=1
 rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"
+/usr/bin/python3 "$here/real_image_test.py" . out/image/test
 cd "$here"
 if (($# > 0)); then
     exec python3 -m unittest -v "$@"
