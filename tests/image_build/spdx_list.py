@@ -1,6 +1,6 @@
 """What the official schema of CycloneDX allows, and whether a licence expression is one of SPDX.
 
-Source   cyclonedx/README.md; python3-jsonschema and python3-license-expression read what we write.
+Source   cyclonedx/SOURCE; python3-jsonschema and python3-license-expression read what we write.
 """
 
 import json
