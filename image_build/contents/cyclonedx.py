@@ -17,14 +17,14 @@ from image_contents import MADE
 
 
 def purl(package):
-    quoted = urllib.parse.quote(package.version, safe="")
+    quoted = urllib.parse.quote(package.version, safe=":")
     if package.built_here:
         return f"pkg:generic/{package.name}@{quoted}"
     return f"pkg:deb/debian/{package.name.replace('+', '%2B')}@{quoted}?arch={package.architecture}&distro=bookworm"
 
 
 def source_component(name, version):
-    quoted = urllib.parse.quote(version, safe="")
+    quoted = urllib.parse.quote(version, safe=":")
     return {"type": "library", "name": name, "version": version,
             "purl": f"pkg:deb/debian/{name.replace('+', '%2B')}@{quoted}?arch=source&distro=bookworm"}
 

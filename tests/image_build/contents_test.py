@@ -112,7 +112,7 @@ class Contents(unittest.TestCase):
         packages = {"frustumscreen", "libllvm15", "libc6", "tzdata", "base-files", "linux-image-6.1", "systemd-boot-efi", "busybox-static"}
         self.assertEqual(set(self.components), packages | set(compiled_in()) | {"frustumscreen-image-settings"})
         llvm = self.components["libllvm15"]
-        self.assertEqual(llvm["purl"], "pkg:deb/debian/libllvm15@1%3A15.0.6-4%2Bb1?arch=amd64&distro=bookworm")
+        self.assertEqual(llvm["purl"], "pkg:deb/debian/libllvm15@1:15.0.6-4%2Bb1?arch=amd64&distro=bookworm")
         self.assertEqual([(source["name"], source["version"]) for source in llvm["pedigree"]["ancestors"]], [("llvm-toolchain-15", "1:15.0.6-4")])
         self.assertEqual(llvm["licenses"], [{"expression": "(MIT AND BSD-3-Clause) OR LicenseRef-Debian-Frog"}])
         inside = [part["purl"] for part in self.components["busybox-static"]["components"] if part["type"] == "library"]
