@@ -1,5 +1,6 @@
 # shellcheck shell=bash
 # The steps of ./image_build/build, which reads this file. Each works in $work, on what the steps before have left there.
+# shellcheck disable=SC2154 # work: of ./image_build/build
 
 fail() {
     echo "build: $*" >&2
@@ -9,7 +10,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror=
+    test_image=false level=19 keys='' packages='' firmware='' data_size=64M out='' record=false mirror=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -95,7 +96,8 @@ check_needs() {
         for one in ${need//|/ }; do # any of several will do; a version in brackets is no name
             word=${one%%:*}
             [[ $word =~ ^[a-z0-9][a-z0-9+.-]+$ ]] || continue
-            ! grep -q -e "^$word " "$debian/packages.txt" && [[ $word != frustumscreen* ]] || continue 2
+            [[ $word != frustumscreen* ]] || continue 2
+            ! grep -q -e "^$word " "$debian/packages.txt" || continue 2
         done
         missing+=("$need")
     done < <(dpkg-deb -f "$1" Depends | tr ',' '\n')
