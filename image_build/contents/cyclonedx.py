@@ -58,14 +58,25 @@ def component(package, text, properties):
     return made
 
 
+def dependencies(contents, packages, components):
+    """The image has all; a package needs those of its dependencies that are in the image, and ours what they have compiled in."""
+    headers = [purl(package) for package, what in contents.compiled_in if what.startswith("headers:")]
+    graph = {"image": [made["bom-ref"] for made in components]}
+    for package in packages.values():
+        needed = [purl(packages[name]) for name in package.depends if name in packages and name != package.name]
+        graph[purl(package)] = sorted(needed + (headers if package.built_here else []))
+    return [{"ref": ref, "dependsOn": needed} for ref, needed in graph.items()]
+
+
 def make(contents, texts):
     """The bill; texts: package -> (its copyright file's text, the name of that in licences.tar)."""
     by_package = {}
     for item in contents.items:
         by_package.setdefault(item.package, []).append(item)
+    packages = {name: contents.database.packages[name] for name in sorted(set(by_package) - {MADE})}
     components = []
-    for name in sorted(set(by_package) - {MADE}):
-        package, (text, place) = contents.database.packages[name], texts[name]
+    for name, package in packages.items():
+        text, place = texts[name]
         made = component(package, text, [("licence_text", place), *(("reason", reason) for reason in sorted({item.reason for item in by_package[name]}))])
         made["components"] = [{**source_component(*inside), "properties": [{"name": "frustumscreen:reason", "value": "linked in"}]}
                               for inside in package.inside] + files_of(by_package[name])
@@ -82,6 +93,6 @@ def make(contents, texts):
             "metadata": {"timestamp": time.strftime("%Y-%m-%dT%H:%M:%SZ"),
                          "tools": [{"vendor": "FrustumScreen", "name": "write_bill.py", "version": contents.version}], "component": image},
             "components": components,
-            "dependencies": [{"ref": "image", "dependsOn": [made["bom-ref"] for made in components]}]}
+            "dependencies": dependencies(contents, packages, components)}
     number = uuid.uuid5(uuid.NAMESPACE_URL, hashlib.sha256(json.dumps(bill, sort_keys=True).encode("utf-8")).hexdigest())
     return {**bill, "serialNumber": f"urn:uuid:{number}"}

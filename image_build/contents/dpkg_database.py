@@ -19,6 +19,7 @@ class Package:
     source_version: str
     summary: str
     inside: tuple  # (source, version) of what is linked in, as the package says
+    depends: tuple  # names, all alternatives among them
     folder: object  # the tree that was kept of it: usr/share/doc is there
     built_here: bool
 
@@ -44,10 +45,11 @@ def package_of(fields, folder, built_here):
     source = re.fullmatch(r"(\S+)(?: \((\S+)\))?", fields.get("Source", fields["Package"]))
     inside = re.findall(r"([a-z0-9][a-z0-9+.-]+) \(= ([^)]+)\)",
                         f"{fields.get('Built-Using', '')}, {fields.get('Static-Built-Using', '')}")
+    depends = re.findall(r"(?:^|[,|])\s*([a-z0-9][a-z0-9+.-]+)", f"{fields.get('Depends', '')},{fields.get('Pre-Depends', '')}")
     version = fields["Version"]
     return Package(fields["Package"], version, fields["Architecture"], source[1],
                    source[2] or re.sub(r"\+b\d+$", "", version), fields.get("Description", "").partition("\n")[0],
-                   tuple(sorted(set(inside))), folder, built_here)
+                   tuple(sorted(set(inside))), tuple(sorted(set(depends))), folder, built_here)
 
 
 def merged(path):

@@ -121,6 +121,13 @@ class Contents(unittest.TestCase):
         self.assertNotIn("licenses", self.components["libc6"])
         self.assertEqual(self.components["libc6"]["evidence"], {"licenses": [{"license": {"name": "refers to LGPL-2.1"}}]})
 
+    def test_what_a_package_needs_is_told_as_far_as_it_is_there(self):
+        graph = {row["ref"]: row["dependsOn"] for row in self.bill["dependencies"]}
+        references = {name: component["bom-ref"] for name, component in self.components.items()}
+        self.assertEqual(graph[references["libllvm15"]], [references["libc6"], references["tzdata"]])
+        self.assertIn(references["libglm-dev"], graph[references["frustumscreen"]])
+        self.assertEqual(set(graph["image"]), set(references.values()))
+
     def test_each_file_is_listed_with_its_hash(self):
         tree = self.work / "tree"
         subprocess.run(["unsquashfs", "-quiet", "-no-progress", "-dest", tree, self.out / "frustumscreen_1.2.slot"], check=True, capture_output=True)

@@ -46,7 +46,8 @@ SECTIONS = {".linux": noise(40000, 7), ".cmdline": b"quiet", ".osrel": b"VERSION
 # Tree, package, further fields, its files, its copyright file.
 PACKAGES = [
     ("ours", "frustumscreen", {}, ["/usr/bin/frustumscreen"], DEP5 + "\nFiles: *\nCopyright: us\nLicense: Apache-2.0\n see /usr/share/common-licenses/Apache-2.0\n"),
-    ("debian", "libllvm15", {"Source": "llvm-toolchain-15 (1:15.0.6-4)", "Version": "1:15.0.6-4+b1"}, [f"/{LLVM}"],
+    ("debian", "libllvm15", {"Source": "llvm-toolchain-15 (1:15.0.6-4)", "Version": "1:15.0.6-4+b1",
+                              "Depends": "libc6 (>= 2.36), perl:any | tzdata, libfrog1"}, [f"/{LLVM}"],
      DEP5 + "\nFiles: *\nCopyright: them\nLicense: Expat and BSD-3-clause, or Frog\n"),
     ("debian", "libc6", {"Source": "glibc", "Architecture-of-list": "amd64"}, ["/lib/x86_64-linux-gnu/libc.so.6"],
      "Freely written. See /usr/share/common-licenses/LGPL-2.1.\n"),
