@@ -164,6 +164,7 @@ multi-user.target frustumscreen.service
 multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
+multi-user.target frustumscreen-no-card.timer
 boot-complete.target frustumscreen-good.service
 UNITS
     mkdir -p "$root/boot-complete.target.requires"
