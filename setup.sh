@@ -58,7 +58,7 @@ for part; do
         packages) packages+=(dpkg-dev lintian) ;; # and looks at them
         hil)
             packages+=(
-                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
                 dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
             )
             ;;
