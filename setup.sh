@@ -63,7 +63,7 @@ for part; do
         packages) packages+=(dpkg-dev python3) ;; # python3: pages of the manual
         hil)
             packages+=(
-                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
                 dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
             )
             ;;

@@ -104,6 +104,19 @@ check_needs() {
     ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there, and build with --record"
 }
 
+# The exhibit's own words, in all languages, spoken; one language in a try. Kept until the bake changes.
+bake_words() {
+    local deb=("$packages"/frustumscreen-bake_*.deb) languages=()
+    [[ -e ${deb[0]} ]] || fail "--packages: $packages has no frustumscreen-bake, which bakes the exhibit's words; ./image_build/packages makes it"
+    ((level > 1)) || languages=(--languages en)
+    words=$cache/words-$(sha256sum "${deb[0]}" | cut -c 1-16)-${#languages[@]}.fswords
+    [[ ! -e $words ]] || return 0
+    dpkg-deb -x "${deb[0]}" "$work/bake"
+    "$work/bake/usr/bin/frustumscreen-bake" --words "${languages[@]}" -o "$work/words" >"$work/words.log" 2>&1 ||
+        { cat "$work/words.log" >&2; fail "the exhibit's words could not be baked"; }
+    mv "$work/words" "$words"
+}
+
 make_root() {
     local root=$work/root lists=() name unit unpacked=$debian/tree/unpacked
     [[ -z $firmware ]] || lists=("image_build/files.$firmware.list")
@@ -151,6 +164,7 @@ multi-user.target frustumscreen.service
 multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
+multi-user.target frustumscreen-no-card.timer
 boot-complete.target frustumscreen-good.service
 UNITS
     mkdir -p "$root/boot-complete.target.requires"
@@ -162,9 +176,13 @@ UNITS
 settings_of_image() {
     local file=$1/usr/share/frustumscreen/kiosk.toml
     sed -f image_build/settings.sed "$file" >"$work/kiosk.toml"
+    install -m 644 "$words" "$1/usr/share/frustumscreen/words.fswords"
     rm "$file" # it is a link to the package's
     install -m 644 "$work/kiosk.toml" "$file"
     install -m 644 "$work/kiosk.toml" "$1/etc/frustumscreen/kiosk.toml"
+    # With this machine's libraries, which are the same Debian's
+    sed "s|\"/usr/share/|\"$1/usr/share/|" "$work/kiosk.toml" >"$work/checked.toml"
+    "$1/usr/bin/frustumscreen" config --config "$work/checked.toml" --json >/dev/null || fail "settings.sed makes settings that are wrong"
 }
 
 # A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.

@@ -10,9 +10,11 @@ if [[ ${1-} == --all ]]; then
     shift
 fi
 ./setup.sh hil kiosk image packages window
-image_build/build --quick --test
+FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
+image_build/packages --out "$FRUSTUMSCREEN_IMAGE_PACKAGES"
+image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES"
 FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/image)/logs
-export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS PYTHONDONTWRITEBYTECODE=1
+export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES PYTHONDONTWRITEBYTECODE=1
 rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"
 /usr/bin/python3 "$here/real_image_test.py" . out/image/test
 cd "$here"
