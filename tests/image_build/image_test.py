@@ -4,9 +4,11 @@ import os
 import pathlib
 import shutil
 import tempfile
+import time
 import unittest
 
 from appliance import Appliance, tracker
+from bench import Patience
 
 IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
 LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
@@ -33,8 +35,11 @@ class ImageTest(unittest.TestCase):
     def start(self):
         self.pc.start()
         self.addCleanup(self.pc.stop)
+        Patience.clock = self.pc.granted_s
+        self.addCleanup(setattr, Patience, "clock", time.monotonic)
         self.pc.wait_until_lit()
 
     def switch_off(self):
         """By the plug, not by a command."""
+        Patience.clock = time.monotonic
         self.pc.stop()
