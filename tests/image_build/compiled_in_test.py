@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What compiled_in.list says of headers, held against the headers that the compiler read and the archives that were linked.
 
-    compiled_in_test.py SOURCE BUILD    BUILD: the folder of the release build
+    compiled_in_test.py SOURCE    SOURCE: the repository, with its release build
 """
 
 import os
@@ -10,7 +10,8 @@ import re
 import subprocess
 import sys
 
-SOURCE, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+SOURCE = pathlib.Path(sys.argv[1]).resolve()
+BUILD = SOURCE / "build/release"
 PROGRAMS = ("frustumscreen", "frustumscreen-import", "frustumscreen-pack", "frustumscreen-safe", "frustumscreen-watchdog")
 INTERFACE = {"linux-libc-dev"}  # the kernel's interface: numbers and structures that are nobody's code
 
