@@ -68,7 +68,7 @@ fetch_debian() {
     [[ ! -d $debian/tree ]] || { rm -rf "$work/debian"; return 0; }
     $record || image_build/debian.sh ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
     mkdir "$work/debian/tree"
-    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --exclude=./dev --exclude=./proc --exclude=./sys
+    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --no-same-permissions --exclude=./dev --exclude=./proc --exclude=./sys
     rm "$work/debian/debian.tar"
     mv "$work/debian" "$debian"
 }
@@ -134,6 +134,7 @@ make_root() {
     } >"$root/usr/lib/os-release"
     ln -sf ../usr/lib/os-release "$root/etc/os-release"
     systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
+    chmod 600 "$root"/etc/{shadow,gshadow} # else who is not root cannot read them into the image
     rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
     name=$(awk -F: '$3 > 126 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
@@ -188,9 +189,9 @@ settings_of_image() {
 # A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.
 make_slot() {
     local slot=$work/slot blocks formatted
-    # One thread's order; the numbers of users are all root's, since what others own is made at each start.
+    # All files are root's: what others own is made at each start.
     env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
-        -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible >/dev/null
+        -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible -exit-on-error >/dev/null
     blocks=$(($(stat -c %s "$slot") / 4096))
     (($(stat -c %s "$slot") % 4096 == 0)) || fail "the root's file system does not end with a block of 4096 bytes"
     salt=$(sha256sum "$slot" | cut -c 1-64)
