@@ -2,10 +2,11 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages]...
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]...
 #
 # No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
-# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk
+# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
+# image: image_build/build, with these
 set -euo pipefail
 
 packages=(
@@ -45,19 +46,29 @@ for part; do
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
                 lintian                           # looks at the Debian packages
+                squashfs-tools cpio zstd fdisk dosfstools mtools       # a made-up image, to be taken apart
+                python3-jsonschema python3-license-expression          # read its bill of materials
                 shellcheck clang-format pyflakes3 # how it is written
+            )
+            ;;
+        image)
+            packages+=(
+                mmdebstrap uidmap kmod systemd uuid-runtime python3                  # Debian's packages, the root
+                squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
+                fdisk dosfstools mtools e2fsprogs                                    # the disk
+                python3-jsonschema python3-license-expression                        # read its bill of materials
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
         packages) packages+=(dpkg-dev python3) ;; # python3: pages of the manual
         hil)
             packages+=(
-                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
                 dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]..." >&2
             exit 2
             ;;
     esac

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# ./test image: makes the image for tests, and starts it in an emulated PC with UEFI.
+#
+#   run_tests.sh [--all] [NAME...]    --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+cd "$here/../.."
+if [[ ${1-} == --all ]]; then
+    export FRUSTUMSCREEN_IMAGE_ALL=1
+    shift
+fi
+./setup.sh hil kiosk image packages window
+FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
+image_build/packages --out "$FRUSTUMSCREEN_IMAGE_PACKAGES"
+image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES"
+FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/image)/logs
+export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES PYTHONDONTWRITEBYTECODE=1
+rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"
+/usr/bin/python3 "$here/real_image_test.py" . out/image/test
+cd "$here"
+if (($# > 0)); then
+    exec python3 -m unittest -v "$@"
+fi
+exec python3 -m unittest discover -v
