@@ -124,6 +124,7 @@ make_root() {
     image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
+    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # nobody becomes root by a program
     cp -R image_build/files/. "$root/"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
     : >"$root/etc/machine-id" # the first start's (initrd/init)
