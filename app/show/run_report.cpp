@@ -295,7 +295,7 @@ void StatusFile::work() {
         stamp(status);
         renew_surroundings(surroundings, file_, usual_watchdog_file, status_clock());
         status.surroundings = std::make_shared<const Surroundings>(surroundings);
-        const Result<void> written = write_file(file_, as_bytes(status_json(status)));
+        const Result<void> written = renew_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
             complained = true;

@@ -185,7 +185,7 @@ std::string starts_line(const JsonFields& status, std::optional<double> age_s, c
         return text + around.ends_trouble;
     }
     if (!around.ends.last) {
-        return text + "it has not ended before";
+        return text + "it has not ended since the computer was started";
     }
     const ServiceEnd& last = *around.ends.last;
     return fmt::format("{}it has ended {}, last {} ago: {} ({} {})", text,

@@ -1,5 +1,6 @@
 #include "firmware_host/base/file.h"
 
+#include "firmware_host/base/descriptor.h"
 #include "firmware_host/base/open_file.h"
 #include "firmware_host/base/streamed_file.h"
 
@@ -63,6 +64,16 @@ private:
     int descriptor_;
 };
 
+/// Whether the bytes are now those of a file that was there. Its blocks are taken before a byte is written, so that a failure
+/// leaves it as it was.
+bool write_over(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    const auto size = static_cast<off_t>(bytes.size());
+    return file.number() >= 0 && (size == 0 || ::posix_fallocate(file.number(), 0, size) == 0) &&
+           ::pwrite(file.number(), bytes.data(), bytes.size(), 0) == std::ssize(bytes) &&
+           ::ftruncate(file.number(), size) == 0;
+}
+
 std::string system_reason() {
     return std::strerror(errno);
 }
@@ -101,6 +112,11 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
         return bad_input(path.string() + ": cannot be written: " + system_reason());
     }
     return {};
+}
+
+Result<void> renew_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    Result<void> written = write_file(path, bytes);
+    return written || !write_over(path, bytes) ? written : Result<void>();
 }
 
 Result<void> write_file_with(const std::filesystem::path& path,

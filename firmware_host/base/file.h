@@ -22,6 +22,10 @@ using Bytes = std::vector<std::byte>;
 /// leaves `path`.part<its number>.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// For a small file that is renewed again and again, as a status is: as `write_file`, but where the disk is full, the bytes go over
+/// those that are there, as far as these have room. Who reads it in that moment may find a mixture of both.
+[[nodiscard]] Result<void> renew_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
 /// Removes what killed processes left beside `path`; what a living process writes stays.
 void clear_partial_files(const std::filesystem::path& path);
 

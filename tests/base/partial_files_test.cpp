@@ -68,5 +68,28 @@ TEST_F(PartialFiles, OfALivingProcessAndOfOtherNamesStay) {
     EXPECT_TRUE(fs::exists(folder / ("scan.fspack.part" + number)));
 }
 
+/// Nothing can be written beside it, as on a full disk.
+TEST_F(PartialFiles, AFileThatIsRenewedIsWrittenOverWhereNothingFitsBesideIt) {
+    const fs::path status = folder / "status.json";
+    ASSERT_TRUE(renew_file(status, as_bytes("a long one")));
+    fs::create_directory(status.string() + ".part" + std::to_string(::getpid()));
+    EXPECT_FALSE(write_file(status, as_bytes("never")));
+    for (const std::string_view text : {"short", "longer than both before it", ""}) {
+        ASSERT_TRUE(renew_file(status, as_bytes(text)));
+        const Result<Bytes> read = read_file(status);
+        ASSERT_TRUE(read);
+        EXPECT_EQ(as_text(*read), text);
+    }
+}
+
+TEST_F(PartialFiles, AFileThatIsNotThereIsNotRenewedWhereNothingFits) {
+    const fs::path status = folder / "status.json";
+    fs::create_directory(status.string() + ".part" + std::to_string(::getpid()));
+    const Result<void> renewed = renew_file(status, as_bytes("first"));
+    ASSERT_FALSE(renewed);
+    EXPECT_NE(renewed.error().message.find("cannot be written"), std::string::npos);
+    EXPECT_FALSE(fs::exists(status));
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -31,6 +31,7 @@ class HilTest(unittest.TestCase):
     bench: Bench
     settings = USUAL  # the whole file
     before = after = "true"  # what the machine does while the exhibit stands: before it has these settings, after it had them
+    broken_s = broken_uptime_s = None
     longest_s = 0.0  # the longest time that a picture stood in any test while it should move
 
     @classmethod
@@ -51,6 +52,26 @@ class HilTest(unittest.TestCase):
         bench.status_says("tracker", "is running", START_S)
         bench.status_says("panel", "buttons are there")
         bench.status_says("display", LIT)
+
+    def broken(self):
+        """From here on it is counted how long it takes until the screen is lit again."""
+        self.broken_s, self.broken_uptime_s = self.bench.machine.granted_s(), self.uptime_s()
+
+    def tell_lit(self):
+        """Prints how long it was dark; and by the guest's own clock, which a busy host makes wait, whose time that was."""
+        if self.broken_s is None:
+            return
+        dark_s = self.bench.machine.granted_s() - self.broken_s
+        began, ready = (1e-6 * int(self.bench.machine.check(f"systemctl show --value -p {name} {UNIT}"))
+                        for name in ("ExecMainStartTimestampMonotonic", "ActiveEnterTimestampMonotonic"))
+        restart = ""
+        if began > self.broken_uptime_s:
+            restart = (f"; by the guest's clock it was started again after {began - self.broken_uptime_s:.1f} s, "
+                       f"and its start took {ready - began:.1f} s")
+        print(f"  lit {dark_s:.1f} s after the fault{restart}", flush=True)
+
+    def uptime_s(self):
+        return float(self.bench.machine.read("/proc/uptime").split()[0])
 
     def show(self, artifact):
         """Presses `next` if another of the two artifacts is shown."""

@@ -18,7 +18,8 @@ from repeat import Load, Run, as_text
 
 # in this order, because later tests rely on earlier ones
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "stick", "stick_hostile",
-           "stick_storm", "table", "guidance", "display", "vblank", "restart", "safe", "hours", "watchdog", "kernel")
+           "stick_storm", "table", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
+           "watchdog", "kernel")
 
 
 def say(text):

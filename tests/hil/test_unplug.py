@@ -27,7 +27,9 @@ class Unplug(HilTest):
             self.watch(3.0, rests=True)
             self.bench.place((x, 0.0, 0.0))
             self.bench.tracker.tell("unplug", "off")
+            plugged_s = self.bench.machine.granted_s()
             self.bench.status_says("tracker", "is running", BACK_S)
+            print(f"  runs {self.bench.machine.granted_s() - plugged_s:.1f} s after it was plugged in", flush=True)
             self.assert_at((x, 0.0, 0.0), artifact=ARTIFACT)
 
     def test_panel_unplugged_and_back(self):

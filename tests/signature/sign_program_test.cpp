@@ -280,5 +280,14 @@ TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "exhibit.toml.minisig"));
 }
 
+TEST_F(SignProgram, AMistypedCommandIsToldWithThoseThatThereAre) {
+    const Outcome mistyped = pack("verfy vase.fspack");
+    EXPECT_EQ(mistyped.status, 2);
+    EXPECT_EQ(mistyped.error,
+              "frustumscreen-pack: 'verfy' is no command; the commands are verify, list, explain, preview, "
+              "keygen, sign; frustumscreen-pack --help says more\n");
+    EXPECT_NE(pack("").error.find("a command is missing; the commands are verify"), std::string::npos);
+}
+
 } // namespace
 } // namespace frustumscreen

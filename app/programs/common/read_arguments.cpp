@@ -35,6 +35,18 @@ std::string nearest_option(const CLI::App& app, std::string_view mistyped) {
     return nearest;
 }
 
+/// Where a command is missing; `word` may stand in its place.
+std::string no_command(const CLI::App& app, const std::string& word) {
+    std::string commands;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        commands += (commands.empty() ? "" : ", ") + command->get_name();
+    }
+    const bool is_option = word.empty() || word.starts_with('-');
+    const std::string what =
+        is_option ? "a command is missing" : fmt::format("'{}' is no command", printable(word, 100));
+    return fmt::format("{}; the commands are {}", what, commands);
+}
+
 std::string sentence(const CLI::App* app, const CLI::Error& error) {
     std::string what = error.what();
     const std::vector<std::string> left = app->remaining(true);
@@ -43,6 +55,9 @@ std::string sentence(const CLI::App* app, const CLI::Error& error) {
         const std::string nearest = name.starts_with("--") ? nearest_option(*app, name) : "";
         what = fmt::format("'{}' is not expected here{}", printable(left.front(), 100),
                            nearest.empty() ? "" : "; the nearest option is " + nearest);
+    } else if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+               app->get_require_subcommand_min() > app->get_subcommands().size()) {
+        what = no_command(*app, left.empty() ? "" : left.front());
     }
     return fmt::format("{0}: {1}; {0} --help says more\n", app->get_name(), what);
 }

@@ -25,7 +25,7 @@ constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
 /// One line: how many pictures were shown, and CLOCK_MONOTONIC in ns at the latest.
 Result<void> say_alive(const std::filesystem::path& file, std::uint64_t shown) {
     const std::string line = fmt::format("{} {}\n", shown, monotonic_now().time_since_epoch().count());
-    return file.empty() ? Result<void>() : write_file(file, as_bytes(line));
+    return file.empty() ? Result<void>() : renew_file(file, as_bytes(line));
 }
 
 /// To the service manager, and to the journal what is new.

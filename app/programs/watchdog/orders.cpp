@@ -24,7 +24,7 @@ std::string_view Orders::order_for(Step step) {
 }
 
 Result<void> Orders::set_mode(Mode mode) const {
-    return write_file(folder_ / "mode", as_bytes(fmt::format("{}\n", word_of(mode))));
+    return renew_file(folder_ / "mode", as_bytes(fmt::format("{}\n", word_of(mode))));
 }
 
 Result<void> Orders::begin(Mode mode) const {
@@ -39,7 +39,7 @@ Result<void> Orders::begin(Mode mode) const {
 
 Result<void> Orders::give(Step step, Mode mode, std::string_view reason) const {
     const Result<void> is_set = set_mode(mode);
-    const Result<void> is_told = write_file(folder_ / "reason", as_bytes(fmt::format("{}\n", reason)));
+    const Result<void> is_told = renew_file(folder_ / "reason", as_bytes(fmt::format("{}\n", reason)));
     const Result<void> is_given = write_file(folder_ / "steps" / order_for(step), {});
     return !is_set ? is_set : !is_told ? is_told : is_given;
 }

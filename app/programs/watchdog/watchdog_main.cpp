@@ -109,7 +109,7 @@ private:
                                     outcome.failures,
                                     view_.last_end(),
                                     notes_of(outcome)};
-        complain_of(write_file(report_file_, as_bytes(watchdog_json(report, faults_.latest()))));
+        complain_of(renew_file(report_file_, as_bytes(watchdog_json(report, faults_.latest()))));
     }
 
     /// Once for each message.
