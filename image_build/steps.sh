@@ -35,8 +35,10 @@ parse_arguments() {
     [[ -z $firmware || $firmware == amd ]] || { echo "build: --firmware: '$firmware' is none; amd is" >&2; exit 2; }
     [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
         { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
-    [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] && (($(numfmt --from=iec "$data_size") >= 32 << 20)) ||
-        { echo "build: --data: '$data_size' is not a number with M or G, 32M at least" >&2; exit 2; }
+    if ! [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] || (($(numfmt --from=iec "$data_size") < 32 << 20)); then
+        echo "build: --data: '$data_size' is not a number with M or G, 32M at least" >&2
+        exit 2
+    fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
     : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
