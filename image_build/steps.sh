@@ -145,6 +145,10 @@ make_root() {
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"
+    find "$root" -type f -printf '%s\t%P\n' | sort -k 2 | awk -F '\t' -v OFS='\t' \
+        'NR == FNR { known[$3]; next } !($2 in known) { print $1, "what the image adds: words, units, users, indexes of modules", $2 }' \
+        "$work/kept" - >"$work/added"
+    cat "$work/added" >>"$work/kept"
 }
 
 enable_units() {
@@ -247,6 +251,7 @@ make_disk() {
     mv "$work/slot" "$out/frustumscreen_$version.slot"
     mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
     cp "$work/kept" "$out/kept.tsv"
+    image_build/why "$out" >"$out/why.txt"
     cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
     rm -rf "$out/packages" && mv "$work/packages" "$out/"
     echo "$root_hash" >"$out/root_hash"
