@@ -35,6 +35,10 @@ parse_arguments() {
     [[ -z $firmware || $firmware == amd ]] || { echo "build: --firmware: '$firmware' is none; amd is" >&2; exit 2; }
     [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
         { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
+    if ! [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] || (($(numfmt --from=iec "$data_size") < 32 << 20)); then
+        echo "build: --data: '$data_size' is not a number with M or G, 32M at least" >&2
+        exit 2
+    fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
     : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
@@ -124,6 +128,7 @@ make_root() {
     image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
+    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # nobody becomes root by a program
     cp -R image_build/files/. "$root/"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
     : >"$root/etc/machine-id" # the first start's (initrd/init)
@@ -140,6 +145,10 @@ make_root() {
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"
+    find "$root" -type f -printf '%s\t%P\n' | sort -k 2 | awk -F '\t' -v OFS='\t' \
+        'NR == FNR { known[$3]; next } !($2 in known) { print $1, "what the image adds: words, units, users, indexes of modules", $2 }' \
+        "$work/kept" - >"$work/added"
+    cat "$work/added" >>"$work/kept"
 }
 
 enable_units() {
