@@ -10,7 +10,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys='' packages='' firmware='' data_size=64M out='' record=false mirror=''
+    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false mirror=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -35,8 +35,8 @@ parse_arguments() {
     [[ -z $firmware || $firmware == amd ]] || { echo "build: --firmware: '$firmware' is none; amd is" >&2; exit 2; }
     [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
         { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
-    if ! [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] || (($(numfmt --from=iec "$data_size") < 32 << 20)); then
-        echo "build: --data: '$data_size' is not a number with M or G, 32M at least" >&2
+    if ! [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] || (($(numfmt --from=iec "$data_size") < 160 << 20)); then
+        echo "build: --data: '$data_size' is not a number with M or G, 160M at least: smaller ones have no second superblock" >&2
         exit 2
     fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"

@@ -58,7 +58,7 @@ class Build(unittest.TestCase):
     def test_wrong_use_is_one_sentence(self):
         for options, status, words in ((["--keys", "/nowhere"], 1, "db.key"), (["--frimware", "amd"], 2, "--help"),
                                        (["--firmware", "arm"], 2, "amd"), (["--version", "new"], 2, "digit"),
-                                       (["--keys"], 2, "value"), (["--data", "big"], 2, "32M"), (["--packages", "/nowhere"], 1, "/nowhere")):
+                                       (["--keys"], 2, "value"), (["--data", "big"], 2, "160M"), (["--packages", "/nowhere"], 1, "/nowhere")):
             done = subprocess.run([BUILD, *options], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, status, options)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)

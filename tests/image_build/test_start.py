@@ -19,10 +19,10 @@ class Start(ImageTest):
         self.assertEqual(pc.check("hostname").strip(), f"frustumscreen-{machine_id[:6]}")
         self.assertIn("[integrity]", pc.check("cat /sys/kernel/security/lockdown"))
         self.assert_keyboard_is_not_used()
-        eventually(lambda: int(pc.check("stat -f -c %b /data")) * 4096 > 8 * small, 120.0, "the data partition does not grow")
+        eventually(lambda: int(pc.check("stat -f -c %b /data")) * 4096 > 4 * small, 120.0, "the data partition does not grow")
         self.assertEqual(pc.check("systemctl --failed --no-legend").strip(), "")
         self.switch_off()
-        self.assertGreater(pc.partition(DATA)[1], 8 * small)
+        self.assertGreater(pc.partition(DATA)[1], 4 * small)
 
     @long
     def test_second_start(self):
