@@ -2,9 +2,10 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil]...    nothing: what ./run builds and runs. Each part comes on top of that:
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]...    nothing: what ./run builds and runs. Each part comes on top of that:
 #                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
-#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk
+#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk;
+#                                                  image: ./image_build/build
 set -euo pipefail
 
 packages=(
@@ -46,7 +47,15 @@ for part; do
                 shellcheck clang-format pyflakes3 # how it is written
             )
             ;;
+        image)
+            packages+=(
+                mmdebstrap uidmap kmod systemd uuid-runtime python3                  # Debian's packages, the root
+                squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
+                fdisk dosfstools mtools e2fsprogs                                    # the disk
+            )
+            ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
+        packages) packages+=(dpkg-dev lintian) ;; # and looks at them
         hil)
             packages+=(
                 python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
@@ -54,7 +63,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]..." >&2
             exit 2
             ;;
     esac

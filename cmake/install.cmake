@@ -1,6 +1,20 @@
-# What a kiosk has: DESTDIR=ROOT cmake --install build/release --component kiosk; systemd/README.md says more.
+# What is installed, in three components, each a Debian package (cmake/packages.cmake):
+#   base   the exhibit's program and what kiosks and curators both use; starts nothing
+#   kiosk  what makes a PC the exhibit: units, rules, users, settings; needs base
+#   bake   what curators use on their own computers; needs base
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-watchdog frustumscreen-safe
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import
+    DESTINATION /usr/bin COMPONENT base EXCLUDE_FROM_ALL)
+
+install(TARGETS frustumscreen-bake frustumscreen-artifact frustumscreen-poses frustumscreen-sheet
+    DESTINATION /usr/bin COMPONENT bake EXCLUDE_FROM_ALL)
+if(TARGET frustumscreen-window)
+    install(TARGETS frustumscreen-window DESTINATION /usr/bin COMPONENT bake EXCLUDE_FROM_ALL)
+endif()
+install(PROGRAMS assets_baked/batch/slurm_array.sh
+    DESTINATION /usr/share/doc/frustumscreen-bake/examples COMPONENT bake EXCLUDE_FROM_ALL)
+
+install(TARGETS frustumscreen-watchdog frustumscreen-safe
     DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service
     systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
@@ -36,7 +50,7 @@ add_custom_command(OUTPUT ${built_in}.fspack
     BYPRODUCTS ${built_in}.glb
     COMMENT "Baking the built-in artifact" VERBATIM)
 add_custom_target(frustumscreen-built-in ALL DEPENDS ${built_in}.fspack)
-install(FILES ${built_in}.fspack DESTINATION /usr/share/frustumscreen COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(FILES ${built_in}.fspack DESTINATION /usr/share/frustumscreen COMPONENT base EXCLUDE_FROM_ALL)
 
 # The settings as shipped, with the packs where a kiosk has them. A museum's own settings stay.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/kiosk.toml)
@@ -45,7 +59,7 @@ string(REPLACE "../out/packs/" "/var/lib/frustumscreen/packs/" kiosk_settings "$
 string(REPLACE "../out/words.fswords" "/var/lib/frustumscreen/words.fswords" kiosk_settings "${kiosk_settings}")
 file(WRITE ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml "${kiosk_settings}")
 install(FILES ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml DESTINATION /usr/share/frustumscreen
-    COMPONENT kiosk EXCLUDE_FROM_ALL)
+    COMPONENT base EXCLUDE_FROM_ALL)
 install(CODE "
     # DESTDIR goes in front by itself.
     if(NOT EXISTS \"\$ENV{DESTDIR}/etc/frustumscreen/kiosk.toml\")

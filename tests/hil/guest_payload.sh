@@ -10,7 +10,9 @@ build=$1 packs=$2 out=$3
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 chmod 755 "$tree"
-DESTDIR=$tree cmake --install "$build" --component kiosk --strip >/dev/null
+for component in base kiosk; do
+    DESTDIR=$tree cmake --install "$build" --component "$component" --strip >/dev/null
+done
 install -D -m 644 -t "$tree/var/lib/frustumscreen/packs" "$packs"/*.fspack
 install -m 644 -t "$tree/var/lib/frustumscreen" "$packs/words.fswords"
 mkdir -p "$tree/usr/lib/frustumscreen"

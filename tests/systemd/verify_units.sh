@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the kiosk's part of the build folder $1 into a new root and checks its units, users, folders and
+# Installs what a kiosk has of the build folder $1 into a new root and checks its units, users, folders and
 # udev rules with systemd's own tools. Exit status 77: a tool is missing, and its check was left out.
 set -euo pipefail
 build=$1
@@ -16,8 +16,14 @@ die() {
     exit 1
 }
 
-DESTDIR=$root cmake --install "$build" --component kiosk >/dev/null
-DESTDIR=$root cmake --install "$build" --component kiosk >/dev/null # again: it changes nothing
+install_kiosk() {
+    local component
+    for component in base kiosk; do
+        DESTDIR=$root cmake --install "$build" --component "$component" >/dev/null
+    done
+}
+install_kiosk
+install_kiosk # again: it changes nothing
 units=$root/usr/lib/systemd/system
 unit=$units/frustumscreen.service
 
@@ -31,7 +37,7 @@ grep -q '"/var/lib/frustumscreen/packs/amphora.fspack"' <<<"$resolved" ||
 [[ $(stat -c %s "$root/usr/share/frustumscreen/built_in.fspack") -lt 400000 ]] || die "the built-in artifact is large"
 "$root$program" config --config "$root/usr/share/frustumscreen/kiosk.toml" --json >/dev/null || die "the shipped settings are wrong"
 echo '# the museum'"'"'s own' >"$root$settings"
-DESTDIR=$root cmake --install "$build" --component kiosk >/dev/null
+install_kiosk
 grep -q "museum's own" "$root$settings" || die "a museum's own settings were overwritten"
 
 if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; then

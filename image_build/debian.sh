@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# Makes the Debian that the image is cut from: one tar with all files of the packages, and their licences and lists beside it.
+#
+#   debian.sh [--record] [--mirror URL] [--firmware amd] FOLDER
+#
+# FOLDER/debian.tar             the packages' files; kernel, boot loader and busybox below /unpacked
+# FOLDER/packages.txt           name, version, architecture and source of each
+# FOLDER/licences.tar           /usr/share/doc/*/copyright and the licences that these name
+# With --record, packages.list is written anew; else it says which versions are taken, and any other is an error.
+# Works as root, and without by the kernel's user namespaces (mmdebstrap's mode "unshare").
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+say_and_fail() {
+    echo "build: $*" >&2
+    exit 1
+}
+
+record=false mirror= firmware=
+while [[ $1 == --* ]]; do
+    case $1 in
+        --record) record=true ;;
+        --mirror) mirror=$2 && shift ;;
+        --firmware) firmware=$2 && shift ;;
+    esac
+    shift
+done
+folder=$1
+mkdir -p "$folder"
+folder=$(readlink -f "$folder")
+list=$here/packages.list
+[[ -z $firmware ]] || list=$here/packages.$firmware.list
+
+of_kind() { sed -n "s/^$1 \+\([^ ]*\).*/\1/p" "$here/packages.conf" ${firmware:+"$here/packages.$firmware.conf"}; }
+mapfile -t install < <(of_kind install)
+mapfile -t unpack < <(of_kind unpack)
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+chmod 777 "$work" # without root, mmdebstrap works as another user
+touch "$work/preferences"
+if ! $record; then
+    [[ -f $list ]] || say_and_fail "$list is missing; --record makes it"
+    # Above 1000 apt takes a version even where a newer one is there.
+    grep -v '^#' "$list" | while read -r name version; do
+        printf 'Package: %s\nPin: version %s\nPin-Priority: 1001\n\n' "$name" "$version"
+    done >"$work/preferences"
+fi
+
+# Runs inside mmdebstrap with the new root as $1.
+cat >"$work/unpack_hook" <<HOOK
+set -eu
+root=\$1
+export APT_CONFIG=\$MMDEBSTRAP_APT_CONFIG
+mkdir "$work/debs" "\$root/unpacked"
+cd "$work/debs"
+for package in ${unpack[*]}; do
+    # linux-image-amd64 is a name for the newest kernel.
+    real=\$(apt-cache depends "\$package" | sed -n 's/^ *Depends: \(linux-image-.*\)/\1/p' | head -n 1)
+    apt-get download -qq -o APT::Sandbox::User=root "\${real:-\$package}"
+done
+for deb in *.deb; do
+    dpkg-deb -x "\$deb" "\$root/unpacked"
+    dpkg-deb -W --showformat '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' "\$deb"
+done >"$work/unpacked.txt"
+dpkg-query --admindir="\$root/var/lib/dpkg" -W \
+    -f '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' >"$work/installed.txt"
+rm -rf "\$root"/var/cache/* "\$root"/var/lib/apt "\$root"/var/log/*
+HOOK
+
+include=$(IFS=,; echo "${install[*]}")
+components=main
+[[ -z $firmware ]] || components=main,non-free-firmware
+exclude=()
+for left_out in man locale info lintian bug i18n; do
+    exclude+=(--dpkgopt="path-exclude=/usr/share/$left_out/*")
+done
+status=0
+mmdebstrap --quiet --variant=essential --components="$components" --include="$include" \
+    --aptopt='Apt::Install-Recommends "false"' "${exclude[@]}" \
+    --setup-hook="mkdir -p \"\$1/etc/apt/preferences.d\" && cp \"$work/preferences\" \"\$1/etc/apt/preferences.d/recorded\"" \
+    --customize-hook="sh $work/unpack_hook \"\$1\"" \
+    bookworm "$work/debian.tar" ${mirror:+"$mirror"} 2>"$work/log" || status=$?
+if ((status != 0)); then
+    cat "$work/log" >&2
+    say_and_fail "Debian's packages could not be fetched and unpacked; the lines above say why"
+fi
+
+LC_ALL=C sort -u "$work/installed.txt" "$work/unpacked.txt" >"$work/packages.txt"
+cut -d ' ' -f 1,2 "$work/packages.txt" >"$work/taken"
+if $record; then
+    {
+        echo "# The Debian packages of the image, each with its version. ./image_build/build --record writes this file anew."
+        cat "$work/taken"
+    } >"$list"
+elif ! diff <(grep -v '^#' "$list") "$work/taken" >"$work/differences"; then
+    sed 's/^</recorded:/; s/^>/Debian has:/' "$work/differences" | grep ':' >&2
+    say_and_fail "Debian no longer has the versions above as ${list##*/} records them. --record takes what there is now;" \
+        "--mirror https://snapshot.debian.org/archive/debian/DATE/ finds the old ones"
+fi
+tar -C "$work" -xf "$work/debian.tar" --wildcards './usr/share/doc/*/copyright' './unpacked/usr/share/doc/*/copyright' \
+    './usr/share/common-licenses'
+tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@${SOURCE_DATE_EPOCH:-0}" -cf "$folder/licences.tar" \
+    usr unpacked
+mv "$work/packages.txt" "$work/debian.tar" "$folder/"

@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""Cuts the image's root out of Debian's packages and ours: only what files.list and modules.list name, each with a reason, and
+what that needs: the libraries that a program links, the modules that a module needs, what a symbolic link points to.
+
+    lean.py ROOT KEPT --from TREE [--from TREE]... --files LIST... [--kernel TREE --modules LIST...]
+
+--from    where files are looked for, the first tree that has one wins; --kernel: where the kernel's package is unpacked
+ROOT      a folder that is made; all files have the modes of their packages
+KEPT      a table: bytes, the reason, the path; what it is for, when somebody asks
+Errors    one sentence; a line of a list that names nothing is one, so that the lists stay true.
+"""
+
+import argparse
+import fnmatch
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+LIBRARIES = ("usr/lib/x86_64-linux-gnu", "usr/lib", "usr/lib/systemd", "usr/lib/x86_64-linux-gnu/systemd", "usr/lib64")
+MERGED = ("bin", "sbin", "lib", "lib64")  # links into usr
+
+
+class Wrong(Exception):
+    pass
+
+
+def lines_of(path):
+    """(words before the reason, reason) of each line; words and reason are two spaces or more apart."""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line.strip() and not line.startswith("#"):
+            named, _, reason = re.sub(r"\s{2,}", "\t", line.strip()).partition("\t")
+            if not reason:
+                raise Wrong(f"{path}: '{line}' has no reason, behind two spaces")
+            yield named, reason
+
+
+class Trees:
+    """Files of several trees laid over one another; paths are relative, without the links of the merged /usr."""
+
+    def __init__(self, roots):
+        self.files = {}
+        for root in reversed(roots):
+            for folder, folders, names in os.walk(root):
+                inside = os.path.relpath(folder, root)
+                for name in names + [name for name in folders if os.path.islink(os.path.join(folder, name))]:
+                    path = os.path.normpath(os.path.join(inside, name))
+                    first, _, rest = path.partition("/")
+                    if first in MERGED and rest:
+                        path = f"usr/{path}"
+                    if path not in MERGED:
+                        self.files[path] = os.path.join(folder, name)
+        self.names = sorted(self.files)
+
+    def like(self, pattern):
+        """All paths that a pattern names: * stays within a folder, ** does not."""
+        if not any(letter in pattern for letter in "*?["):
+            return [pattern] if pattern in self.files else []
+        regex = re.escape(pattern).replace(r"\*\*", ".*").replace(r"\*", "[^/]*").replace(r"\?", "[^/]")
+        if "[" in pattern:
+            return fnmatch.filter(self.names, pattern)
+        return [name for name in self.names if re.fullmatch(regex, name)]
+
+    def target(self, path):
+        """What a symbolic link points to; None: nothing in the trees, as in /run or /dev."""
+        to = os.readlink(self.files[path])
+        whole = os.path.normpath(to.lstrip("/") if to.startswith("/") else os.path.join(os.path.dirname(path), to))
+        first, _, rest = whole.partition("/")
+        whole = f"usr/{whole}" if first in MERGED and rest else whole
+        return whole if whole in self.files else None
+
+
+def linked(trees, paths):
+    """path -> names of the libraries that it links, of those that are ELF files."""
+    real = {trees.files[path]: path for path in paths if not os.path.islink(trees.files[path])}
+    elves = [file for file in real if open(file, "rb").read(4) == b"\x7fELF"]
+    found = {}
+    for begin in range(0, len(elves), 500):
+        some = elves[begin : begin + 500]
+        out = subprocess.run(["readelf", "--dynamic", "--program-headers", "--wide", *some], check=True, capture_output=True,
+                             text=True, env={**os.environ, "LC_ALL": "C"}).stdout
+        at = some[0]
+        for line in out.splitlines():
+            if line.startswith("File: "):
+                at = line[6:]
+            match = re.search(r"\(NEEDED\).*\[(.*)\]", line) or re.search(r"program interpreter: .*/(.*)\]", line)
+            if match:
+                found.setdefault(real[at], set()).add(match.group(1))
+    return found
+
+
+def keep_files(trees, lists):
+    """path -> reason."""
+    kept = {}
+    for path in lists:
+        for pattern, reason in lines_of(path):
+            found = trees.like(pattern)
+            if not found:
+                raise Wrong(f"{path}: no file is named by '{pattern}'; take the line out, or mend it")
+            kept.update({name: reason for name in found if name not in kept})
+    new = set(kept)
+    while new:
+        more = {}
+        for path in sorted(new):
+            if os.path.islink(trees.files[path]):
+                target = trees.target(path)
+                if target and not os.path.isdir(trees.files[target]):
+                    more.setdefault(target, kept[path])
+        for path, names in sorted(linked(trees, sorted(new)).items()):
+            for name in sorted(names):
+                places = [place for place in (f"{folder}/{name}" for folder in LIBRARIES) if place in trees.files]
+                if not places:
+                    raise Wrong(f"{path} needs the library {name}, which no package brings: add its package to packages.conf")
+                more.setdefault(places[0], kept[path])
+        new = set(more) - set(kept)
+        kept.update({path: more[path] for path in new})
+    return kept
+
+
+def keep_modules(folder, lists):
+    """(path below the modules' folder -> reason, the same of the initrd's alone)."""
+    needs, by_name = {}, {}
+    for line in (folder / "modules.dep").read_text(encoding="utf-8").splitlines():
+        path, _, others = line.partition(":")
+        needs[path] = others.split()
+        by_name[os.path.basename(path).removesuffix(".ko").replace("-", "_")] = path
+    built_in = {os.path.basename(line).removesuffix(".ko").replace("-", "_")
+                for line in (folder / "modules.builtin").read_text(encoding="utf-8").split()}
+    kept, early = {}, {}
+    for path in lists:
+        for words, reason in lines_of(path):
+            where, name = words.split()
+            if name in built_in:
+                continue
+            if name not in by_name:
+                raise Wrong(f"{path}: this kernel has no module {name}")
+            for module in (by_name[name], *needs[by_name[name]]):
+                kept.setdefault(module, reason)
+                if where == "initrd":
+                    early.setdefault(module, reason)
+    return kept, early
+
+
+def lay(source, target):
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if os.path.islink(source):
+        os.symlink(os.readlink(source), target)
+    else:
+        os.link(source, target)  # files that are one in the package stay one
+
+
+def lay_modules(kernel, lists, root):
+    """Lays the modules that the lists name into the root; returns path -> reason."""
+    versions = os.listdir(kernel / "lib/modules")
+    if len(versions) != 1:
+        raise Wrong(f"{kernel} has not one kernel but {len(versions)}")
+    modules = kernel / "lib/modules" / versions[0]
+    subprocess.run(["depmod", "--basedir", kernel, versions[0]], check=True)
+    loaded, early = keep_modules(modules, lists)
+    place = pathlib.Path("usr/lib/modules") / versions[0]
+    for path in [*loaded, "modules.order", "modules.builtin", "modules.builtin.modinfo"]:
+        lay(modules / path, root / place / path)
+    (root / place / "initrd").write_text("".join(f"{path}\n" for path in early), encoding="ascii")
+    subprocess.run(["depmod", "--basedir", root / "usr", versions[0]], check=True)
+
+    return {str(place / path): reason for path, reason in loaded.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--from", dest="trees", action="append", required=True, type=pathlib.Path)
+    parser.add_argument("--kernel", type=pathlib.Path)
+    parser.add_argument("--files", nargs="+", required=True, type=pathlib.Path)
+    parser.add_argument("--modules", nargs="+", type=pathlib.Path)
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("kept", type=pathlib.Path)
+    arguments = parser.parse_args()
+
+    trees = Trees(arguments.trees)
+    kept = keep_files(trees, arguments.files)
+    for path in sorted(kept):
+        lay(trees.files[path], arguments.root / path)
+    for name in MERGED:
+        os.symlink(f"usr/{name}", arguments.root / name)
+
+    if arguments.kernel:
+        kept.update(lay_modules(arguments.kernel, arguments.modules, arguments.root))
+    with open(arguments.kept, "w", encoding="utf-8") as table:
+        seen = set()
+        for path, reason in sorted(kept.items()):
+            state = os.lstat(arguments.root / path)
+            table.write(f"{0 if state.st_ino in seen else state.st_size}\t{reason}\t{path}\n")
+            seen.add(state.st_ino)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Wrong as wrong:
+        sys.exit(f"build: {wrong}")

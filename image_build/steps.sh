@@ -1,0 +1,237 @@
+# shellcheck shell=bash
+# The steps of ./image_build/build, which reads this file. Each works in $work, on what the steps before have left there.
+
+fail() {
+    echo "build: $*" >&2
+    exit 1
+}
+
+parse_arguments() {
+    local usage=$1
+    shift
+    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror=
+    version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
+    while (($# > 0)); do
+        case $1 in
+            --keys | --packages | --firmware | --version | --data | --out | --mirror)
+                (($# > 1)) || { echo "build: $1 needs a value; --help says which" >&2; exit 2; }
+                ;;&
+            --test) test_image=true ;;
+            --quick) level=1 ;;
+            --record) record=true ;;
+            --keys) keys=$(readlink -f "$2") && shift ;;
+            --packages) packages=$(readlink -f "$2") && shift ;;
+            --firmware) firmware=$2 && shift ;;
+            --version) version=$2 && shift ;;
+            --data) data_size=$2 && shift ;;
+            --out) out=$2 && shift ;;
+            --mirror) mirror=$2 && shift ;;
+            --help | -h) echo "$usage"; exit 0 ;;
+            *) echo "build: there is no option '$1'; --help lists them" >&2; exit 2 ;;
+        esac
+        shift
+    done
+    [[ -z $firmware || $firmware == amd ]] || { echo "build: --firmware: '$firmware' is none; amd is" >&2; exit 2; }
+    [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
+        { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
+    [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
+    [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
+    : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
+    export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
+    umask 022
+    out=${out:-out/image}
+    ! $test_image || out=$out/test
+    mkdir -p "$out" build/image
+    out=$(readlink -f "$out") cache=$(readlink -f build/image)
+}
+
+step() { # WORDS FUNCTION
+    local begun=$SECONDS
+    printf '== %s\n' "$1"
+    "$2"
+    printf '   %d s\n' $((SECONDS - begun))
+}
+
+# Fixed names for what must be the same in two builds: a UUID from words.
+uuid_of() { uuidgen --sha1 --namespace @dns --name "frustumscreen.invalid/$1"; }
+
+# Kept until the lists change; an image for tests and one for kiosks have the same.
+fetch_debian() {
+    local key files=(image_build/debian.sh image_build/packages.conf image_build/packages.list)
+    [[ -z $firmware ]] || files+=("image_build/packages.$firmware.conf" "image_build/packages.$firmware.list")
+    if $record; then
+        image_build/debian.sh --record ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    fi
+    key=$(cat "${files[@]}" 2>/dev/null | sha256sum | cut -c 1-16)
+    debian=$cache/debian-$key
+    [[ ! -d $debian/tree ]] || { rm -rf "$work/debian"; return 0; }
+    $record || image_build/debian.sh ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    mkdir "$work/debian/tree"
+    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --exclude=./dev --exclude=./proc --exclude=./sys
+    rm "$work/debian/debian.tar"
+    mv "$work/debian" "$debian"
+}
+
+unpack_ours() {
+    local name deb
+    if [[ -z $packages ]]; then
+        packages=$cache/packages
+        image_build/packages --out "$packages"
+    fi
+    mkdir "$work/ours"
+    for name in frustumscreen-base frustumscreen; do
+        deb=("$packages/${name}"_*.deb)
+        [[ ${#deb[@]} == 1 && -e ${deb[0]} ]] || fail "--packages: $packages has not one package $name; ./image_build/packages makes it"
+        check_needs "${deb[0]}"
+        dpkg-deb -x "${deb[0]}" "$work/ours"
+        mkdir -p "$work/packages" && cp "${deb[0]}" "$work/packages/"
+    done
+}
+
+# What our package depends on must be among Debian's that the image is made from.
+check_needs() {
+    local one need word missing=()
+    while IFS= read -r need; do
+        for one in ${need//|/ }; do # any of several will do; a version in brackets is no name
+            word=${one%%:*}
+            [[ $word =~ ^[a-z0-9][a-z0-9+.-]+$ ]] || continue
+            ! grep -q -e "^$word " "$debian/packages.txt" && [[ $word != frustumscreen* ]] || continue 2
+        done
+        missing+=("$need")
+    done < <(dpkg-deb -f "$1" Depends | tr ',' '\n')
+    ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there, and build with --record"
+}
+
+make_root() {
+    local root=$work/root lists=() name unit unpacked=$debian/tree/unpacked
+    [[ -z $firmware ]] || lists=("image_build/files.$firmware.list")
+    mkdir "$root"
+    image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
+        --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
+        ${firmware:+"image_build/modules.$firmware.list"}
+    cp -R image_build/files/. "$root/"
+    mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
+    : >"$root/etc/machine-id" # the first start's (initrd/init)
+    rm -f "$root/usr/lib/os-release"
+    {
+        cat "$debian/tree/usr/lib/os-release"
+        printf 'IMAGE_ID=frustumscreen\nIMAGE_VERSION=%s\n' "$version"
+    } >"$root/usr/lib/os-release"
+    ln -sf ../usr/lib/os-release "$root/etc/os-release"
+    systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
+    rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
+    name=$(awk -F: '$3 > 126 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
+    [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
+    enable_units "$root"
+    settings_of_image "$root"
+}
+
+enable_units() {
+    local root=$1/etc/systemd/system target unit
+    ln -s /usr/lib/systemd/system/multi-user.target "$root/default.target"
+    while read -r target unit; do
+        mkdir -p "$root/$target.wants"
+        ln -s "/usr/lib/systemd/system/$unit" "$root/$target.wants/$unit"
+    done <<'UNITS'
+sysinit.target systemd-journald.service
+sysinit.target systemd-udevd.service
+sysinit.target systemd-udev-trigger.service
+sysinit.target systemd-tmpfiles-setup.service
+sysinit.target systemd-tmpfiles-setup-dev.service
+sysinit.target kmod-static-nodes.service
+sysinit.target systemd-sysctl.service
+sysinit.target systemd-random-seed.service
+sockets.target systemd-journald.socket
+sockets.target systemd-journald-dev-log.socket
+sockets.target systemd-udevd-control.socket
+sockets.target systemd-udevd-kernel.socket
+multi-user.target frustumscreen.service
+multi-user.target frustumscreen-watchdog.service
+multi-user.target frustumscreen-grow.service
+multi-user.target frustumscreen-good.timer
+boot-complete.target frustumscreen-good.service
+UNITS
+    mkdir -p "$root/boot-complete.target.requires"
+    mv "$root/boot-complete.target.wants/frustumscreen-good.service" "$root/boot-complete.target.requires/"
+    rmdir "$root/boot-complete.target.wants"
+}
+
+# What is shipped shows itself off without devices; a kiosk has them.
+settings_of_image() {
+    local file=$1/usr/share/frustumscreen/kiosk.toml
+    sed -f image_build/settings.sed "$file" >"$work/kiosk.toml"
+    rm "$file" # it is a link to the package's
+    install -m 644 "$work/kiosk.toml" "$file"
+    install -m 644 "$work/kiosk.toml" "$1/etc/frustumscreen/kiosk.toml"
+}
+
+# A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.
+make_slot() {
+    local slot=$work/slot blocks formatted
+    # One thread's order; the numbers of users are all root's, since what others own is made at each start.
+    env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
+        -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible >/dev/null
+    blocks=$(($(stat -c %s "$slot") / 4096))
+    (($(stat -c %s "$slot") % 4096 == 0)) || fail "the root's file system does not end with a block of 4096 bytes"
+    salt=$(sha256sum "$slot" | cut -c 1-64)
+    veritysetup format "$slot" "$slot" --data-blocks=$blocks --hash-offset=$((blocks * 4096)) --salt="$salt" \
+        --uuid="$(uuid_of "$salt")" >/dev/null
+    hash_blocks=$(($(stat -c %s "$slot") / 4096 - blocks - 1))
+    formatted=$(veritysetup format "$slot" "$slot" --data-blocks=$blocks --hash-offset=$((blocks * 4096)) --salt="$salt" \
+        --uuid="$(uuid_of "$salt")" --fec-device="$slot" --fec-offset=$(((blocks + 1 + hash_blocks) * 4096)) --fec-roots=2)
+    root_hash=$(sed -n 's/^Root hash:[[:space:]]*//p' <<<"$formatted")
+    root_blocks=$blocks
+    [[ ${#root_hash} == 64 ]] || fail "veritysetup has not said the root's hash"
+}
+
+make_kernel_image() {
+    local initrd=$work/initrd unpacked=$debian/tree/unpacked kernel
+    kernel=$(ls "$unpacked/lib/modules")
+    image_build/initrd.sh "$debian/tree" "$work/root" "$level" "$initrd"
+    if $test_image; then
+        image_build/test_agent.sh "$debian/tree" "$work/root" "$work/extra.cpio"
+        cat "$work/extra.cpio" >>"$initrd"
+    fi
+    {
+        printf '%s ' quiet loglevel=3 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
+            net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
+        printf 'frustumscreen.root_hash=%s frustumscreen.root_blocks=%d frustumscreen.hash_blocks=%d frustumscreen.salt=%s' \
+            "$root_hash" "$root_blocks" "$hash_blocks" "$salt"
+    } >"$work/cmdline"
+    image_build/kernel_image.py --stub "$unpacked/usr/lib/systemd/boot/efi/linuxx64.efi.stub" \
+        --os-release "$work/root/usr/lib/os-release" --command-line "$work/cmdline" \
+        --linux "$unpacked/boot/vmlinuz-$kernel" --initrd "$initrd" "$work/kernel.efi"
+    cp "$unpacked/usr/lib/systemd/boot/efi/systemd-bootx64.efi" "$work/boot.efi"
+    if [[ -n $keys ]]; then
+        sign "$work/kernel.efi"
+        sign "$work/boot.efi"
+    fi
+}
+
+sign() { # FILE: with the time of the commit, so that the bytes are always the same
+    faketime -f "@$(date -u -d "@$SOURCE_DATE_EPOCH" '+%Y-%m-%d %H:%M:%S')" \
+        sbsign --key "$keys/db.key" --cert "$keys/db.crt" --output "$1.signed" "$1" 2>"$work/sbsign.log" ||
+        { cat "$work/sbsign.log" >&2; fail "sbsign could not sign with the keys in $keys"; }
+    mv "$1.signed" "$1"
+}
+
+make_disk() {
+    image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
+    mv "$work/disk" "$out/frustumscreen.raw"
+    mv "$work/slot" "$out/frustumscreen_$version.slot"
+    mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
+    cp "$work/kept" "$out/kept.tsv"
+    cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
+    rm -rf "$out/packages" && mv "$work/packages" "$out/"
+    echo "$root_hash" >"$out/root_hash"
+}
+
+compress() { zstd -q -f -3 --single-thread --sparse "$out/frustumscreen.raw" -o "$out/frustumscreen.raw.zst"; }
+
+say_sizes() {
+    local file
+    for file in frustumscreen.raw frustumscreen.raw.zst "frustumscreen_$version.slot" "frustumscreen_$version.efi"; do
+        printf '%6d MB  %s\n' $(($(stat -c %s "$out/$file") / 1000000)) "$out/$file"
+    done
+    printf 'root hash %s\n' "$root_hash"
+}

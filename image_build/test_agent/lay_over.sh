@@ -1,0 +1,11 @@
+# shellcheck shell=sh
+# Sourced by the initrd's init, in a test's image alone, when the root is mounted: lays the agent's files over it, in memory.
+insmod /extra/virtio_console.ko
+mkdir /run/extra
+mount -t tmpfs -o mode=755 extra /run/extra
+mkdir /run/extra/upper /run/extra/work
+cp -a /extra/over/. /run/extra/upper/
+for applet in $(busybox --list); do
+    [ -e "/root/usr/bin/$applet" ] || [ -e "/root/usr/sbin/$applet" ] || ln -s busybox "/run/extra/upper/usr/bin/$applet"
+done
+mount -t overlay -o lowerdir=/root,upperdir=/run/extra/upper,workdir=/run/extra/work extra /root

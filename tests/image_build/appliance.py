@@ -1,0 +1,113 @@
+"""The image in an emulated PC with UEFI: QEMU and OVMF, the disk that ./image_build/build --test made, and a tracker's mock.
+
+Frame    one machine for each start; the disk is a file of its own, over the image that was built, and stays between starts.
+Time     as in tests/hil/machine.py.
+Threads  one caller.
+Errors   MachineError.
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HIL = pathlib.Path(__file__).resolve().parent.parent / "hil"
+sys.path.insert(0, str(HIL))
+
+# pylint: disable=wrong-import-position
+import screen  # noqa: E402
+from bench import Mock, eventually  # noqa: E402
+from machine import Machine  # noqa: E402
+
+FIRMWARE = pathlib.Path("/usr/share/OVMF")
+WIDTH, HEIGHT = 640, 400
+ESP, SLOT_A, SLOT_B, DATA = 1, 2, 3, 4  # partitions
+LIT_S = 240.0  # from power on until the exhibit is lit; the firmware alone takes 15 to 20
+
+
+class Appliance(Machine):
+    """`image`: the disk; `folder`: for the disk's own file, the firmware's variables and logs; `secure`: the firmware starts nothing
+    that is not signed with Debian's test key (package ovmf)."""
+
+    def __init__(self, image, folder, sockets, usb, secure=False, size="2G"):
+        super().__init__(folder, folder, sockets, folder, WIDTH, HEIGHT, usb)
+        self.disk, self._secure = folder / "disk.raw", secure
+        folder.mkdir(parents=True, exist_ok=True)
+        # A copy that takes no space where the file has holes; a test may write into it.
+        subprocess.run(["cp", "--sparse=always", "--reflink=auto", image, self.disk], check=True)
+        subprocess.run(["truncate", "-s", size, self.disk], check=True)
+        shutil.copy(FIRMWARE / ("OVMF_VARS_4M.snakeoil.fd" if secure else "OVMF_VARS_4M.fd"), folder / "variables.fd")
+
+    def _command(self):
+        code = "OVMF_CODE_4M.secboot.fd" if self._secure else "OVMF_CODE_4M.fd"
+        command = [
+            "qemu-system-x86_64", "-name", "frustumscreen-image", "-machine", f"q35,smm={'on' if self._secure else 'off'}",
+            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "max", "-smp", str(self.processors),
+            "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
+            "-global", f"driver=cfi.pflash01,property=secure,value={'on' if self._secure else 'off'}",
+            "-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE / code}",
+            "-drive", f"if=pflash,format=raw,unit=1,file={self.logs}/variables.fd",
+            "-drive", f"if=none,id=disk,format=raw,file={self.disk}",
+            "-device", "virtio-blk-pci,drive=disk,serial=disk,bootindex=1",
+            "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
+            "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
+            "-serial", "chardev:serial",
+            "-device", "virtio-serial-pci",
+            "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
+            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
+            "-device", "virtio-rng-pci",
+            "-vga", "none", "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
+            "-device", "qemu-xhci,id=usb,p2=12,p3=12",
+            "-device", "i6300esb", "-action", "watchdog=reset",
+        ]
+        for name, path in self.usb.items():
+            command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
+                        "-device", f"usb-redir,id=usb-{name},chardev={name}"]
+        return [str(word) for word in command]
+
+    # The disk, while the machine is off.
+
+    def partition(self, number):
+        """(offset, size) in bytes."""
+        listed = subprocess.run(["sfdisk", "--dump", self.disk], check=True, capture_output=True, text=True).stdout
+        row = [line for line in listed.splitlines() if line.startswith(f"{self.disk}{number} ")][0]
+        values = dict(word.strip().split("=", 1) for word in row.split(":", 1)[1].split(",") if "=" in word)
+        return 512 * int(values["start"]), 512 * int(values["size"])
+
+    def flip(self, offset):
+        """Turns all bits of one byte of the disk."""
+        with open(self.disk, "r+b") as disk:
+            disk.seek(offset)
+            byte = disk.read(1)
+            disk.seek(offset)
+            disk.write(bytes([byte[0] ^ 0xFF]))
+
+    def fill(self, number, byte=b"\0"):
+        """Overwrites a partition's first 8 MiB."""
+        with open(self.disk, "r+b") as disk:
+            disk.seek(self.partition(number)[0])
+            disk.write(byte * (8 << 20))
+
+    # While it runs.
+
+    def lit_picture(self):
+        path = self.sockets / "screen.ppm"
+        self.screendump(path)
+        picture = screen.read_ppm(path)
+        share = screen.count(screen.lit(picture)) / (picture.width * picture.height)
+        return picture if screen.probe(picture) is not None and 0.005 < share < 0.5 else None
+
+    def wait_until_lit(self, timeout_s=LIT_S):
+        """Returns the picture, and keeps it beside the logs."""
+        picture = eventually(self.lit_picture, timeout_s, "the screen stays dark")
+        screen.write_png(self.logs / "lit.png", picture)
+        return picture
+
+    def notes(self):
+        """What the start has to say of the disk; empty: nothing was wrong."""
+        return self.run("cat /run/frustumscreen-boot/notes 2>/dev/null").output
+
+
+def tracker(sockets, logs):
+    """A VIPER at the machine's USB port, as a program of its own."""
+    return Mock("mock_tracker", "tracker", sockets, logs)
