@@ -52,6 +52,7 @@ for part; do
                 mmdebstrap uidmap kmod systemd uuid-runtime python3                  # Debian's packages, the root
                 squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
                 fdisk dosfstools mtools e2fsprogs                                    # the disk
+                rauc openssl                                                         # updates
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;

@@ -9,11 +9,11 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror=
+    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror= update_ca=
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
-            --keys | --packages | --firmware | --version | --data | --out | --mirror)
+            --keys | --packages | --firmware | --version | --data | --out | --mirror | --update-ca)
                 (($# > 1)) || { echo "build: $1 needs a value; --help says which" >&2; exit 2; }
                 ;;&
             --test) test_image=true ;;
@@ -21,6 +21,7 @@ parse_arguments() {
             --record) record=true ;;
             --keys) keys=$(readlink -f "$2") && shift ;;
             --packages) packages=$(readlink -f "$2") && shift ;;
+            --update-ca) update_ca=$(readlink -f "$2") && shift ;;
             --firmware) firmware=$2 && shift ;;
             --version) version=$2 && shift ;;
             --data) data_size=$2 && shift ;;
@@ -35,6 +36,7 @@ parse_arguments() {
     [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
         { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
+    [[ -z $update_ca ]] || openssl x509 -noout -in "$update_ca" 2>/dev/null || fail "--update-ca: $update_ca has no certificate (PEM)"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
     : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
     export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
@@ -110,6 +112,7 @@ make_root() {
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
     cp -R image_build/files/. "$root/"
+    [[ -z $update_ca ]] || install -m 644 "$update_ca" "$root/etc/rauc/keyring.pem"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
     : >"$root/etc/machine-id" # the first start's (initrd/init)
     rm -f "$root/usr/lib/os-release"
@@ -149,6 +152,7 @@ multi-user.target frustumscreen.service
 multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
+multi-user.target frustumscreen-next-try.timer
 boot-complete.target frustumscreen-good.service
 UNITS
     mkdir -p "$root/boot-complete.target.requires"
