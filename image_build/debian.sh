@@ -15,7 +15,7 @@ say_and_fail() {
     exit 1
 }
 
-record=false mirror= firmware=
+record=false mirror='' firmware=''
 while [[ $1 == --* ]]; do
     case $1 in
         --record) record=true ;;

@@ -7,6 +7,7 @@ Errors   subprocess.CalledProcessError of objcopy and objdump.
 
 import argparse
 import pathlib
+import struct
 import subprocess
 
 ALIGNED = 4096
@@ -17,6 +18,18 @@ def end_of(stub):
     listed = subprocess.run(["objdump", "--section-headers", "--wide", stub], check=True, capture_output=True, text=True).stdout
     rows = [line.split() for line in listed.splitlines() if line.strip()[:1].isdigit()]
     return max(int(row[3], 16) + int(row[2], 16) for row in rows)
+
+
+def without_time(file):
+    """objcopy writes the time of day into the header (TimeDateStamp), and a checksum of that: two builds would differ. UEFI reads
+    neither."""
+    with open(file, "r+b") as image:
+        image.seek(0x3C)
+        (header,) = struct.unpack("<I", image.read(4))
+        image.seek(header + 8)
+        image.write(bytes(4))
+        image.seek(header + 88)
+        image.write(bytes(4))
 
 
 def main():
@@ -36,6 +49,7 @@ def main():
                     "--set-section-flags", f"{section}=data,alloc,readonly,load"]
         address += file.stat().st_size
     subprocess.run([*command, arguments.stub, arguments.out], check=True)
+    without_time(arguments.out)
 
 
 if __name__ == "__main__":

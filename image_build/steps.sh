@@ -1,5 +1,6 @@
 # shellcheck shell=bash
 # The steps of ./image_build/build, which reads this file. Each works in $work, on what the steps before have left there.
+# shellcheck disable=SC2154 # work: of ./image_build/build
 
 fail() {
     echo "build: $*" >&2
@@ -9,7 +10,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys= packages= firmware= data_size=64M out= record=false mirror= update_ca=
+    test_image=false level=19 keys='' packages='' firmware='' data_size=64M out='' record=false mirror='' update_ca=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -97,11 +98,25 @@ check_needs() {
         for one in ${need//|/ }; do # any of several will do; a version in brackets is no name
             word=${one%%:*}
             [[ $word =~ ^[a-z0-9][a-z0-9+.-]+$ ]] || continue
-            ! grep -q -e "^$word " "$debian/packages.txt" && [[ $word != frustumscreen* ]] || continue 2
+            [[ $word != frustumscreen* ]] || continue 2
+            ! grep -q -e "^$word " "$debian/packages.txt" || continue 2
         done
         missing+=("$need")
     done < <(dpkg-deb -f "$1" Depends | tr ',' '\n')
     ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there, and build with --record"
+}
+
+# The exhibit's own words, in all languages, spoken; one language in a try. Kept until the bake changes.
+bake_words() {
+    local deb=("$packages"/frustumscreen-bake_*.deb) languages=()
+    [[ -e ${deb[0]} ]] || fail "--packages: $packages has no frustumscreen-bake, which bakes the exhibit's words; ./image_build/packages makes it"
+    ((level > 1)) || languages=(--languages en)
+    words=$cache/words-$(sha256sum "${deb[0]}" | cut -c 1-16)-${#languages[@]}.fswords
+    [[ ! -e $words ]] || return 0
+    dpkg-deb -x "${deb[0]}" "$work/bake"
+    "$work/bake/usr/bin/frustumscreen-bake" --words "${languages[@]}" -o "$work/words" >"$work/words.log" 2>&1 ||
+        { cat "$work/words.log" >&2; fail "the exhibit's words could not be baked"; }
+    mv "$work/words" "$words"
 }
 
 make_root() {
@@ -153,6 +168,7 @@ multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
 multi-user.target frustumscreen-next-try.timer
+multi-user.target frustumscreen-no-card.timer
 boot-complete.target frustumscreen-good.service
 UNITS
     mkdir -p "$root/boot-complete.target.requires"
@@ -164,9 +180,13 @@ UNITS
 settings_of_image() {
     local file=$1/usr/share/frustumscreen/kiosk.toml
     sed -f image_build/settings.sed "$file" >"$work/kiosk.toml"
+    install -m 644 "$words" "$1/usr/share/frustumscreen/words.fswords"
     rm "$file" # it is a link to the package's
     install -m 644 "$work/kiosk.toml" "$file"
     install -m 644 "$work/kiosk.toml" "$1/etc/frustumscreen/kiosk.toml"
+    # With this machine's libraries, which are the same Debian's
+    sed "s|\"/usr/share/|\"$1/usr/share/|" "$work/kiosk.toml" >"$work/checked.toml"
+    "$1/usr/bin/frustumscreen" config --config "$work/checked.toml" --json >/dev/null || fail "settings.sed makes settings that are wrong"
 }
 
 # A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.

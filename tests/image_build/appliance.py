@@ -31,7 +31,7 @@ class Appliance(Machine):
 
     def __init__(self, image, folder, sockets, usb, secure=False, size="2G"):
         super().__init__(folder, folder, sockets, folder, WIDTH, HEIGHT, usb)
-        self.disk, self._secure = folder / "disk.raw", secure
+        self.disk, self._secure, self.read_only = folder / "disk.raw", secure, False
         folder.mkdir(parents=True, exist_ok=True)
         # A copy that takes no space where the file has holes; a test may write into it.
         subprocess.run(["cp", "--sparse=always", "--reflink=auto", image, self.disk], check=True)
@@ -47,7 +47,7 @@ class Appliance(Machine):
             "-global", f"driver=cfi.pflash01,property=secure,value={'on' if self._secure else 'off'}",
             "-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE / code}",
             "-drive", f"if=pflash,format=raw,unit=1,file={self.logs}/variables.fd",
-            "-drive", f"if=none,id=disk,format=raw,file={self.disk}",
+            "-drive", f"if=none,id=disk,format=raw,file={self.disk},readonly={'on' if self.read_only else 'off'}",
             "-device", "virtio-blk-pci,drive=disk,serial=disk,bootindex=1",
             "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
             "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
@@ -64,6 +64,13 @@ class Appliance(Machine):
             command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
                         "-device", f"usb-redir,id=usb-{name},chardev={name}"]
         return [str(word) for word in command]
+
+    def stop(self):
+        """As by the plug."""
+        super().stop()
+        for line in (getattr(self, "_monitor", None), getattr(self, "_agent", None)):
+            if line:
+                line.close()
 
     # The disk, while the machine is off.
 

@@ -3,10 +3,11 @@
 import os
 import pathlib
 import shutil
+import subprocess
 import tempfile
 import unittest
 
-from appliance import DATA, SLOT_A, Appliance, eventually, tracker
+from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, tracker
 
 IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
 LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
@@ -67,9 +68,61 @@ class Start(unittest.TestCase):
         self.assertIn("FEC", pc.check("dmesg"), "nothing says that the byte was mended: was it read?")
         self.assertEqual(pc.notes(), "")
 
+    def assert_lit_on_memory(self):
+        """Lit, and it says that nothing is kept."""
+        self.start()
+        self.assertRegex(self.pc.notes(), "^data: .*until the machine is switched off")
+        self.assertRegex(self.pc.check("cat /etc/machine-id"), "^[0-9a-f]{32}$")
+        self.pc.check("touch /var/lib/frustumscreen/new /var/lib/frustumscreen-watchdog/new /etc/frustumscreen/new")
+
     @long
     def test_data_partition_overwritten(self):
         self.pc.fill(DATA, b"\xa5")
+        self.assert_lit_on_memory()
+
+    @long
+    def test_data_partition_missing(self):
+        subprocess.run(["sfdisk", "--quiet", "--delete", self.pc.disk, str(DATA)], check=True)
+        self.assert_lit_on_memory()
+
+    @long
+    def test_disk_that_cannot_be_written(self):
+        self.pc.read_only = True
+        self.assert_lit_on_memory()
+
+    @long
+    def test_data_partition_damaged(self):
+        """A file system that is damaged is mended, and what it held is there."""
         self.start()
-        self.assertRegex(self.pc.notes(), "^data: ")
-        self.assertRegex(self.pc.check("cat /etc/machine-id"), "^[0-9a-f]{32}$")
+        self.pc.check("echo kept > /var/lib/frustumscreen/kept; sync")
+        self.switch_off()
+        offset, _ = self.pc.partition(DATA)
+        with open(self.pc.disk, "r+b") as disk:
+            disk.seek(offset + 1024)  # the superblock; its copies are in later groups of blocks
+            disk.write(bytes(1024))
+        self.start()
+        self.assertRegex(self.pc.notes(), "^data: the data partition was damaged and is mended")
+        self.assertEqual(self.pc.check("cat /var/lib/frustumscreen/kept").strip(), "kept")
+
+    @long
+    def test_data_partition_full(self):
+        self.start()
+        eventually(lambda: "inactive" in self.pc.run("systemctl is-active frustumscreen-grow").output, 60.0, "it grows for ever")
+        self.pc.run("dd if=/dev/zero of=/data/full bs=1M; echo > /data/more; sync", 300.0)
+        self.switch_off()
+        self.start()
+        self.assertIn("100%", self.pc.check("df /data"))
+
+    @long
+    def test_root_in_the_other_slot(self):
+        """Slot A has nothing of it; the same kernel image finds its root in B."""
+        offset, size = self.pc.partition(SLOT_A)
+        with open(self.pc.disk, "r+b") as disk:
+            disk.seek(offset)
+            slot = disk.read(size)
+            disk.seek(self.pc.partition(SLOT_B)[0])
+            disk.write(slot)
+            disk.seek(offset)
+            disk.write(bytes(size))
+        self.start()
+        self.assertEqual(self.pc.check("cat /run/frustumscreen-boot/slot").strip(), "frustumscreen-b")
