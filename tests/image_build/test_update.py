@@ -4,21 +4,23 @@ import json
 import os
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import time
 import unittest
 
 from appliance import Appliance, eventually, tracker
+from updates import Updates, no_exhibit, no_root
 import sticks  # from tests/hil, by appliance
 
 IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
 LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
-UPDATES = pathlib.Path(os.environ.get("FRUSTUMSCREEN_IMAGE_UPDATES", ""))  # make_updates.sh's folder
+NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an image of version updates.NEXT
+KEYS = os.environ.get("FRUSTUMSCREEN_IMAGE_KEYS", "")  # update.key, whose certificate the image has
 REPORT = "/run/frustumscreen-import/report.json"
 BOOT = "mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"
 UPDATE_S = 300.0
 RESTART_S = 120.0
+TRY_S = 300.0
 
 
 @unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")
@@ -33,6 +35,8 @@ class Update(unittest.TestCase):
         self.addCleanup(self.tracker.stop)
         self.pc = Appliance(IMAGE, self.logs, self.sockets, {"tracker": self.tracker.usb})
         self.addCleanup((self.logs / "disk.raw").unlink)
+        self.updates = Updates(pathlib.Path(NEXT_IMAGE), pathlib.Path(KEYS), self.logs / "bundles")
+        self.addCleanup(shutil.rmtree, self.logs / "bundles")
         self.pc.start()
         self.addCleanup(self.pc.stop)
         self.pc.may_start_anew()
@@ -69,12 +73,17 @@ class Update(unittest.TestCase):
         self.say(report["packs"])
         return report["packs"]
 
-    def refusal(self, name, files, **options):
-        self.stick(name, files, **options)
-        packs = self.told()
+    def refusal(self, name, bundle, file="update.raucb", **options):
+        """(refusal, sentence) of the one bundle on a stick; nothing changes on the disk."""
+        before = self.images()
+        self.stick(name, {file: bundle}, **options)
+        pack, = self.told()
+        self.assertEqual(pack["outcome"], "refused", pack)
         self.pc.pull(name)
+        bundle.unlink()
         self.pc.check(f"rm {REPORT}")
-        return packs
+        self.assertEqual(self.images(), before)
+        return pack["refusal"], pack["reason"]
 
     def version(self):
         return self.pc.check("sed -n s/^IMAGE_VERSION=//p /usr/lib/os-release").strip()
@@ -92,7 +101,7 @@ class Update(unittest.TestCase):
     def test_good(self):
         """Installed in the other slot, told, started, marked as good; the same stick again changes nothing."""
         self.assertEqual((self.version(), self.slot(), self.images()), ("0.1.0", "frustumscreen-a", ["frustumscreen_0.1.0+5.efi"]))
-        self.stick("good", {"frustumscreen-0.2.0.raucb": UPDATES / "frustumscreen-0.2.0.raucb"})
+        self.stick("good", {"frustumscreen-0.2.0.raucb": self.updates.make()})
         pack, = self.told()
         self.assertEqual((pack["outcome"], pack["title"]), ("taken", "FrustumScreen 0.2.0"), pack)
         self.starts_again()
@@ -104,6 +113,54 @@ class Update(unittest.TestCase):
         self.assertEqual(self.told()[0]["outcome"], "already_there")
         self.assertFalse(self.pc.resets_within(30.0), "the machine starts again, with nothing new")
         self.assertEqual(self.pc.check("systemctl --failed --no-legend").strip(), "")
+
+    def test_refused(self):
+        """One plain sentence each, and the version that runs goes on."""
+        make = self.updates.make
+        for name, bundle, refusal, words in (
+                ("wrong-key", lambda: make(key="other"), "wrong_key", "not signed with the key"),
+                ("cut-off", self.updates.truncated, "not_a_pack", "cut off or damaged"),
+                ("older", lambda: make("0.0.9"), "older", "version 0.1.0 runs"),
+                ("altered", self.updates.altered, "altered", "changed after it was signed")):
+            with self.subTest(name):
+                told = self.refusal(name, bundle())
+                self.assertEqual(told[0], refusal, told)
+                self.assertIn(words, told[1])
+        self.assertIsNotNone(self.pc.wait_until_lit())
+        self.assertEqual(self.version(), "0.1.0")
+        self.assertFalse(self.pc.resets_within(20.0), "the machine starts again, with nothing new")
+
+    def falls_back(self, change, between):
+        """An update that is installed and started, fails three times, and is left; the stick stays in all the time."""
+        self.stick("bad", {"update.raucb": self.updates.make("0.3.0", change=change)})
+        pack, = self.told()
+        self.assertEqual(pack["outcome"], "taken", pack)
+        self.assertTrue(self.pc.resets_within(RESTART_S), "the machine does not start again")
+        begun = time.monotonic()
+        for number in range(3):
+            self.say(f"try {number + 1}")
+            between()
+            self.assertTrue(self.pc.resets_within(TRY_S), f"try {number + 1} does not end")
+        self.pc.wait_for_start()
+        self.wait_until_good()
+        self.say(f"lit again, {time.monotonic() - begun:.0f} s after the update was first started")
+        self.assertEqual((self.version(), self.slot()), ("0.1.0", "frustumscreen-a"))
+        self.assertEqual(self.pc.notes().strip(),
+                         "system: version 0.3.0 did not get the exhibit lit in 3 starts, so the one before runs")
+        pack, = self.told()
+        self.assertEqual((pack["outcome"], pack["refusal"]), ("refused", "not_a_pack"))
+        self.assertIn("was tried here and did not start", pack["reason"])
+        self.assertFalse(self.pc.resets_within(30.0), "the machine starts again, with what failed")
+
+    def test_does_not_boot(self):
+        self.falls_back(no_root, lambda: None)
+
+    def test_exhibit_does_not_start(self):
+        def hurry():  # the timer gives it five minutes
+            self.pc.wait_for_start()
+            self.pc.check("systemctl start --no-block frustumscreen-next-try.service")
+
+        self.falls_back(no_exhibit, hurry)
 
 
 if __name__ == "__main__":
