@@ -18,9 +18,9 @@ NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an 
 KEYS = os.environ.get("FRUSTUMSCREEN_IMAGE_KEYS", "")  # update.key, whose certificate the image has
 REPORT = "/run/frustumscreen-import/report.json"
 BOOT = "mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"
-UPDATE_S = 300.0
-RESTART_S = 120.0
-TRY_S = 300.0
+UPDATE_S = 600.0
+RESTART_S = 300.0
+TRY_S = 600.0
 
 
 @unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")
@@ -48,7 +48,7 @@ class Update(unittest.TestCase):
 
     def wait_until_good(self):
         self.pc.wait_until_lit()
-        eventually(lambda: self.pc.run("systemctl is-active systemd-bless-boot").output.strip() == "active", 180.0,
+        eventually(lambda: self.pc.run("systemctl is-active systemd-bless-boot").output.strip() == "active", 600.0,
                    "the start is never marked as good")
 
     def stick(self, name, files, **options):
