@@ -60,8 +60,8 @@ int status_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    const KnownExhibit known = read_known_exhibit(request.status_file, request.watchdog_file,
-                                                  request.boot_folder, status_clock());
+    const KnownExhibit known =
+        read_known_exhibit(request.status_file, request.watchdog_file, request.boot_folder, status_clock());
     const std::string text = request.json         ? status_document(known)
                              : request.prometheus ? prometheus_text(known)
                                                   : status_text(known, std::time(nullptr));
