@@ -147,6 +147,8 @@ class Update(unittest.TestCase):
         self.assertEqual((self.version(), self.slot()), ("0.1.0", "frustumscreen-a"))
         self.assertEqual(self.pc.notes().strip(),
                          "system: version 0.3.0 did not get the exhibit lit in 3 starts, so the one before runs")
+        said = self.pc.run("frustumscreen status").output
+        self.assertIn("version 0.1.0, slot a; version 0.3.0 did not get the exhibit lit in 3 starts, so the one before runs", said)
         pack, = self.told()
         self.assertEqual((pack["outcome"], pack["refusal"]), ("refused", "not_a_pack"))
         self.assertIn("was tried here and did not start", pack["reason"])
