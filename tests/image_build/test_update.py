@@ -4,12 +4,13 @@ import json
 import os
 import pathlib
 import shutil
+import subprocess
 import tempfile
 import time
 import unittest
 
-from appliance import Appliance, eventually, tracker
-from updates import Updates, no_exhibit, no_root
+from appliance import ESP, Appliance, eventually, tracker
+from updates import Updates, no_exhibit, no_init, no_root
 import sticks  # from tests/hil, by appliance
 
 IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
@@ -37,11 +38,18 @@ class Update(unittest.TestCase):
         self.addCleanup((self.logs / "disk.raw").unlink)
         self.updates = Updates(pathlib.Path(NEXT_IMAGE), pathlib.Path(KEYS), self.logs / "bundles")
         self.addCleanup(shutil.rmtree, self.logs / "bundles")
+
+    def start(self):
+        self.begun = time.monotonic()
         self.pc.start()
         self.addCleanup(self.pc.stop)
         self.pc.may_start_anew()
-        self.begun = time.monotonic()
-        self.wait_until_good()
+
+    def was_good(self):
+        """The disk as after a good start."""
+        begin, _ = self.pc.partition(ESP)
+        subprocess.run(["mren", "-i", f"{self.pc.disk}@@{begin}", "::EFI/Linux/frustumscreen_0.1.0+3.efi",
+                        "::EFI/Linux/frustumscreen_0.1.0+5.efi"], check=True)
 
     def say(self, what):
         print(f"\n{time.monotonic() - self.begun:6.0f} s: {what}", flush=True)
@@ -100,6 +108,8 @@ class Update(unittest.TestCase):
 
     def test_good(self):
         """Installed in the other slot, told, started, marked as good; the same stick again changes nothing."""
+        self.start()
+        self.wait_until_good()
         self.assertEqual((self.version(), self.slot(), self.images()), ("0.1.0", "frustumscreen-a", ["frustumscreen_0.1.0+5.efi"]))
         self.stick("good", {"frustumscreen-0.2.0.raucb": self.updates.make()})
         pack, = self.told()
@@ -117,6 +127,8 @@ class Update(unittest.TestCase):
     def test_refused(self):
         """One plain sentence each, and the version that runs goes on."""
         make = self.updates.make
+        self.was_good()
+        self.start()
         for name, bundle, refusal, words in (
                 ("wrong-key", lambda: make(key="other"), "wrong_key", "not signed with the key"),
                 ("cut-off", self.updates.truncated, "not_a_pack", "cut off or damaged"),
@@ -132,6 +144,8 @@ class Update(unittest.TestCase):
 
     def falls_back(self, change, between):
         """An update that is installed and started, fails three times, and is left; the stick stays in all the time."""
+        self.was_good()
+        self.start()
         self.stick("bad", {"update.raucb": self.updates.make("0.3.0", change=change)})
         pack, = self.told()
         self.assertEqual(pack["outcome"], "taken", pack)
@@ -155,6 +169,9 @@ class Update(unittest.TestCase):
         self.assertFalse(self.pc.resets_within(30.0), "the machine starts again, with what failed")
 
     def test_does_not_boot(self):
+        self.falls_back(no_init, lambda: None)
+
+    def test_root_is_not_there(self):
         self.falls_back(no_root, lambda: None)
 
     def test_exhibit_does_not_start(self):

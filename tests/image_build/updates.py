@@ -38,6 +38,11 @@ def no_root(kernel_image):
     _in_place(kernel_image, rb"frustumscreen\.root_hash=[0-9a-f]{64}", b"frustumscreen.root_hash=" + b"5" * 64)
 
 
+def no_init(kernel_image):
+    """The kernel finds no first program, and panics."""
+    _in_place(kernel_image, rb"systemd\.import_credentials=0", b"rdinit=/none")
+
+
 def no_exhibit(kernel_image):
     """The system starts, and the exhibit never does."""
     _in_place(kernel_image, rb"systemd\.import_credentials=0 systemd\.show_status=0", b"systemd.mask=frustumscreen.service")
