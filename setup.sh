@@ -2,10 +2,11 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]...    nothing: what ./run builds and runs. Each part comes on top of that:
-#                                                  window: frustumscreen-window; kiosk: frustumscreen-safe; tests: ./test,
-#                                                  with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk;
-#                                                  image: ./image_build/build
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]...
+#
+# No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
+# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
+# image: image_build/build, with packages
 set -euo pipefail
 
 packages=(
@@ -45,6 +46,7 @@ for part; do
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
+                lintian                           # looks at the Debian packages
                 shellcheck clang-format pyflakes3 # how it is written
             )
             ;;
@@ -57,10 +59,10 @@ for part; do
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
-        packages) packages+=(dpkg-dev lintian) ;; # and looks at them
+        packages) packages+=(dpkg-dev python3) ;; # python3: pages of the manual
         hil)
             packages+=(
-                python3 qemu-system-x86 mmdebstrap squashfs-tools busybox-static
+                python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
                 dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
             )
             ;;

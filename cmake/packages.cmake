@@ -50,7 +50,8 @@ frustumscreen_package(base frustumscreen-base graphics DEPENDS
 frustumscreen_package(kiosk frustumscreen graphics DEPENDS
     "systemd (>= 252)" # runs the units, makes users and folders, mounts sticks
     udev               # its rules give devices to groups, and start an import for a stick
-    ntfs-3g            # frustumscreen-ntfs@ reads sticks with NTFS
+    mount              # frustumscreen-ntfs@ mounts a stick
+    ntfs-3g            # reads it for that
     RECOMMENDS
     alsa-utils)        # alsamixer, aplay, speaker-test: docs/technicians.md, The sound
 frustumscreen_package(bake frustumscreen-bake graphics DEPENDS

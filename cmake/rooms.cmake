@@ -12,7 +12,8 @@ set(warnings -Wall -Wextra -Wpedantic -Wconversion)
 if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC warn of what is not there
     list(APPEND warnings -Werror)
 endif()
-target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off)
+target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off
+    -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
 if(FRUSTUMSCREEN_ASAN)
     target_compile_options(frustumscreen_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

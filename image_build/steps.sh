@@ -10,7 +10,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys='' packages='' firmware='' data_size=64M out='' record=false mirror='' update_ca=''
+    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false mirror='' update_ca=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -36,6 +36,10 @@ parse_arguments() {
     [[ -z $firmware || $firmware == amd ]] || { echo "build: --firmware: '$firmware' is none; amd is" >&2; exit 2; }
     [[ $version =~ ^[0-9][0-9A-Za-z.~-]*$ ]] ||
         { echo "build: --version: '$version' does not begin with a digit, or has more than letters, digits, '.', '~' and '-'" >&2; exit 2; }
+    if ! [[ $data_size =~ ^[1-9][0-9]*[MG]$ ]] || (($(numfmt --from=iec "$data_size") < 160 << 20)); then
+        echo "build: --data: '$data_size' is not a number with M or G, 160M at least: smaller ones have no second superblock" >&2
+        exit 2
+    fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
     [[ -z $update_ca ]] || openssl x509 -noout -in "$update_ca" 2>/dev/null || fail "--update-ca: $update_ca has no certificate (PEM)"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
@@ -70,7 +74,7 @@ fetch_debian() {
     [[ ! -d $debian/tree ]] || { rm -rf "$work/debian"; return 0; }
     $record || image_build/debian.sh ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
     mkdir "$work/debian/tree"
-    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --exclude=./dev --exclude=./proc --exclude=./sys
+    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --no-same-permissions --exclude=./dev --exclude=./proc --exclude=./sys
     rm "$work/debian/debian.tar"
     mv "$work/debian" "$debian"
 }
@@ -126,6 +130,7 @@ make_root() {
     image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
+    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # nobody becomes root by a program
     cp -R image_build/files/. "$root/"
     [[ -z $update_ca ]] || install -m 644 "$update_ca" "$root/etc/rauc/keyring.pem"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
@@ -137,11 +142,16 @@ make_root() {
     } >"$root/usr/lib/os-release"
     ln -sf ../usr/lib/os-release "$root/etc/os-release"
     systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
+    chmod 600 "$root"/etc/{shadow,gshadow} # else who is not root cannot read them into the image
     rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
     name=$(awk -F: '$3 > 126 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"
+    find "$root" -type f -printf '%s\t%P\n' | sort -k 2 | awk -F '\t' -v OFS='\t' \
+        'NR == FNR { known[$3]; next } !($2 in known) { print $1, "what the image adds: words, units, users, indexes of modules", $2 }' \
+        "$work/kept" - >"$work/added"
+    cat "$work/added" >>"$work/kept"
 }
 
 enable_units() {
@@ -192,9 +202,9 @@ settings_of_image() {
 # A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.
 make_slot() {
     local slot=$work/slot blocks formatted
-    # One thread's order; the numbers of users are all root's, since what others own is made at each start.
+    # All files are root's: what others own is made at each start.
     env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
-        -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible >/dev/null
+        -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible -exit-on-error >/dev/null
     blocks=$(($(stat -c %s "$slot") / 4096))
     (($(stat -c %s "$slot") % 4096 == 0)) || fail "the root's file system does not end with a block of 4096 bytes"
     salt=$(sha256sum "$slot" | cut -c 1-64)
@@ -245,6 +255,7 @@ make_disk() {
     mv "$work/slot" "$out/frustumscreen_$version.slot"
     mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
     cp "$work/kept" "$out/kept.tsv"
+    image_build/why "$out" >"$out/why.txt"
     cp "$debian/packages.txt" "$debian/licences.tar" "$out/"
     rm -rf "$out/packages" && mv "$work/packages" "$out/"
     echo "$root_hash" >"$out/root_hash"

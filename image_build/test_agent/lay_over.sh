@@ -5,7 +5,7 @@ mkdir /run/extra
 mount -t tmpfs -o mode=755 extra /run/extra
 mkdir /run/extra/upper /run/extra/work
 cp -a /extra/over/. /run/extra/upper/
-for applet in $(busybox --list); do
+for applet in $(busybox --list | grep -vx busybox); do
     [ -e "/root/usr/bin/$applet" ] || [ -e "/root/usr/sbin/$applet" ] || ln -s busybox "/run/extra/upper/usr/bin/$applet"
 done
 mount -t overlay -o lowerdir=/root,upperdir=/run/extra/upper,workdir=/run/extra/work extra /root

@@ -27,15 +27,16 @@ LIT_S = 240.0  # from power on until the exhibit is lit; the firmware alone take
 
 class Appliance(Machine):
     """`image`: the disk; `folder`: for the disk's own file, the firmware's variables and logs; `secure`: the firmware starts nothing
-    that is not signed with Debian's test key (package ovmf)."""
+    that is not signed with Debian's test key (package ovmf); `card`: QEMU's name of the graphics card."""
 
-    def __init__(self, image, folder, sockets, usb, secure=False, size="2G"):
+    def __init__(self, image, folder, sockets, usb, secure=False, card="bochs-display"):
         super().__init__(folder, folder, sockets, folder, WIDTH, HEIGHT, usb)
         self.disk, self._secure, self.read_only = folder / "disk.raw", secure, False
+        self._screen = f"{card},id=screen" + (f",edid=on,xres={WIDTH},yres={HEIGHT}" if card == "bochs-display" else "")
         folder.mkdir(parents=True, exist_ok=True)
         # A copy that takes no space where the file has holes; a test may write into it.
         subprocess.run(["cp", "--sparse=always", "--reflink=auto", image, self.disk], check=True)
-        subprocess.run(["truncate", "-s", size, self.disk], check=True)
+        subprocess.run(["truncate", "-s", "2G", self.disk], check=True)
         shutil.copy(FIRMWARE / ("OVMF_VARS_4M.snakeoil.fd" if secure else "OVMF_VARS_4M.fd"), folder / "variables.fd")
 
     def _command(self):
@@ -56,7 +57,7 @@ class Appliance(Machine):
             "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
             "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
             "-device", "virtio-rng-pci",
-            "-vga", "none", "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
+            "-vga", "none", "-device", self._screen,
             "-device", "qemu-xhci,id=usb,p2=12,p3=12",
             "-device", "i6300esb", "-action", "watchdog=reset",
         ]
@@ -64,6 +65,12 @@ class Appliance(Machine):
             command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
                         "-device", f"usb-redir,id=usb-{name},chardev={name}"]
         return [str(word) for word in command]
+
+    def power_on(self):
+        """Without waiting for anything; returns the process."""
+        with open(self.logs / "qemu.log", "w", encoding="utf-8") as log:
+            self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        return self._process
 
     def stop(self):
         """As by the plug."""

@@ -1,78 +1,74 @@
 """The image from power on: its first start, the next one, and disks that are damaged in between."""
 
-import os
-import pathlib
-import shutil
 import subprocess
-import tempfile
-import unittest
 
-from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, tracker
-
-IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
-LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
+from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, screen
+from image_test import IMAGE, ImageTest, long
 
 
-def long(test):
-    """A test that needs `./test image --all`."""
-    return unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")(test)
-
-
-class Start(unittest.TestCase):
-    def setUp(self):
-        name = self.id().rsplit(".", 1)[-1]
-        self.sockets = pathlib.Path(tempfile.mkdtemp(prefix="image-"))
-        self.addCleanup(shutil.rmtree, self.sockets)
-        (LOGS / name).mkdir(parents=True, exist_ok=True)
-        self.tracker = tracker(self.sockets, LOGS / name)
-        self.addCleanup(self.tracker.stop)
-        self.pc = Appliance(IMAGE, LOGS / name, self.sockets, {"tracker": self.tracker.usb})
-        self.addCleanup((LOGS / name / "disk.raw").unlink)
-
-    def start(self):
-        self.pc.start()
-        self.addCleanup(self.pc.stop)
-        self.pc.wait_until_lit()
-
-    def switch_off(self):
-        """By the plug, not by a command."""
-        self.pc.stop()
-
-    def test_two_starts(self):
-        """Unattended to a lit exhibit; the data partition grows; who it is stays; a byte that flips in the root is mended."""
+class Start(ImageTest):
+    def test_first_start(self):
+        """Unattended to a lit exhibit, though a byte of the root has flipped; the data partition grows; it is somebody."""
         pc = self.pc
         small = pc.partition(DATA)[1]
+        pc.flip(pc.partition(SLOT_A)[0] + 96)  # of the root's first block: its file system's own first bytes
         self.start()
+        self.assertIn("FEC", pc.check("dmesg"), "nothing says that the byte was mended: was it read?")
         self.assertEqual(pc.notes(), "")
-        machine_id = pc.check("cat /etc/machine-id").strip()
-        self.assertRegex(machine_id, "^[0-9a-f]{32}$")
+        machine_id = self.machine_id()
         self.assertEqual(pc.check("hostname").strip(), f"frustumscreen-{machine_id[:6]}")
-        grown = eventually(lambda: pc.run("systemctl is-active frustumscreen-grow").output.strip() == "inactive"
-                           and int(pc.check("stat -f -c %b /data")) * 4096, 60.0, "the data partition does not grow")
-        self.assertGreater(grown, 8 * small)
-        self.assertIn("integrity", pc.check("cat /sys/kernel/security/lockdown").split("[")[1].split("]")[0])
+        self.assertIn("[integrity]", pc.check("cat /sys/kernel/security/lockdown"))
+        self.assert_keyboard_is_not_used()
+        eventually(lambda: int(pc.check("stat -f -c %b /data")) * 4096 > 4 * small, 120.0, "the data partition does not grow")
         self.assertEqual(pc.check("systemctl --failed --no-legend").strip(), "")
-        eventually(lambda: pc.run("systemctl is-active systemd-bless-boot").output.strip() == "active", 120.0,
+        self.switch_off()
+        self.assertGreater(pc.partition(DATA)[1], 4 * small)
+
+    @long
+    def test_second_start(self):
+        """What was kept is there; a start that was good is counted no longer."""
+        pc = self.pc
+        self.start()
+        machine_id = self.machine_id()
+        eventually(lambda: pc.run("systemctl is-active systemd-bless-boot").output.strip() == "active", 240.0,
                    "the start is never marked as good")
         self.assertRegex(pc.check("mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"),
                          r"^frustumscreen_[0-9.]+\+5\.efi$")
         pc.check("echo kept > /var/lib/frustumscreen/kept; sync")
         self.switch_off()
-
-        offset, _ = pc.partition(SLOT_A)
-        self.assertGreater(pc.partition(DATA)[1], 8 * small)
-        pc.flip(offset + 96)  # of the root's first block: its file system's own first bytes
         self.start()
-        self.assertEqual(pc.check("cat /etc/machine-id").strip(), machine_id)
+        self.assertEqual(self.machine_id(), machine_id)
         self.assertEqual(pc.check("cat /var/lib/frustumscreen/kept").strip(), "kept")
-        self.assertIn("FEC", pc.check("dmesg"), "nothing says that the byte was mended: was it read?")
         self.assertEqual(pc.notes(), "")
+
+    @long
+    def test_two_kiosks_are_not_the_same(self):
+        self.start()
+        first = self.machine_id()
+        self.switch_off()
+        other = Appliance(IMAGE, self.pc.logs, self.sockets, self.pc.usb)
+        other.start()
+        self.addCleanup(other.stop)
+        self.assertNotEqual(other.check("cat /etc/machine-id").strip(), first)
+
+    def machine_id(self):
+        found = self.pc.check("cat /etc/machine-id").strip()
+        self.assertRegex(found, "^[0-9a-f]{32}$")
+        return found
+
+    def assert_keyboard_is_not_used(self):
+        """A tracker is, and a keyboard gets no driver."""
+        used = "cd /sys/bus/usb/devices; for d in *-*; do [ ! -e $d/idVendor ] || echo $(cat $d/idVendor) $(cat $d/authorized); done"
+        self.assertIn("0f44 1", self.pc.check(used))
+        self.pc.monitor("device_add", driver="usb-kbd", id="typing", bus="usb.0")
+        eventually(lambda: "0627 0" in self.pc.check(used), 30.0, lambda: f"a keyboard may be used: {self.pc.check(used)}")
+        self.assertNotIn("QEMU USB Keyboard", self.pc.check("cat /proc/bus/input/devices"))
 
     def assert_lit_on_memory(self):
         """Lit, and it says that nothing is kept."""
         self.start()
         self.assertRegex(self.pc.notes(), "^data: .*until the machine is switched off")
-        self.assertRegex(self.pc.check("cat /etc/machine-id"), "^[0-9a-f]{32}$")
+        self.machine_id()
         self.pc.check("touch /var/lib/frustumscreen/new /var/lib/frustumscreen-watchdog/new /etc/frustumscreen/new")
 
     @long
@@ -126,3 +122,20 @@ class Start(unittest.TestCase):
             disk.write(bytes(size))
         self.start()
         self.assertEqual(self.pc.check("cat /run/frustumscreen-boot/slot").strip(), "frustumscreen-b")
+
+    @long
+    def test_card_without_driver(self):
+        """The console says so, and that is all that shows there."""
+        self.pc = Appliance(IMAGE, self.pc.logs, self.sockets, {"tracker": self.tracker.usb}, card="ramfb")
+        self.pc.start()
+        self.addCleanup(self.pc.stop)
+        path = self.sockets / "screen.ppm"
+
+        def words():
+            self.pc.screendump(path)
+            picture = screen.read_ppm(path)
+            return screen.count(screen.lit(picture)) / (picture.width * picture.height) > 0.005
+
+        eventually(lambda: self.pc.run("systemctl show -P ExecMainStatus frustumscreen-no-card; systemctl show -P Result "
+                                       "frustumscreen-no-card").output == "0\nsuccess\n" and words(), 120.0, "the screen is dark")
+        screen.write_png(self.pc.logs / "words.png", screen.read_ppm(path))

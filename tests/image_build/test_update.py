@@ -5,16 +5,14 @@ import os
 import pathlib
 import shutil
 import subprocess
-import tempfile
 import time
-import unittest
 
-from appliance import ESP, Appliance, eventually, tracker
+from appliance import ESP, eventually
+from bench import Patience
+from image_test import ImageTest, long
 from updates import Updates, no_exhibit, no_init, no_root
 import sticks  # from tests/hil, by appliance
 
-IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
-LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
 NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an image of version updates.NEXT
 KEYS = os.environ.get("FRUSTUMSCREEN_IMAGE_KEYS", "")  # update.key, whose certificate the image has
 REPORT = "/run/frustumscreen-import/report.json"
@@ -24,18 +22,11 @@ RESTART_S = 300.0
 TRY_S = 600.0
 
 
-@unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")
-class Update(unittest.TestCase):
+@long
+class Update(ImageTest):
     def setUp(self):
-        name = self.id().rsplit(".", 1)[-1]
-        self.logs = LOGS / name
-        self.sockets = pathlib.Path(tempfile.mkdtemp(prefix="image-"))
-        self.addCleanup(shutil.rmtree, self.sockets)
-        self.logs.mkdir(parents=True, exist_ok=True)
-        self.tracker = tracker(self.sockets, self.logs)
-        self.addCleanup(self.tracker.stop)
-        self.pc = Appliance(IMAGE, self.logs, self.sockets, {"tracker": self.tracker.usb})
-        self.addCleanup((self.logs / "disk.raw").unlink)
+        super().setUp()
+        self.logs = self.pc.logs
         self.updates = Updates(pathlib.Path(NEXT_IMAGE), pathlib.Path(KEYS), self.logs / "bundles")
         self.addCleanup(shutil.rmtree, self.logs / "bundles")
 
@@ -44,6 +35,8 @@ class Update(unittest.TestCase):
         self.pc.start()
         self.addCleanup(self.pc.stop)
         self.pc.may_start_anew()
+        Patience.clock = self.pc.granted_s
+        self.addCleanup(setattr, Patience, "clock", time.monotonic)
 
     def was_good(self):
         """The disk as after a good start."""
@@ -180,7 +173,3 @@ class Update(unittest.TestCase):
             self.pc.check("systemctl start --no-block frustumscreen-next-try.service")
 
         self.falls_back(no_exhibit, hurry)
-
-
-if __name__ == "__main__":
-    unittest.main()

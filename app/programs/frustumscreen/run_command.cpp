@@ -316,6 +316,7 @@ Result<int> run(Request& request) {
         !folder.empty() && !std::filesystem::is_directory(folder)) {
         return bad_input(fmt::format("{}: the folder of --status-file is not there", folder.string()));
     }
+    keep_shaders(request.places, mode->mode, journal);
     const Result<std::unique_ptr<Display>> display =
         wait_for_display(request, **settings, stop_signals, manager, journal);
     if (!display) {

@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/display/shader_cache.h"
 
 #include <fmt/format.h>
 
@@ -61,6 +62,16 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal)
         journal.note(LogPriority::Error, used->instead);
     }
     return RunMode{mode, std::move(*used), std::move(packs)};
+}
+
+void keep_shaders(const RunPlaces& places, Mode mode, const Journal& journal) {
+    if (mode == Mode::BuiltIn) {
+        keep_no_shaders();
+    } else if (!places.cache.empty()) {
+        if (const Result<void> kept = keep_shaders_in(places.cache); !kept) {
+            journal.note(LogPriority::Warning, kept.error().message);
+        }
+    }
 }
 
 std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode) {

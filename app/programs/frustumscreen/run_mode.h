@@ -19,7 +19,7 @@ struct RunPlaces {
     std::filesystem::path config;
     std::filesystem::path mode_file;                            ///< empty: the mode is normal
     std::filesystem::path shipped = "/usr/share/frustumscreen"; ///< built_in.fspack, kiosk.toml
-    std::filesystem::path cache; ///< settings_last_good.toml; empty: none is kept
+    std::filesystem::path cache; ///< settings_last_good.toml, compiled shaders; empty: none are kept
 };
 struct RunMode {
     Mode mode = Mode::Normal; ///< never Safe
@@ -30,6 +30,8 @@ struct RunMode {
 /// Normal where there is no file; what is none of the exhibit's modes is said in one line.
 [[nodiscard]] Mode read_run_mode(const std::filesystem::path& file);
 [[nodiscard]] Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal);
+/// Call before the first display. The built-in artifact relies on no disk; where shaders cannot be kept, that is said in one line.
+void keep_shaders(const RunPlaces& places, Mode mode, const Journal& journal);
 /// Keeps a copy of settings that showed an artifact well; none where the built-in one is shown, of which they say little.
 [[nodiscard]] std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode);
 

@@ -1,0 +1,24 @@
+/// Technical drawings of an exhibit, to build it from: made from its settings, with the geometry that the exhibit itself uses.
+///
+/// Shape    SVG, to scale: printed at 100 % its lengths are those on the sheet. Dimensions in millimetres.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/settings/settings.h"
+
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// A3: the table, the projector and its light, the tracker and the visitors' eyes, from the side and from above.
+/// `name` says which settings these are.
+[[nodiscard]] std::string table_sheet(const Settings& settings, std::string_view name);
+
+/// A3: the prop from the front and from above, one of its faces, and all of them unfolded.
+[[nodiscard]] std::string prop_sheet(const Settings& settings, std::string_view name);
+
+/// The prop's faces unfolded in true size, with folds and glue tabs, to cut along; as large as it must be.
+[[nodiscard]] std::string net_sheet(const Settings& settings, std::string_view name);
+
+} // namespace frustumscreen

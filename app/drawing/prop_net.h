@@ -1,0 +1,39 @@
+/// The prop's faces laid out flat, as one piece to cut out and fold.
+///
+/// Frame    the net's plane: origin at the middle of the top face, x and y as the prop's; seen from outside the prop. Metres.
+/// Shape    the sides hang on the top; of a cube, the bottom hangs on the side -Y. A frustum has no bottom in the net.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+struct NetFace {
+    std::string_view name;               ///< as in PropShape
+    std::array<glm::dvec2, 4> corners{}; ///< in the order of PropFace::corners, counter-clockwise
+};
+/// A fold between two faces of the net.
+struct NetFold {
+    glm::dvec2 from{0.0};
+    glm::dvec2 to{0.0};
+};
+/// A flap on a face's edge, for the glue that holds it to the face that meets it there.
+struct NetTab {
+    std::array<glm::dvec2, 4> corners{}; ///< the first and the last one are the edge's
+};
+struct PropNet {
+    std::vector<NetFace> faces;
+    std::vector<NetFold> folds;
+    std::vector<NetTab> tabs;
+};
+
+[[nodiscard]] PropNet unfold(const PropShape& prop);
+
+} // namespace frustumscreen

@@ -1,0 +1,214 @@
+// The staff's guide names every sentence that the table, the safe picture and the staff's picture can show: read from where
+// the programs have them, so that a new one without its row fails here.
+
+#include "tests/guide/string_literals.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+
+/// Whose sentences reach the staff.
+constexpr const char* sources[] = {"app/exhibit",
+                                   "app/guidance",
+                                   "app/safe",
+                                   "app/show",
+                                   "app/status",
+                                   "app/watch",
+                                   "app/programs/watchdog",
+                                   "firmware_host/display",
+                                   "firmware_host/panel",
+                                   "firmware_host/service",
+                                   "firmware_host/sound",
+                                   "firmware_host/tracker",
+                                   "app/library/library_folder.cpp",
+                                   "app/library/set_file.cpp"};
+
+/// What has sentences that none of the three pictures shows.
+struct LeftOut {
+    const char* file;
+    const char* why;
+};
+constexpr LeftOut left_out[] = {
+    {"app/exhibit/states.h", "docs/states.md has them, and a test of its own"},
+    {"app/exhibit/states_page.cpp", "the page docs/states.md"},
+    {"app/exhibit/text_image.cpp", "ends the program before its first picture"},
+    {"app/programs/watchdog/watchdog_main.cpp", "the command line"},
+    {"app/show/artifact_show.cpp", "the journal"},
+    {"app/show/artifact_texts.cpp", "the journal"},
+    {"app/show/import_journal.cpp", "the journal"},
+    {"app/show/import_watch.cpp", "the journal"},
+    {"app/show/last_good_settings.cpp", "the journal and the status file"},
+    {"app/show/notice_show.cpp", "the journal"},
+    {"app/show/prompt_reader.cpp", "the journal"},
+    {"app/show/run_hours.cpp", "the journal and the status file"},
+    {"app/show/run_loop.cpp", "the journal"},
+    {"app/show/run_watch.cpp", "the journal"},
+    {"app/show/screenshot.cpp", "frustumscreen status --screenshot"},
+    {"app/show/set_status.cpp", "the journal and systemctl status"},
+    {"app/show/shown_set.cpp", "the journal"},
+    {"app/show/table_show.cpp", "the journal"},
+    {"app/status/prometheus_text.cpp", "numbers for programs"},
+    {"firmware_host/display/shader_cache.cpp", "the journal"},
+    {"firmware_host/service/ask_staff_socket.cpp", "frustumscreen status --screenshot"},
+    {"firmware_host/service/crash_line.cpp", "the journal"},
+    {"firmware_host/service/staff_socket.cpp", "frustumscreen status --screenshot"},
+    {"firmware_host/service/stop_signals.cpp", "the journal"},
+    {"firmware_host/sound/opus_reader.cpp", "packs, when they are baked"},
+    {"firmware_host/sound/volume.cpp", "the settings"},
+    {"firmware_host/tracker/convert_recording.cpp", "files, when they are converted"},
+    {"firmware_host/tracker/packet_file.cpp", "files, when they are read"},
+    {"firmware_host/tracker/packet_replay.cpp", "files, when they are read"},
+    {"firmware_host/tracker/pose_file.cpp", "files, when they are read"},
+    {"firmware_host/tracker/pose_path.cpp", "files, when they are made"},
+    {"firmware_host/tracker/text_rows.cpp", "files, when they are read"},
+};
+
+/// Of other files, which have more.
+constexpr const char* never_shown[] = {
+    "not wanted any more",      // ends a thread's work, and nobody reads it
+    "no pattern for the staff", // the journal
+    "texts left out",           // the journal
+};
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(root / file, std::ios::binary);
+    EXPECT_TRUE(stream.good()) << file;
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// One space wherever there is any; what a program fills in is "..." as on the page.
+std::string as_written(const std::string& text) {
+    static const std::regex field(R"(\{[^{}]*\})");
+    static const std::regex dots(R"(\.\.\.(\.\.\.)+)");
+    static const std::regex space(R"(\s+)");
+    return std::regex_replace(std::regex_replace(std::regex_replace(text, field, "..."), dots, "..."), space,
+                              " ");
+}
+
+/// Without what joins it to the sentence before or after.
+std::string bare(std::string text) {
+    const auto joins = [](char c) { return std::string_view(" .,;:").find(c) != std::string_view::npos; };
+    text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), joins));
+    text.erase(std::find_if_not(text.rbegin(), text.rend(), joins).base(), text.end());
+    return text;
+}
+
+/// Three words make a sentence; less is a name, a key or a part of a file's format.
+bool is_sentence(const std::string& text) {
+    static const std::regex word(R"([A-Za-z']{2,}[,;:.]? )");
+    const auto words = std::distance(std::sregex_iterator(text.begin(), text.end(), word), {});
+    return words >= 2 && text.find_first_of("<>\\#$") == std::string::npos;
+}
+
+const std::string& page() {
+    static const std::string text = as_written(text_of("docs/guide/messages.md"));
+    return text;
+}
+
+void expect_named(const std::string& sentence, const fs::path& from) {
+    EXPECT_NE(page().find(sentence), std::string::npos)
+        << from << " says\n    " << sentence << "\nand docs/guide/messages.md has no row for it";
+}
+
+std::vector<fs::path> files_of(const char* folder) {
+    if (fs::is_regular_file(root / folder)) {
+        return {folder};
+    }
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") {
+            files.push_back(fs::relative(entry.path(), root));
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// The values of a TOML file's texts, below the table [`only`]; all of them where it is empty.
+std::vector<std::string> toml_texts(const fs::path& file, const std::string& only) {
+    static const std::regex line_form(R"re(^\s*\w+\s*=\s*"(.*)"\s*$)re");
+    static const std::regex table_form(R"(^\[(.*)\]$)");
+    std::vector<std::string> texts;
+    std::string table;
+    std::ifstream stream(root / file);
+    for (std::string line; std::getline(stream, line);) {
+        std::smatch match;
+        if (std::regex_match(line, match, table_form)) {
+            table = match[1];
+        } else if (std::regex_match(line, match, line_form) && (only.empty() || table == only)) {
+            texts.push_back(match[1]);
+        }
+    }
+    return texts;
+}
+
+} // namespace
+
+TEST(Guide, LiteralsAreReadAsTheCompilerReadsThem) {
+    EXPECT_EQ(string_literals(
+                  "#include \"a b c\"\nf(\"one \" // \"not this\"\n  \"two\", \"three\"); /* \"nor this\" */"
+                  "g('\"', \"fo\\\"ur\", 1'000, R\"(raw \" text)\", \"five\");"),
+              (std::vector<std::string>{"one two", "three", "fo\"ur", "five"}));
+    EXPECT_EQ(bare(as_written("; the {}{} of\n {:.1f} s: ")), "the ... of ... s");
+    EXPECT_TRUE(is_sentence("the tracker is running"));
+    EXPECT_FALSE(is_sentence("frame_ms"));
+}
+
+TEST(Guide, NamesEverySentenceOfThePrograms) {
+    std::set<std::string> unknown;
+    for (const LeftOut& each : left_out) {
+        EXPECT_TRUE(fs::exists(root / each.file)) << each.file << " is left out, and is not there";
+        unknown.insert(each.file);
+    }
+    std::size_t sentences = 0;
+    for (const char* folder : sources) {
+        for (const fs::path& file : files_of(folder)) {
+            if (unknown.count(file.string()) == 1) {
+                continue;
+            }
+            for (const std::string& literal : string_literals(text_of(file))) {
+                const std::string sentence = bare(as_written(literal));
+                const bool shown = std::find(std::begin(never_shown), std::end(never_shown), sentence) ==
+                                   std::end(never_shown);
+                if (shown && is_sentence(sentence)) {
+                    ++sentences;
+                    expect_named(sentence, file);
+                }
+            }
+        }
+    }
+    EXPECT_GT(sentences, 100U);
+}
+
+TEST(Guide, NamesEveryTextOfTheTable) {
+    const fs::path file = "assets_baked/texts/words/en.toml";
+    const std::vector<std::string> texts = toml_texts(file, "");
+    EXPECT_GT(texts.size(), 40U);
+    for (const std::string& text : texts) {
+        if (text != "English") {
+            expect_named(as_written(text), file);
+        }
+    }
+}
+
+TEST(Guide, NamesEveryTextOfTheSafePicture) {
+    const fs::path file = "assets_baked/safe/words.toml";
+    const std::vector<std::string> texts = toml_texts(file, "en");
+    EXPECT_EQ(texts.size(), 2U);
+    for (const std::string& text : texts) {
+        expect_named(as_written(text), file);
+    }
+}

@@ -1,0 +1,45 @@
+"""What every test of the image begins and ends with."""
+
+import os
+import pathlib
+import shutil
+import tempfile
+import time
+import unittest
+
+from appliance import Appliance, tracker
+from bench import Patience
+
+IMAGE = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"])  # frustumscreen.raw of a test's image
+LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
+
+
+def long(test):
+    """A test, or a class of them, that needs `./test image --all`."""
+    return unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")(test)
+
+
+class ImageTest(unittest.TestCase):
+    """A PC of its own for each test, whose disk nobody has started before."""
+
+    def setUp(self):
+        name = self.id().rsplit(".", 1)[-1]
+        self.sockets = pathlib.Path(tempfile.mkdtemp(prefix="image-"))
+        self.addCleanup(shutil.rmtree, self.sockets)
+        (LOGS / name).mkdir(parents=True, exist_ok=True)
+        self.tracker = tracker(self.sockets, LOGS / name)
+        self.addCleanup(self.tracker.stop)
+        self.pc = Appliance(IMAGE, LOGS / name, self.sockets, {"tracker": self.tracker.usb})
+        self.addCleanup((LOGS / name / "disk.raw").unlink)
+
+    def start(self):
+        self.pc.start()
+        self.addCleanup(self.pc.stop)
+        Patience.clock = self.pc.granted_s
+        self.addCleanup(setattr, Patience, "clock", time.monotonic)
+        self.pc.wait_until_lit()
+
+    def switch_off(self):
+        """By the plug, not by a command."""
+        Patience.clock = time.monotonic
+        self.pc.stop()

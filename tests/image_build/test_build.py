@@ -1,0 +1,63 @@
+"""./image_build/build itself: its bytes, its signatures, what it refuses."""
+
+import filecmp
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from image_test import IMAGE, long
+
+CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = CHECKOUT / "image_build" / "build"
+TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose password is "snakeoil"; never a museum's
+
+
+def build(*options):
+    return subprocess.run([BUILD, "--quick", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], *options],
+                          capture_output=True, text=True, check=False)
+
+
+def keys_in(folder):
+    """A folder for --keys."""
+    keys = folder / "keys"
+    keys.mkdir()
+    subprocess.run(["openssl", "rsa", "-in", TEST_KEY, "-passin", "pass:snakeoil", "-out", keys / "db.key"], check=True,
+                   capture_output=True)
+    (keys / "db.crt").write_bytes(TEST_KEY.with_suffix(".pem").read_bytes())
+    return keys
+
+
+class Build(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(dir=CHECKOUT / "build")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_two_builds_are_the_same(self):
+        done = build("--out", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        again = self.folder / "test" / IMAGE.name
+        self.assertTrue(filecmp.cmp(IMAGE, again, shallow=False), f"{IMAGE} and a second build of it differ")
+
+    @long
+    def test_two_signed_builds_are_the_same(self):
+        keys = keys_in(self.folder)
+        disks = []
+        for name in ("a", "b"):
+            done = build("--keys", keys, "--out", self.folder / name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            disks.append(self.folder / name / "test" / IMAGE.name)
+        self.assertTrue(filecmp.cmp(*disks, shallow=False))
+        kernel = next(disks[0].parent.glob("*.efi"))
+        subprocess.run(["sbverify", "--cert", keys / "db.crt", kernel], check=True, capture_output=True)
+
+    def test_wrong_use_is_one_sentence(self):
+        for options, status, words in ((["--keys", "/nowhere"], 1, "db.key"), (["--frimware", "amd"], 2, "--help"),
+                                       (["--firmware", "arm"], 2, "amd"), (["--version", "new"], 2, "digit"),
+                                       (["--keys"], 2, "value"), (["--data", "big"], 2, "160M"), (["--packages", "/nowhere"], 1, "/nowhere")):
+            done = subprocess.run([BUILD, *options], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, status, options)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn(words, done.stderr)
