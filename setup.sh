@@ -42,6 +42,7 @@ for part; do
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 minisign                          # signatures
                 tzdata                            # time zones
+                rauc openssl squashfs-tools       # updates
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
@@ -57,6 +58,7 @@ for part; do
                 squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
                 fdisk dosfstools mtools e2fsprogs                                    # the disk
                 python3-jsonschema python3-license-expression                        # read its bill of materials
+                rauc openssl                                                         # updates
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;

@@ -10,11 +10,11 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false mirror=''
+    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false mirror='' update_ca=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
-            --keys | --packages | --firmware | --version | --data | --out | --mirror)
+            --keys | --packages | --firmware | --version | --data | --out | --mirror | --update-ca)
                 (($# > 1)) || { echo "build: $1 needs a value; --help says which" >&2; exit 2; }
                 ;;&
             --test) test_image=true ;;
@@ -22,6 +22,7 @@ parse_arguments() {
             --record) record=true ;;
             --keys) keys=$(readlink -f "$2") && shift ;;
             --packages) packages=$(readlink -f "$2") && shift ;;
+            --update-ca) update_ca=$(readlink -f "$2") && shift ;;
             --firmware) firmware=$2 && shift ;;
             --version) version=$2 && shift ;;
             --data) data_size=$2 && shift ;;
@@ -40,6 +41,7 @@ parse_arguments() {
         exit 2
     fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
+    [[ -z $update_ca ]] || openssl x509 -noout -in "$update_ca" 2>/dev/null || fail "--update-ca: $update_ca has no certificate (PEM)"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
     : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
     export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
@@ -130,6 +132,7 @@ make_root() {
         ${firmware:+"image_build/modules.$firmware.list"}
     find "$root" -type f -perm /6000 -exec chmod ug-s {} + # nobody becomes root by a program
     cp -R image_build/files/. "$root/"
+    [[ -z $update_ca ]] || install -m 644 "$update_ca" "$root/etc/rauc/keyring.pem"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
     : >"$root/etc/machine-id" # the first start's (initrd/init)
     rm -f "$root/usr/lib/os-release"
@@ -174,6 +177,7 @@ multi-user.target frustumscreen.service
 multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
+multi-user.target frustumscreen-next-try.timer
 multi-user.target frustumscreen-no-card.timer
 boot-complete.target frustumscreen-good.service
 UNITS

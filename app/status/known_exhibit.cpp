@@ -79,7 +79,9 @@ StatusDocument read_status(const std::filesystem::path& file, const StatusClock&
 }
 
 void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
-                        const std::filesystem::path& watchdog_file, const StatusClock& clock) {
+                        const std::filesystem::path& watchdog_file, const std::filesystem::path& boot_folder,
+                        const StatusClock& clock) {
+    known.image = read_system_image(boot_folder);
     known.watchdog = read_status(watchdog_file, clock);
     known.monotonic_s = to_seconds(clock.now.time_since_epoch());
     if (known.system.empty()) {
@@ -104,9 +106,10 @@ void renew_surroundings(Surroundings& known, const std::filesystem::path& status
 }
 
 KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
-                                const std::filesystem::path& watchdog_file, const StatusClock& clock) {
+                                const std::filesystem::path& watchdog_file,
+                                const std::filesystem::path& boot_folder, const StatusClock& clock) {
     KnownExhibit known{read_status(status_file, clock), {}};
-    renew_surroundings(known.surroundings, status_file, watchdog_file, clock);
+    renew_surroundings(known.surroundings, status_file, watchdog_file, boot_folder, clock);
     return known;
 }
 

@@ -6,6 +6,7 @@
 /// Errors   none: `why` says what could not be read. A file of another program may hold anything.
 #pragma once
 
+#include "app/status/system_image.h"
 #include "app/watch/outcome.h"
 #include "app/watch/service_ends.h"
 #include "firmware_host/base/time.h"
@@ -49,11 +50,13 @@ struct Surroundings {
     std::string ends_trouble;      ///< why their file could not be read; one that is not there has no ends
     double monotonic_s = 0.0;      ///< when it was read
     std::string system;            ///< name and version of the operating system and of the kernel
+    SystemImage image;             ///< of an appliance
 };
 using SharedSurroundings = std::shared_ptr<const Surroundings>;
 /// Brings `known` up to now; what cannot have changed is not read again. The ends' file lies beside the status file.
 void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
-                        const std::filesystem::path& watchdog_file, const StatusClock& clock);
+                        const std::filesystem::path& watchdog_file, const std::filesystem::path& boot_folder,
+                        const StatusClock& clock);
 
 struct KnownExhibit {
     StatusDocument status;
@@ -61,6 +64,7 @@ struct KnownExhibit {
 };
 [[nodiscard]] KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
                                               const std::filesystem::path& watchdog_file,
+                                              const std::filesystem::path& boot_folder,
                                               const StatusClock& clock);
 
 } // namespace frustumscreen

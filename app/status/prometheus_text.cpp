@@ -168,6 +168,16 @@ void add_watchdog(Metrics& metrics, const StatusDocument& watchdog) {
                   "Restarts of the machine today, by the watchdog.");
 }
 
+void add_system(Metrics& metrics, const SystemImage& image) {
+    if (!image.there()) {
+        return;
+    }
+    metrics.family("system_info", "gauge", "1; the label is the version of the appliance's system.");
+    metrics.sample("version", image.version, 1.0);
+    metrics.gauge("system_notes", static_cast<double>(image.notes.size()),
+                  "What was wrong when it started, such as an update that did not start.");
+}
+
 } // namespace
 
 std::string prometheus_text(const KnownExhibit& known) {
@@ -187,6 +197,7 @@ std::string prometheus_text(const KnownExhibit& known) {
     }
     add_ends(metrics, known.surroundings);
     add_watchdog(metrics, known.surroundings.watchdog);
+    add_system(metrics, known.surroundings.image);
     return metrics.take();
 }
 

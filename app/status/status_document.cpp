@@ -32,6 +32,11 @@ Json json_of(const Surroundings& surroundings) {
     return {{"count", ends.count()}, {"last", last}, {"why_unknown", surroundings.ends_trouble}};
 }
 
+Json json_of(const SystemImage& image) {
+    return image.there() ? Json{{"version", image.version}, {"slot", image.slot}, {"notes", image.notes}}
+                         : Json(nullptr);
+}
+
 } // namespace
 
 std::string status_document(const KnownExhibit& known) {
@@ -42,7 +47,8 @@ std::string status_document(const KnownExhibit& known) {
                            {"age_s", rounded_or_null(known.status.age_s)},
                            {"exhibit", json_of(known.status)},
                            {"watchdog", json_of(known.surroundings.watchdog)},
-                           {"ends", json_of(known.surroundings)}};
+                           {"ends", json_of(known.surroundings)},
+                           {"system", json_of(known.surroundings.image)}};
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -241,6 +241,17 @@ std::string notes_line(const StatusDocument& watchdog) {
     return text;
 }
 
+std::string image_line(const SystemImage& image) {
+    if (!image.there()) {
+        return {};
+    }
+    std::string text = fmt::format("version {}, slot {}", image.version, or_else(image.slot, "?"));
+    for (const std::string& note : image.notes) {
+        text += "; " + note;
+    }
+    return text;
+}
+
 void add_faults(Lines& lines, const StatusDocument& watchdog) {
     if (watchdog.fields.is_null()) {
         return;
@@ -297,6 +308,7 @@ std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional
         lines.add("starts", starts_line(fields, age_s, *surroundings));
         lines.add("watchdog", watchdog_line(surroundings->watchdog));
         lines.add("machine", notes_line(surroundings->watchdog));
+        lines.add("system", image_line(surroundings->image));
         add_faults(lines, surroundings->watchdog);
     }
     if (const std::optional<double> memory_mib = fields.number("resident_mib")) {

@@ -15,7 +15,7 @@ LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
 
 
 def long(test):
-    """A test that needs `./test image --all`."""
+    """A test, or a class of them, that needs `./test image --all`."""
     return unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")(test)
 
 

@@ -12,7 +12,16 @@ fi
 ./setup.sh hil kiosk image packages window
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
 image_build/packages --out "$FRUSTUMSCREEN_IMAGE_PACKAGES"
-image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES"
+# Whoever signs the updates of the image for tests
+keys=build/image/test_keys
+PYTHONPATH=tests/image_build PYTHONDONTWRITEBYTECODE=1 \
+    python3 -c 'import pathlib, sys, updates; updates.make_key(pathlib.Path(sys.argv[1]), "update")' $keys
+image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt
+if [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
+    image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
+    FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
+    export FRUSTUMSCREEN_IMAGE_NEXT FRUSTUMSCREEN_IMAGE_KEYS
+fi
 FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/image)/logs
 export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES PYTHONDONTWRITEBYTECODE=1
 rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"

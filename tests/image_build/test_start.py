@@ -33,7 +33,7 @@ class Start(ImageTest):
         eventually(lambda: pc.run("systemctl is-active systemd-bless-boot").output.strip() == "active", 240.0,
                    "the start is never marked as good")
         self.assertRegex(pc.check("mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"),
-                         r"^frustumscreen_[0-9.]+\.efi$")
+                         r"^frustumscreen_[0-9.]+\+5\.efi$")
         pc.check("echo kept > /var/lib/frustumscreen/kept; sync")
         self.switch_off()
         self.start()

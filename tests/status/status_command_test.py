@@ -70,10 +70,15 @@ class Status(unittest.TestCase):
         data = content if isinstance(content, bytes) else json.dumps(content).encode()
         (self.folder / name).write_bytes(data)
 
+    def boot_folder(self, version, slot, *notes):
+        (self.folder / "boot").mkdir()
+        for name, lines in (("version", [version]), ("slot", [slot]), ("notes", notes)):
+            self.write(f"boot/{name}", "".join(f"{line}\n" for line in lines).encode())
+
     def run_status(self, *options):
         return subprocess.run(
             [PROGRAM, "status", "--status-file", self.folder / "status.json", "--watchdog-file", self.folder / "dog.json",
-             "--staff-socket", self.folder / "staff.sock", *options],
+             "--staff-socket", self.folder / "staff.sock", "--boot-folder", self.folder / "boot", *options],
             capture_output=True, timeout=60, check=False, env={**os.environ, "TZ": "UTC", "LC_ALL": "C.UTF-8"})
 
     def text(self, expected_status):
@@ -125,6 +130,17 @@ class Text(Status):
     def test_without_a_watchdog_it_says_so(self):
         self.write("status.json", exhibit())
         self.assertRegex(self.line(self.text(0), "watchdog"), r"^nothing is known of it: .*dog.json: there is no such file$")
+
+    def test_the_system_of_an_appliance_and_an_update_that_did_not_start(self):
+        self.write("status.json", exhibit())
+        self.assertNotIn("\nsystem ", self.text(0))  # this is a computer that was not made from the image
+        (self.folder / "boot").mkdir()
+        self.write("boot/version", b"1.4.0\n")
+        self.write("boot/slot", b"frustumscreen-b\n")
+        self.assertEqual(self.line(self.text(0), "system"), "version 1.4.0, slot b")
+        self.write("boot/notes", b"data: it was mended\nsystem: version 1.5.0 did not start\x1b\n")
+        self.assertEqual(self.line(self.text(0), "system"),
+                         "version 1.4.0, slot b; data: it was mended; version 1.5.0 did not start?")
 
     def test_nothing_is_known(self):
         self.assertRegex(self.text(1), r"^Nothing is known of the exhibit: .*status.json: there is no such file; systemctl status frustumscreen says more\.\n")
@@ -210,6 +226,9 @@ class Hostile(Status):
         os.mkfifo(self.folder / "status.json")  # reading it would wait for ever
         (self.folder / "dog.json").mkdir()
         (self.folder / "ends").symlink_to("/dev/zero")
+        (self.folder / "boot").mkdir()
+        os.mkfifo(self.folder / "boot/version")
+        (self.folder / "boot/notes").symlink_to("/dev/zero")
         self.assertIn("Nothing is known", self.text(1))
 
     def test_ends_that_are_none(self):
@@ -222,11 +241,13 @@ class Json(Status):
     def test_both_files_under_fixed_keys(self):
         self.write("status.json", exhibit())
         self.write("dog.json", watchdog())
+        self.boot_folder("1.4.0", "frustumscreen-a", "system: it did not start")
         self.write("ends", f"{time.monotonic() - 60:.2f} core-dump dumped ABRT\n".encode())
         done = self.run_status("--json")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends"])
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "system"])
+        self.assertEqual(known["system"], {"version": "1.4.0", "slot": "a", "notes": ["it did not start"]})
         self.assertTrue(known["well"] and known["runs"])
         self.assertTrue(0 <= known["age_s"] < 5)
         self.assertEqual(known["exhibit"]["status"]["artifact"], "Amphora \"of\" Exekias")
@@ -239,8 +260,8 @@ class Json(Status):
         done = self.run_status("--json")
         self.assertEqual(done.returncode, 1)
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends"])
-        self.assertEqual((known["age_s"], known["exhibit"]["status"], known["ends"]["last"]), (None, None, None))
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "system"])
+        self.assertEqual((known["age_s"], known["exhibit"]["status"], known["ends"]["last"], known["system"]), (None,) * 4)
         self.assertIn("there is no such file", known["exhibit"]["why_unknown"])
 
 
@@ -272,6 +293,7 @@ class Prometheus(Status):
     def test_the_numbers_in_base_units(self):
         self.write("status.json", exhibit())
         self.write("dog.json", watchdog())
+        self.boot_folder("1.4.0", "frustumscreen-a", "one", "two")
         self.write("ends", b"1 watchdog killed KILL\n2 watchdog killed KILL\n3 strange killed KILL\n")
         families = self.families(0)
         self.assertEqual(self.value(families, "up"), 1)
@@ -289,6 +311,8 @@ class Prometheus(Status):
         self.assertEqual(self.value(families, "ends", result="other"), 1)
         self.assertEqual(self.value(families, "ends", result="oom-kill"), 0)
         self.assertEqual(self.value(families, "watchdog_reboots"), 1)
+        self.assertEqual(self.value(families, "system_info", version="1.4.0"), 1)
+        self.assertEqual(self.value(families, "system_notes"), 2)
         self.assertEqual(self.value(families, "watchdog_mode", mode="normal"), 1)
 
     def test_an_exhibit_that_does_not_run_has_no_numbers_of_its_own(self):

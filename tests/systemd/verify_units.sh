@@ -71,6 +71,19 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     locked_in frustumscreen-import-refused@stick1p1.service 1
     locked_in frustumscreen-stick@stick1p1.service 24
     locked_in frustumscreen-ntfs@stick1p1.service 34
+    # What the image adds for its updates.
+    own=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../image_build/files/usr/lib
+    cp -r "$own/systemd/system/." "$units" && cp -r "$own/frustumscreen" "$root/usr/lib/"
+    for name in update@stick1p1 update-told@stick1p1 next-try; do
+        instance=$units/frustumscreen-$name.service
+        [[ -e $instance ]] || cp "$units/frustumscreen-${name%%@*}@.service" "$instance"
+        said=$(systemd-analyze verify --root="$root" "$instance" 2>&1) || true
+        said=$(grep "frustumscreen-${name%%@*}" <<<"$said" | grep -v 'is not executable: No such file' || true)
+        [[ -z $said ]] || die "systemd-analyze verify: $said"
+    done
+    locked_in frustumscreen-update@stick1p1.service 18
+    locked_in frustumscreen-update-told@stick1p1.service 13
+    locked_in frustumscreen-next-try.service 19
 else
     skip "systemd-analyze is not installed"
 fi

@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Updates of the kiosk's system, without a machine: what ./image_build/bundle makes, read by RAUC itself; and boot-slots on a folder.
+
+bundle_test.py [unittest's arguments]
+"""
+
+import hashlib
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+TOP = pathlib.Path(__file__).resolve().parent.parent.parent
+BUNDLE = TOP / "image_build/bundle"
+BOOT_SLOTS = TOP / "image_build/files/usr/lib/frustumscreen/boot-slots"
+RUNNING, OTHER = "aa" * 32, "bb" * 32  # hashes of roots
+
+
+def run(*command, env=None):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, timeout=120,
+                          env={**os.environ, "LC_ALL": "C", **(env or {})})
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+
+class Bundle(Folder):
+    """An image of noise stands in for a real one; nothing looks into it."""
+
+    def setUp(self):
+        super().setUp()
+        self.files = {}
+        for name, size in (("frustumscreen_1.2.0.slot", 3 << 20), ("frustumscreen_1.2.0.efi", 1 << 20)):
+            self.files[name] = os.urandom(size)
+            (self.folder / name).write_bytes(self.files[name])
+        for name in ("ours", "theirs"):
+            done = run("openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                       "-subj", f"/CN={name}", "-days", "7300", "-keyout", self.folder / f"{name}.key",
+                       "-out", self.folder / f"{name}.crt")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.out = self.folder / "update.raucb"
+
+    def make(self, *options):
+        return run(BUNDLE, "--image", self.folder, "--key", self.folder / "ours.key", "--cert", self.folder / "ours.crt",
+                   "-o", self.out, *options)
+
+    def info(self, keyring="ours"):
+        return run("rauc", "info", f"--keyring={self.folder / keyring}.crt", "--output-format=shell", self.out)
+
+    def test_what_rauc_reads(self):
+        done = self.make()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = self.info()
+        self.assertEqual(told.returncode, 0, told.stderr)
+        lines = dict(line.split("=", 1) for line in told.stdout.splitlines() if "=" in line)
+        self.assertEqual(lines["RAUC_MF_COMPATIBLE"], "'frustumscreen'")
+        self.assertEqual(lines["RAUC_MF_VERSION"], "'1.2.0'")
+        self.assertEqual(lines["RAUC_IMAGE_CLASS_0"], "'system'")
+        self.assertEqual(lines["RAUC_IMAGE_SIZE_0"], str(3 << 20))
+        self.assertEqual(lines["RAUC_IMAGE_DIGEST_0"].strip("'"), hashlib.sha256(self.files["frustumscreen_1.2.0.slot"]).hexdigest())
+        inside = self.folder / "inside"
+        done = run("unsquashfs", "-q", "-n", "-d", inside, self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((inside / "system.img").read_bytes(), self.files["frustumscreen_1.2.0.slot"])
+        self.assertEqual((inside / "frustumscreen_1.2.0.efi").read_bytes(), self.files["frustumscreen_1.2.0.efi"])
+        self.assertIn("format=verity", (inside / "manifest.raucm").read_text(encoding="ascii"))
+
+    def test_what_is_inside_is_the_same_each_time(self):
+        insides = []
+        for _ in range(2):
+            self.assertEqual(self.make().returncode, 0)
+            made = self.out.read_bytes()
+            used, = struct.unpack_from("<Q", made, 40)  # squashfs' superblock: bytes_used
+            insides.append(hashlib.sha256(made[:used]).hexdigest())
+        self.assertEqual(insides[0], insides[1])
+
+    def test_another_key_and_what_is_cut_or_changed(self):
+        self.assertEqual(self.make().returncode, 0)
+        self.assertIn("signature verification failed", self.info("theirs").stderr)
+        whole = self.out.read_bytes()
+        self.out.write_bytes(whole[:len(whole) // 2])
+        self.assertNotEqual(self.info().returncode, 0)
+        changed = bytearray(whole)
+        changed[-200] ^= 1  # in the signature
+        self.out.write_bytes(changed)
+        self.assertNotEqual(self.info().returncode, 0)
+        self.out.write_bytes(whole)
+        self.assertEqual(self.info().returncode, 0)
+
+    def test_wrong_use_is_one_sentence(self):
+        for options, words in ((("--version", "9"), "has no version '9'"), (("-o", self.folder / "x"), "does not end with .raucb"),
+                               (("--key", "/nowhere"), "cannot be read"), (("--speed",), "there is no option"), (("-o",), "needs a value")):
+            done = self.make(*options)
+            self.assertIn(done.returncode, (1, 2), options)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+class BootSlots(Folder):
+    """Slot a runs."""
+
+    def setUp(self):
+        super().setUp()
+        self.linux = self.folder / "esp/EFI/Linux"
+        self.linux.mkdir(parents=True)
+        (self.folder / "bundle").mkdir()
+        (self.folder / "slot").write_text("frustumscreen-a\n", encoding="ascii")
+        (self.folder / "cmdline").write_text(f"quiet frustumscreen.root_hash={RUNNING} x=1\n", encoding="ascii")
+
+    def image(self, name, root_hash, folder=None):
+        (folder or self.linux).joinpath(name).write_bytes(b"MZ\0\xff" + f"a=1 frustumscreen.root_hash={root_hash} b".encode() + b"\0")
+
+    def images(self):
+        return sorted(path.name for path in self.linux.iterdir())
+
+    def boot_slots(self, *words):
+        return run(BOOT_SLOTS, *words, env={
+            "BOOT_SLOTS_ESP": self.folder / "esp", "BOOT_SLOTS_BUNDLE": self.folder / "bundle",
+            "BOOT_SLOTS_COMMAND_LINE": self.folder / "cmdline", "BOOT_SLOTS_RUNNING": self.folder / "slot"})
+
+    def says(self, *words):
+        done = self.boot_slots(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        return done.stdout.strip()
+
+    def refuses(self, *words):
+        before = self.images()
+        done = self.boot_slots(*words)
+        self.assertNotEqual(done.returncode, 0, words)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(self.images(), before)
+
+    def test_which_starts(self):
+        """The newest with tries left, as systemd-boot's own order has it."""
+        for ours, other, primary, state in (
+                ("1.2.0+5", "1.3.0+3", "b", "good"), ("1.2.0+4-1", "1.3.0+0-3", "a", "bad"), ("1.2.0", "1.10.0+1-2", "b", "good"),
+                ("1.10.0+5", "1.9.0", "a", "good"), ("1.2.0+0-5", "1.1.0+5", "b", "good"), ("1.2.0+0-5", "1.3.0+0-3", "b", "bad"),
+                ("1.2.0+5", "1.2.0~rc1+3", "a", "good")):
+            for path in self.linux.iterdir():
+                path.unlink()
+            self.image(f"frustumscreen_{ours}.efi", RUNNING)
+            self.image(f"frustumscreen_{other}.efi", OTHER)
+            self.assertEqual(self.says("get-primary"), primary, (ours, other))
+            self.assertEqual(self.says("get-state", "b"), state, (ours, other))
+
+    def test_a_slot_without_a_kernel_image_is_bad(self):
+        self.image("frustumscreen_1.2.0+5.efi", RUNNING)
+        self.assertEqual((self.says("get-state", "a"), self.says("get-state", "b"), self.says("get-primary")), ("good", "bad", "a"))
+
+    def test_an_update_from_its_beginning_to_its_end(self):
+        self.image("frustumscreen_1.2.0+5.efi", RUNNING)
+        self.image("frustumscreen_1.1.0+5.efi", OTHER)
+        self.image("new.part", OTHER)  # a power cut left it
+        self.says("set-state", "b", "bad")
+        self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
+        self.image("frustumscreen_1.3.0.efi", "cc" * 32, self.folder / "bundle")
+        self.says("set-primary", "b")
+        self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi", "frustumscreen_1.3.0+3.efi"])
+        self.assertEqual(self.says("get-primary"), "b")
+
+    def test_a_good_start_arms_the_tries_again(self):
+        for name in ("1.2.0+2-1", "1.2.0", "1.2.0+0-5", "1.2.0+5"):
+            self.image(f"frustumscreen_{name}.efi", RUNNING)
+            self.says("set-state", "a", "good")
+            self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
+
+    def test_the_running_version_is_never_taken_away(self):
+        self.image("frustumscreen_1.2.0+5.efi", RUNNING)
+        self.image("frustumscreen_1.3.0.efi", OTHER, self.folder / "bundle")
+        for words in (("set-state", "a", "bad"), ("set-primary", "a"), ("set-state", "b", "good"), ("set-state", "b", "so-so"),
+                      ("get-state", "c"), ("get-primary", "a"), ("explode",), ()):
+            self.refuses(*words)
+
+    def test_a_bundle_without_one_kernel_image(self):
+        self.image("frustumscreen_1.2.0+5.efi", RUNNING)
+        self.refuses("set-primary", "b")
+        for version in ("1.3.0", "1.4.0"):
+            self.image(f"frustumscreen_{version}.efi", OTHER, self.folder / "bundle")
+        self.refuses("set-primary", "b")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+"""Bundles for tests: good ones, and each kind that must be refused or fall back.
+
+Frame    `next_image`: the folder of an image of version NEXT, of which all bundles are made.
+Threads  one caller.
+Errors   subprocess.CalledProcessError of what makes a bundle.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+BUNDLE = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/bundle"
+NEXT = "0.2.0"
+
+
+def make_key(folder, name):
+    """NAME.key and NAME.crt, which sign for twenty years."""
+    folder.mkdir(parents=True, exist_ok=True)
+    key, certificate = folder / f"{name}.key", folder / f"{name}.crt"
+    if not certificate.exists():
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:3072", "-nodes", "-subj", f"/CN={name}", "-days", "7300",
+                        "-keyout", key, "-out", certificate], check=True, capture_output=True)
+    return key, certificate
+
+
+def _in_place(kernel_image, pattern, words):
+    """Puts other words on the command line of a kernel image, of the same length."""
+    data = kernel_image.read_bytes()
+    found = re.search(pattern, data)
+    assert found and len(words) <= len(found.group(0)), pattern
+    kernel_image.write_bytes(data[:found.start()] + words.ljust(len(found.group(0))) + data[found.end():])
+
+
+def no_root(kernel_image):
+    """Its root is on no disk: the initrd gives up and starts the machine again."""
+    _in_place(kernel_image, rb"frustumscreen\.root_hash=[0-9a-f]{64}", b"frustumscreen.root_hash=" + b"5" * 64)
+
+
+def no_init(kernel_image):
+    """The kernel finds no first program, and panics."""
+    _in_place(kernel_image, rb"systemd\.import_credentials=0", b"rdinit=/none")
+
+
+def no_exhibit(kernel_image):
+    """The system starts, and the exhibit never does."""
+    _in_place(kernel_image, rb"systemd\.import_credentials=0 systemd\.show_status=0", b"systemd.mask=frustumscreen.service")
+
+
+class Updates:
+    def __init__(self, next_image, keys, folder):
+        self._image, self._keys, self._folder = next_image, keys, folder
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def make(self, version=NEXT, key="update", change=None):
+        """A signed bundle that calls itself `version`. `change`: what is done to its kernel image before."""
+        work = self._folder / f"of-{version}"
+        work.mkdir()
+        os.link(self._image / f"frustumscreen_{NEXT}.slot", work / f"frustumscreen_{version}.slot")
+        kernel_image = work / f"frustumscreen_{version}.efi"
+        shutil.copyfile(self._image / f"frustumscreen_{NEXT}.efi", kernel_image)
+        if change:
+            change(kernel_image)
+        private, certificate = make_key(self._keys, key)
+        out = self._folder / f"{key}-{version}.raucb"
+        subprocess.run([BUNDLE, "--image", work, "--key", private, "--cert", certificate, "-o", out], check=True, capture_output=True)
+        shutil.rmtree(work)
+        return out
+
+    def truncated(self):
+        out = self.make()
+        os.truncate(out, out.stat().st_size * 6 // 10)
+        return out
+
+    def altered(self):
+        """One bit in the middle of what is signed, which nothing reads before it is installed."""
+        out = self.make()
+        with open(out, "r+b") as file:
+            file.seek(out.stat().st_size // 2)
+            byte = file.read(1)
+            file.seek(-1, os.SEEK_CUR)
+            file.write(bytes([byte[0] ^ 1]))
+        return out
