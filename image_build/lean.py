@@ -18,22 +18,11 @@ import re
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "contents"))
+from word_lists import Wrong, lines_of  # noqa: E402
+
 LIBRARIES = ("usr/lib/x86_64-linux-gnu", "usr/lib", "usr/lib/systemd", "usr/lib/x86_64-linux-gnu/systemd", "usr/lib64")
 MERGED = ("bin", "sbin", "lib", "lib64")  # links into usr
-
-
-class Wrong(Exception):
-    pass
-
-
-def lines_of(path):
-    """(words before the reason, reason) of each line; words and reason are two spaces or more apart."""
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if line.strip() and not line.startswith("#"):
-            named, _, reason = re.sub(r"\s{2,}", "\t", line.strip()).partition("\t")
-            if not reason:
-                raise Wrong(f"{path}: '{line}' has no reason, behind two spaces")
-            yield named, reason
 
 
 class Trees:

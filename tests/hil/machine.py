@@ -135,13 +135,7 @@ class Machine:
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
             "-kernel", self.files / "vmlinuz", "-initrd", self.files / "initrd.img",
             "-append", "console=ttyS0 quiet systemd.show_status=0 mitigations=off net.ifnames=0 panic=5",
-            "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
-            "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
-            "-serial", "chardev:serial",
-            "-device", "virtio-serial-pci",
-            "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
-            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
-            "-device", "virtio-rng-pci",
+            *self.lines(),
             "-vga", "none",
             "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
             "-device", f"virtio-gpu-pci,id=second,edid=on,xres={self.width},yres={self.height},addr={SECOND_SLOT:#x}",
@@ -154,10 +148,24 @@ class Machine:
         for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
             command += ["-drive", f"if=none,id={serial},format=raw,readonly=on,file={image}",
                         "-device", f"virtio-blk-pci,drive={serial},serial={serial}"]
-        for name, path in self.usb.items():
-            command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
-                        "-device", f"usb-redir,id=usb-{name},chardev={name}"]
+        command += self.usb_devices()
         return [str(word) for word in command]
+
+    def lines(self):
+        """QEMU's monitor, the serial line and the guest's agent."""
+        return [
+            "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
+            "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
+            "-serial", "chardev:serial",
+            "-device", "virtio-serial-pci",
+            "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
+            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
+            "-device", "virtio-rng-pci",
+        ]
+
+    def usb_devices(self):
+        return [word for name, path in self.usb.items() for word in (
+            "-chardev", f"socket,id={name},path={path},reconnect=1", "-device", f"usb-redir,id=usb-{name},chardev={name}")]
 
     def may_start_anew(self):
         """From now on the hardware's watchdog, a panic or a reboot starts the machine anew; else that ends it."""

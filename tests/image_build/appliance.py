@@ -50,20 +50,12 @@ class Appliance(Machine):
             "-drive", f"if=pflash,format=raw,unit=1,file={self.logs}/variables.fd",
             "-drive", f"if=none,id=disk,format=raw,file={self.disk},readonly={'on' if self.read_only else 'off'}",
             "-device", "virtio-blk-pci,drive=disk,serial=disk,bootindex=1",
-            "-qmp", f"unix:{self.sockets}/monitor,server=on,wait=off",
-            "-chardev", f"socket,id=serial,path={self.sockets}/serial,server=on,wait=off,logfile={self.logs}/serial.log",
-            "-serial", "chardev:serial",
-            "-device", "virtio-serial-pci",
-            "-chardev", f"socket,id=agent,path={self.sockets}/agent,server=on,wait=off",
-            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
-            "-device", "virtio-rng-pci",
+            *self.lines(),
             "-vga", "none", "-device", self._screen,
             "-device", "qemu-xhci,id=usb,p2=12,p3=12",
             "-device", "i6300esb", "-action", "watchdog=reset",
         ]
-        for name, path in self.usb.items():
-            command += ["-chardev", f"socket,id={name},path={path},reconnect=1",
-                        "-device", f"usb-redir,id=usb-{name},chardev={name}"]
+        command += self.usb_devices()
         return [str(word) for word in command]
 
     def power_on(self):
