@@ -1,6 +1,7 @@
 // Files that are read piece by piece.
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/open_file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -15,20 +16,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class OpenFileTest : public testing::Test {
+class OpenFileTest : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
+        WithTemporaryFolder::SetUp();
         ASSERT_TRUE(write_file(folder / "digits", as_bytes("0123456789")));
     }
-    void TearDown() override { fs::remove_all(folder); }
     [[nodiscard]] std::string refusal(const std::string& name, std::uint64_t limit = 100) const {
         const Result<OpenFile> file = OpenFile::open(folder / name, limit);
         return file ? std::string() : file.error().message;
     }
-    fs::path folder;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -14,14 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PartialFiles : public ::testing::Test {
+class PartialFiles : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { fs::remove_all(folder); }
     void put(const std::string& name) const {
         ASSERT_TRUE(write_file(folder / name, as_bytes("half of a pack")));
     }
@@ -34,8 +29,6 @@ protected:
         ::waitpid(child, nullptr, 0);
         return std::to_string(child);
     }
-
-    fs::path folder;
 };
 
 TEST_F(PartialFiles, OfAProcessThatIsGoneAreClearedAway) {

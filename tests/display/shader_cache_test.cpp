@@ -2,6 +2,7 @@
 
 #include "firmware_host/display/shader_cache.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/temporary_folder.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -38,16 +39,7 @@ template <typename Body> int in_a_process(const Body& body) {
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-class ShaderCache : public ::testing::Test {
-protected:
-    void SetUp() override {
-        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { fs::remove_all(folder); }
-    fs::path folder;
-};
+class ShaderCache : public WithTemporaryFolder {};
 
 /// A full disk of 8 KiB over `folder`, for this process alone.
 bool mount_full_disk(const fs::path& folder) {

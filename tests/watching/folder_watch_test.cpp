@@ -1,6 +1,7 @@
 // When a watched folder counts as changed, with the kernel's own inotify; when a burst of changes is over, by a simulated clock.
 #include "app/programs/watch/folder_watch.h"
 #include "app/programs/watch/settle_time.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,19 +16,14 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-class WatchedFolder : public ::testing::Test {
+class WatchedFolder : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
+        WithTemporaryFolder::SetUp();
         fs::create_directories(folder / "recordings" / "en");
         put("artifact.toml");
     }
-    void TearDown() override { fs::remove_all(folder); }
     void put(const std::string& file) const { std::ofstream(folder / file) << "x"; }
-
-    fs::path folder;
 };
 
 TEST_F(WatchedFolder, AWrittenARenamedAndARemovedFileCount) {
