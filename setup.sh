@@ -42,7 +42,7 @@ for part; do
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 minisign                          # signatures
                 tzdata                            # time zones
-                rauc openssl squashfs-tools       # updates
+                rauc openssl                      # updates
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
