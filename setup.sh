@@ -62,7 +62,7 @@ for part; do
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
-        packages) packages+=(dpkg-dev python3) ;; # python3: pages of the manual
+        packages) packages+=(dpkg-dev file python3) ;; # file: CPack finds programs by it; python3: pages of the manual
         hil)
             packages+=(
                 python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
