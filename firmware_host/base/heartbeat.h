@@ -1,6 +1,7 @@
 /// A device thread's promise of when it will be heard from again. The thread renews it before each call that
-/// may take long. A broken promise means that the thread hangs, not its device: the promise is longer than
-/// the kernel lets any one call take.
+/// may take long. While a promise is broken the service manager's watchdog is not fed, which has patience for ten
+/// seconds more: together they are longer than the kernel lets any one call take, so what ends the exhibit is a thread
+/// that hangs, not a device.
 ///
 /// Threads  one thread promises, any thread reads; neither waits.
 #pragma once

@@ -12,6 +12,9 @@ constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
 constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< the kernel knows: cheap
 /// Where the cable is bad, the kernel reads a projector's EDID again and again, with a limit for each try.
 constexpr Nanoseconds longest_look = std::chrono::seconds(20);
+/// What the kernel knows is there at once. Where it asks a projector by itself meanwhile, a glance waits for that; the service
+/// manager's watchdog has patience enough for it.
+constexpr Nanoseconds longest_glance = std::chrono::seconds(1);
 
 } // namespace
 
@@ -35,18 +38,21 @@ void ConnectorWatch::run() {
     std::optional<CardSeen> last;
     bool plugged = true; // what is connected at the start is news
     while (!stop_) {
-        heartbeat_.promise(monotonic_now() + between_looks_in_the_dark + longest_look);
+        const bool thoroughly = plugged || !lit_;
+        heartbeat_.promise(monotonic_now() + (thoroughly ? longest_look : longest_glance));
         CardSeen seen;
         {
             const std::lock_guard asking(asking_);
-            seen = look_(plugged || !lit_);
+            seen = look_(thoroughly);
         }
         if (plugged || seen != last) {
             const std::lock_guard lock(news_mutex_);
             news_ = seen;
             last = std::move(seen);
         }
-        plugged = hotplug_->wait(lit_ ? between_looks_while_lit : between_looks_in_the_dark);
+        const Nanoseconds rest = lit_ ? between_looks_while_lit : between_looks_in_the_dark;
+        heartbeat_.promise(monotonic_now() + rest + longest_glance);
+        plugged = hotplug_->wait(rest);
     }
 }
 

@@ -13,7 +13,7 @@ void UsbTracker::run(const std::stop_token& stop) {
     std::vector<PoseSample> samples;
     samples.reserve(most_waiting);
     while (!stop.stop_requested()) {
-        heartbeat_.promise(monotonic_now() + longest_round);
+        heartbeat_.promise(monotonic_now() + (driver_.is_open() ? longest_round : longest_search));
         samples.clear();
         const Nanoseconds rest = driver_.step(samples);
         if (!samples.empty()) {

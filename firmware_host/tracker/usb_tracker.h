@@ -21,9 +21,11 @@ namespace frustumscreen {
 class UsbTracker final : public Tracker {
 public:
     static constexpr std::size_t most_waiting = 256;
-    /// Opening, writing and reading take no longer: the kernel gives up after 5 s for a control transfer,
-    /// twice.
-    static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
+    /// Searching and opening take no longer: the kernel gives up after 5 s for a control transfer, twice.
+    static constexpr Nanoseconds longest_search = std::chrono::seconds(10);
+    /// One write and one read of a device that is open, with the driver's limits for both. A kernel that closes a dying device
+    /// takes longer; the service manager's watchdog has patience enough for that.
+    static constexpr Nanoseconds longest_round = std::chrono::seconds(1);
 
     /// `tap`, if any, outlives the tracker and is called on the device's thread.
     UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, PacketTap* tap = nullptr);
@@ -49,7 +51,7 @@ private:
     TrackerCounts counts_; ///< with the lock held
     std::mutex counts_mutex_;
     TrackerCounts seen_counts_; ///< of the caller of `poll`
-    Heartbeat heartbeat_{monotonic_now() + longest_round};
+    Heartbeat heartbeat_{monotonic_now() + longest_search};
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above

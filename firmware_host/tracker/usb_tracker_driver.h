@@ -29,6 +29,8 @@ public:
     /// One round; appends what came in. Returns how long to rest before the next.
     [[nodiscard]] Nanoseconds step(std::vector<PoseSample>& samples);
     [[nodiscard]] UsbTrackerState state() const { return state_; }
+    /// Whether a device is open, set up or not.
+    [[nodiscard]] bool is_open() const { return transport_ != nullptr; }
     /// Of all devices since the beginning.
     [[nodiscard]] TrackerCounts counts() const;
 
