@@ -2,11 +2,13 @@
 # Makes the Debian that the image is cut from: one tar with all files of the packages, dpkg's data bases and the licences among
 # them, and the packages' list beside it.
 #
-#   debian.sh [--record] [--mirror URL] [--firmware amd] FOLDER
+#   debian.sh [--record | --newer] [--mirror URL] [--firmware amd] FOLDER
 #
 # FOLDER/debian.tar             the packages' files; kernel, boot loader and busybox below /unpacked
+# FOLDER/newer                  only where newer ones were taken
 # FOLDER/packages.txt           name, version, architecture and source of each
-# With --record, packages.list is written anew; else it says which versions are taken, and any other is an error.
+# With --record, packages.list is written anew; else it says which versions are taken, and any other is an error; with --newer
+# a newer one is taken where the mirror has no other.
 # Works as root, and without by the kernel's user namespaces (mmdebstrap's mode "unshare").
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -15,10 +17,11 @@ say_and_fail() {
     exit 1
 }
 
-record=false mirror='' firmware=''
+record=false newer=false mirror='' firmware=''
 while [[ $1 == --* ]]; do
     case $1 in
         --record) record=true ;;
+        --newer) newer=true ;;
         --mirror) mirror=$2 && shift ;;
         --firmware) firmware=$2 && shift ;;
     esac
@@ -97,7 +100,8 @@ if $record; then
     } >"$list"
 elif ! diff <(grep -v '^#' "$list") "$work/taken" >"$work/differences"; then
     sed 's/^</recorded:/; s/^>/Debian has:/' "$work/differences" | grep ':' >&2
-    say_and_fail "Debian no longer has the versions above as ${list##*/} records them. --record takes what there is now;" \
+    $newer || say_and_fail "Debian no longer has the versions above as ${list##*/} records them. --record takes what there is now;" \
         "--mirror https://snapshot.debian.org/archive/debian/DATE/ finds the old ones"
+    touch "$folder/newer"
 fi
 mv "$work/packages.txt" "$work/debian.tar" "$folder/"

@@ -10,7 +10,7 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false mirror='' update_ca=''
+    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false newer=() mirror='' update_ca=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
@@ -20,6 +20,7 @@ parse_arguments() {
             --test) test_image=true ;;
             --quick) level=1 ;;
             --record) record=true ;;
+            --newer) newer=(--newer) ;;
             --keys) keys=$(readlink -f "$2") && shift ;;
             --packages) packages=$(readlink -f "$2") && shift ;;
             --update-ca) update_ca=$(readlink -f "$2") && shift ;;
@@ -71,11 +72,13 @@ fetch_debian() {
     fi
     key=$(cat "${files[@]}" 2>/dev/null | sha256sum | cut -c 1-16)
     debian=$cache/debian-$key
+    [[ -d $debian/tree || ${#newer[@]} == 0 || ! -d $debian-newer/tree ]] || debian+=-newer
     [[ ! -d $debian/tree ]] || { rm -rf "$work/debian"; return 0; }
-    $record || image_build/debian.sh ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    $record || image_build/debian.sh "${newer[@]}" ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
     mkdir "$work/debian/tree"
     tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --no-same-permissions --exclude=./dev --exclude=./proc --exclude=./sys
     rm "$work/debian/debian.tar"
+    [[ ! -e $work/debian/newer ]] || debian+=-newer # which does not pass for what is listed
     mv "$work/debian" "$debian"
 }
 

@@ -14,7 +14,7 @@ constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< th
 constexpr Nanoseconds longest_look = std::chrono::seconds(20);
 /// What the kernel knows is there at once. Where it asks a projector by itself meanwhile, a glance waits for that; the service
 /// manager's watchdog has patience enough for it.
-constexpr Nanoseconds longest_glance = std::chrono::seconds(1);
+constexpr Nanoseconds longest_glance = std::chrono::milliseconds(500);
 
 } // namespace
 

@@ -25,7 +25,7 @@ public:
     static constexpr Nanoseconds longest_search = std::chrono::seconds(10);
     /// One write and one read of a device that is open, with the driver's limits for both. A kernel that closes a dying device
     /// takes longer; the service manager's watchdog has patience enough for that.
-    static constexpr Nanoseconds longest_round = std::chrono::seconds(1);
+    static constexpr Nanoseconds longest_round = std::chrono::milliseconds(500);
 
     /// `tap`, if any, outlives the tracker and is called on the device's thread.
     UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, PacketTap* tap = nullptr);

@@ -1,11 +1,10 @@
 # shellcheck shell=sh
-# Sourced by the initrd's init, in a test's image alone, when the root is mounted: lays the agent's files over it, in memory.
+# Sourced by the initrd's init, in a test's image alone, when the root is mounted: lays the agent's files over it, in memory, and
+# busybox's commands below it, so that those of the root stay what they are.
 insmod /extra/virtio_console.ko
 mkdir /run/extra
 mount -t tmpfs -o mode=755 extra /run/extra
-mkdir /run/extra/upper /run/extra/work
+mkdir -p /run/extra/upper /run/extra/work /run/extra/below/usr/bin
 cp -a /extra/over/. /run/extra/upper/
-for applet in $(busybox --list | grep -vx busybox); do
-    [ -e "/root/usr/bin/$applet" ] || [ -e "/root/usr/sbin/$applet" ] || ln -s busybox "/run/extra/upper/usr/bin/$applet"
-done
-mount -t overlay -o lowerdir=/root,upperdir=/run/extra/upper,workdir=/run/extra/work extra /root
+busybox --install -s /run/extra/below/usr/bin
+mount -t overlay -o lowerdir=/root:/run/extra/below,upperdir=/run/extra/upper,workdir=/run/extra/work extra /root

@@ -15,13 +15,14 @@ import sys
 import tempfile
 import time
 
+import image
 import screen
 from machine import Machine, MachineError
 from mocks import control
 from vnc_viewer import VncViewer
 
 HERE = pathlib.Path(__file__).resolve().parent
-CONFIG = HERE / "guest/etc/frustumscreen/kiosk.toml"
+CONFIG = image.SETTINGS
 USUAL = CONFIG.read_text(encoding="utf-8")
 WIDTH, HEIGHT = 640, 400  # as in CONFIG
 SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
@@ -87,11 +88,11 @@ def near(placed, pose, eye_m):
 
 
 class Bench:
-    """`root`, `payload`: from image.py; `build`: where the programs are; `out`: an empty folder for the results."""
+    """`files`, `disk`, `packs`: from image.py; `out`: an empty folder for the results."""
 
-    def __init__(self, root, payload, build, packs, out):
+    def __init__(self, files, disk, packs, out):
         self.out = out
-        self.program = build / "bin" / "frustumscreen"
+        self.program = image.BUILD / "bin" / "frustumscreen"
         self.packs = packs
         self._rendered = {}
         self._settings, self._after = USUAL, "true"
@@ -102,7 +103,7 @@ class Bench:
         self.other_trackers = {device: Mock("mock_tracker", device, self._sockets, out, "--device", device,
                                             "--at", "0s unplug") for device in OTHER_TRACKERS}
         self.buttons = Mock("mock_buttons", "buttons", self._sockets, out)
-        self.machine = Machine(root, payload, self._sockets, out, WIDTH, HEIGHT,
+        self.machine = Machine(files, disk, self._sockets, out, WIDTH, HEIGHT,
                                {mock.usb.name: mock.usb for mock in self._mocks()})
 
     def _mocks(self):

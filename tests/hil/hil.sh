@@ -7,14 +7,10 @@ cd "$here/../.."
 build=true
 for option; do
     case "$option" in
-        --list | --build | --build=* | -h | --help) build=false ;;
+        --list | -h | --help) build=false ;;
     esac
 done
 if $build; then
-    ./setup.sh hil kiosk
-    printf '== building (release)\n'
-    cmake/build.sh release --without tests --without window \
-        frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-safe frustumscreen-watchdog frustumscreen-built-in \
-        frustumscreen-bake frustumscreen-artifact
+    tests/image_build/make_image.sh
 fi
 exec tests/hil/run_tests.py "$@"

@@ -30,6 +30,7 @@ class HilTest(unittest.TestCase):
 
     bench: Bench
     settings = USUAL  # the whole file
+    unsigned = False  # whether its machine must take a kernel module without a signature
     before = after = "true"  # what the machine does while the exhibit stands: before it has these settings, after it had them
     broken_s = broken_uptime_s = None
     longest_s = 0.0  # the longest time that a picture stood in any test while it should move

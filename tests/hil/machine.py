@@ -95,12 +95,12 @@ class Ran:
 
 @dataclass
 class Machine:
-    """`files`: folder with vmlinuz, initrd.img, root.squashfs; `payload`: the image laid over it; `sockets`: a
-    folder with a short name (a socket's path has 107 bytes at most); `logs`: where serial.log and qemu.log go;
-    `usb`: name -> socket of a usbredir device that listens there."""
+    """`files`: folder with linux, initrd, cmdline; `disk`: the kiosk's; `sockets`: a folder with a short name (a socket's
+    path has 107 bytes at most); `logs`: where serial.log and qemu.log go; `usb`: name -> socket of a usbredir device that
+    listens there."""
 
     files: pathlib.Path
-    payload: pathlib.Path
+    disk: pathlib.Path
     sockets: pathlib.Path
     logs: pathlib.Path
     width: int
@@ -133,8 +133,10 @@ class Machine:
             "qemu-system-x86_64", "-name", "frustumscreen-hil", "-machine", "q35",
             "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "max", "-smp", str(self.processors),
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
-            "-kernel", self.files / "vmlinuz", "-initrd", self.files / "initrd.img",
-            "-append", "console=ttyS0 quiet systemd.show_status=0 mitigations=off net.ifnames=0 panic=5",
+            "-kernel", self.files / "linux", "-initrd", self.files / "initrd",
+            "-append", (self.files / "cmdline").read_text(encoding="utf-8"),
+            # What is written is forgotten when QEMU ends, and stays when the machine starts anew.
+            "-drive", f"if=none,id=disk,format=raw,snapshot=on,file={self.disk}", "-device", "virtio-blk-pci,drive=disk,serial=disk",
             *self.lines(),
             "-vga", "none",
             "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
@@ -145,9 +147,6 @@ class Machine:
             "-device", "qemu-xhci,id=usb,p2=12,p3=12",  # with fewer ports QEMU adds hubs, of the slowest kind
             "-device", "i6300esb", "-action", "watchdog=none",  # the hardware's watchdog; a test lets it act
         ]
-        for serial, image in (("debian", self.files / "root.squashfs"), ("payload", self.payload)):
-            command += ["-drive", f"if=none,id={serial},format=raw,readonly=on,file={image}",
-                        "-device", f"virtio-blk-pci,drive={serial},serial={serial}"]
         command += self.usb_devices()
         return [str(word) for word in command]
 

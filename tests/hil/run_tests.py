@@ -8,7 +8,6 @@ import shutil
 import sys
 import time
 import unittest
-from concurrent.futures import ThreadPoolExecutor
 
 import image
 from bench import Bench
@@ -18,7 +17,7 @@ from repeat import Load, Run, as_text
 
 # in this order, because later tests rely on earlier ones
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "misbehaviour", "storm", "latency", "stick", "stick_hostile",
-           "stick_storm", "table", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
+           "stick_storm", "missing", "table", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
            "watchdog", "kernel")
 
 
@@ -81,26 +80,26 @@ def parse_arguments():
     parser.add_argument("--load", metavar="N[,N...]", default="0", type=numbers,
                         help="with so many busy loops beside it; of several, one after another")
     parser.add_argument("--keep", action="store_true", help="leave the last machine up, and say how to get a shell in it")
-    parser.add_argument("--build", type=pathlib.Path, default=image.CHECKOUT / "build" / "release",
-                        help="take the programs from this build folder")
     parser.add_argument("--out", type=pathlib.Path, default=image.CHECKOUT / "out" / "hil",
                         help="where to leave what was found; emptied first")
     return parser.parse_args()
 
 
-def chosen(arguments):
-    """The tests to run, made again for each run, because unittest drops tests that it ran."""
+def chosen(arguments, unsigned=None):
+    """The tests to run, made again for each run, because unittest drops tests that it ran. `unsigned`: only those whose machine
+    takes a kernel module without a signature, or only the others."""
     tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
+    tests = [test for test in tests if unsigned in (None, test.unsigned)]
     if arguments.only:
         return [test for test in tests if any(name in test.id() for name in arguments.only.split(","))]
     return [test for test in tests if arguments.all or not is_long(test)]
 
 
-def made(build):
-    """What the guest starts from: root, payload, packs."""
-    making = ThreadPoolExecutor().submit(image.root, build / "bin" / "frustumscreen", say)
-    packs = image.packs(build, say)  # at the same time: one waits for the network, the other for the processor
-    return making.result(), image.payload(build, packs), packs
+def made(out, unsigned):
+    """What the machine starts from: files, disk, packs. `unsigned`: with a module that a locked kernel refuses."""
+    packs = image.packs(say)
+    image.start_files(out, image.vkms(say) if unsigned else None)
+    return out, image.disk(packs, out / "disk.raw"), packs
 
 
 def run(tests, bench, keep):
@@ -132,17 +131,17 @@ def main(family):
         print(f"hil: no test's name contains '{arguments.only}'; --list shows them all", file=sys.stderr)
         return 2
 
-    build, out = arguments.build.resolve(), arguments.out.resolve()
+    out = arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
-    root, payload, packs = made(build)
-    runs = [(loops, number) for loops in arguments.load for number in range(1, arguments.repeat + 1)]
+    kinds = [unsigned for unsigned in (False, True) if chosen(arguments, unsigned)]
+    runs = [(loops, number, unsigned) for loops in arguments.load for number in range(1, arguments.repeat + 1) for unsigned in kinds]
     table = []
-    for loops, number in runs:
-        folder = out if len(runs) == 1 else out / f"load_{loops}_run_{number}"
-        folder.mkdir(parents=True)
-        family.keep = arguments.keep and (loops, number) == runs[-1]
+    for loops, number, unsigned in runs:
+        folder = out if len(runs) == 1 else out / f"load_{loops}_run_{number}{'_unsigned' if unsigned else ''}"
+        files, disk, packs = made(folder / "machine", unsigned)
+        family.keep = arguments.keep and (loops, number, unsigned) == runs[-1]
         with Load(loops):
-            done = run(chosen(arguments), Bench(root, payload, build, packs, folder), family.keep)
+            done = run(chosen(arguments, unsigned), Bench(files, disk, packs, folder), family.keep)
         table.append((loops, number, done))
         if len(runs) > 1:
             (out / "table.txt").write_text(as_text(table), encoding="utf-8")

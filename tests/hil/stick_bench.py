@@ -28,7 +28,7 @@ QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumsc
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
 # The installed set, and every pack against its name, which is its SHA-256.
 LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIBRARY}/packs 2>/dev/null && ls | grep -q fspack$ || exit 0; "
-        'for pack in *.fspack; do echo "${pack%.fspack}  $pack"; done | sha256sum --check --quiet')
+        'for pack in *.fspack; do echo "${pack%.fspack}  $pack"; done | sha256sum -c >/dev/null')
 QUIET_S = 240.0
 LIT_PIXELS = 300
 

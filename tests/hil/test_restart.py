@@ -11,7 +11,7 @@ STOPPED_S = 0.5
 CARD = "/dev/dri/card0"
 STOP = """begin=$(date +%s%N)
 kill -TERM "$1"
-tail --pid="$1" -f /dev/null -s 0.02
+while kill -0 "$1" 2>/dev/null; do sleep 0.02; done
 echo $(($(date +%s%N) - begin)) "$(systemctl show --value -p ExecMainCode frustumscreen)"
 """
 EXITED = "1"  # CLD_EXITED of waitid(2): not killed by the signal

@@ -9,16 +9,11 @@ if [[ ${1-} == --all ]]; then
     export FRUSTUMSCREEN_IMAGE_ALL=1
     shift
 fi
-./setup.sh hil kiosk image packages window
+./tests/image_build/make_image.sh
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
-image_build/packages --out "$FRUSTUMSCREEN_IMAGE_PACKAGES"
-# Whoever signs the updates of the image for tests
 keys=build/image/test_keys
-PYTHONPATH=tests/image_build PYTHONDONTWRITEBYTECODE=1 \
-    python3 -c 'import pathlib, sys, updates; updates.make_key(pathlib.Path(sys.argv[1]), "update")' $keys
-image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt
 if [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
-    image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
+    image_build/build --quick --newer --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
     FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
     export FRUSTUMSCREEN_IMAGE_NEXT FRUSTUMSCREEN_IMAGE_KEYS
 fi

@@ -15,7 +15,8 @@ TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose passwor
 
 
 def build(*options):
-    return subprocess.run([BUILD, "--quick", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], *options],
+    """As make_image.sh."""
+    return subprocess.run([BUILD, "--quick", "--newer", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], *options],
                           capture_output=True, text=True, check=False)
 
 

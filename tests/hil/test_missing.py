@@ -1,0 +1,98 @@
+"""The machine starts without some of its devices: it lights up all the same, says what is missing, and takes what comes late. A
+projector that is missing or late: test_restart.py, test_display.py."""
+
+import screen
+from bench import USUAL, eventually
+from hil_test import START_S, LIT, HilTest, long
+from stick_bench import StickTest, pulled_packs
+
+SYSTEM_BACK_S = 120.0
+LATE_S = 20.0  # a device must be taken within 2 s; the kernel's own enumeration is slow here
+LIT_PIXELS = 300
+NO_TRACKER, NO_PANEL = "no tracker is connected", "it is not there"
+
+
+class Anew(HilTest):
+    """Tests that start the machine; what was on its disk stays."""
+
+    def start_anew(self):
+        self.bench.machine.may_start_anew()
+        self.bench.machine.monitor("system_reset")
+        self.assertTrue(self.bench.machine.resets_within(SYSTEM_BACK_S), "the machine does not start anew")
+        self.bench.machine.wait_for_start()
+        self.bench.status_says("display", LIT, SYSTEM_BACK_S)
+        eventually(self.is_lit, START_S, "the screen stays dark")
+
+    def is_lit(self):
+        picture = self.bench.screendump()
+        return screen.probe(picture) is not None and screen.count(screen.lit(picture)) > LIT_PIXELS
+
+
+@long
+class Missing(Anew):
+    # The second sound card of this machine is one at USB, which a test plugs in.
+    settings = USUAL + '\n[sound]\ndevice = "plughw:1,0"\n'
+
+    def setUp(self):
+        super().setUp()
+        self.addCleanup(self.bench.buttons.tell, "plug")
+        self.addCleanup(self.bench.tracker.tell, "unplug", "off")
+
+    def plug_tracker(self):
+        self.bench.tracker.tell("unplug", "off")
+        self.bench.status_says("tracker", "is running", LATE_S)
+        self.bench.place((0.1, 0.0, 0.0))
+        self.assert_at((0.1, 0.0, 0.0))
+
+    def plug_panel(self):
+        self.bench.buttons.tell("plug")
+        self.bench.status_says("panel", "buttons are there", LATE_S)
+        before = self.bench.status()["artifact"]
+        self.bench.buttons.tell("press", 1, "300ms")
+        eventually(lambda: self.bench.status()["artifact"] != before, LATE_S, "its buttons do nothing")
+
+    def plug_sound(self):
+        self.bench.machine.monitor("device_add", driver="usb-audio", id="late-sound", audiodev="heard", bus="usb.0")
+        self.addCleanup(self.bench.machine.monitor, "device_del", id="late-sound")
+        self.bench.status_says("sound", "its sound goes to", LATE_S)
+
+    def test_all_missing_and_late(self):
+        self.bench.tracker.tell("unplug")
+        self.bench.buttons.tell("unplug")
+        self.start_anew()
+        process = self.bench.main_process()
+        self.bench.status_says("tracker", NO_TRACKER)
+        self.bench.status_says("panel", NO_PANEL)
+        self.bench.status_says("sound", "is it plugged in")
+        for plug in (self.plug_sound, self.plug_panel, self.plug_tracker):
+            plug()
+        self.assertEqual(self.bench.main_process(), process, "the exhibit was restarted")
+
+    def test_tracker_missing_and_late(self):
+        self.bench.tracker.tell("unplug")
+        self.start_anew()
+        self.bench.status_says("tracker", NO_TRACKER)
+        self.bench.status_says("panel", "buttons are there")
+        self.plug_tracker()
+
+    def test_panel_missing_and_late(self):
+        self.bench.buttons.tell("unplug")
+        self.start_anew()
+        self.bench.status_says("panel", NO_PANEL)
+        self.bench.status_says("tracker", "is running", START_S)
+        self.plug_panel()
+
+
+@long
+class StickAtTheStart(StickTest, Anew):
+    def test_stick_is_in_from_the_start(self):
+        """It is taken as one that is put in later; after one more start its artifact is there still."""
+        self.plug("early", self.make("early", "vfat", {"nautilus-cup.fspack": self.signed("nautilus-cup", 1)}))
+        self.start_anew()
+        self.last = None
+        self.assertEqual(pulled_packs(self.outcome(SYSTEM_BACK_S)), {"nautilus-cup.fspack": ("taken", "none")})
+        self.pull("early")
+        self.bench.status_says("artifact", "^nautilus-cup$", SYSTEM_BACK_S)
+        self.start_anew()
+        self.bench.status_says("artifact", "^nautilus-cup$", SYSTEM_BACK_S)
+        self.assertEqual(self.installed(), [("nautilus-cup", 1)])
