@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import screen
 from bench import UPRIGHT, USUAL, WIDTH, Patience, eventually
-from hil_test import HilTest
+from hil_test import HilTest, long
 
 # All that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
 WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pictures = false", "table_pictures = true")
@@ -185,6 +185,7 @@ class Guidance(HilTest):
         time.sleep(CALM_S)
         self.assertFalse(self.is_loud(quiet + 24000), "it goes on talking")
 
+    @long
     def test_card_unplugged(self):
         self.take_language("en")
         self.bench.machine.check(f"for card in {SOUND_DRIVER}/0000:*; do echo 1 > $card/remove; done")

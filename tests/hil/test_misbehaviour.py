@@ -48,7 +48,8 @@ FAULTS = {
     "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
 # "noise" has the first four at once; the drivers' own tests have all of these too
-LONG = ("drop", "corrupt", "duplicate", "reorder", "warn", "nak_questions", "filter_stays", "wrong_units")
+LONG = ("drop", "corrupt", "duplicate", "reorder", "warn", "nak_questions", "filter_stays", "wrong_units", "distortion", "nak",
+        "sensor_missing")
 
 
 def write_strokes(path):

@@ -3,7 +3,7 @@
 import screen
 import sticks
 from bench import UPRIGHT, USUAL, WIDTH, eventually
-from hil_test import CENTRE_M
+from hil_test import CENTRE_M, long
 from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
 
 LARGE_MIB = 8
@@ -90,6 +90,7 @@ class Stick(StickTest):
         eventually(lambda: both <= set(self.installed()), 2 * IMPORT_S, lambda: f"installed: {self.installed()}")
         self.outcome()
 
+    @long
     def test_6_usb_attached_scsi(self):
         """Fast sticks and disks in enclosures speak another protocol, for which the kernel has another driver."""
         self.plug("fast", self.make("fast", "exfat", {"amphora.fspack": self.signed("amphora", 7)}), driver="usb-uas")
@@ -97,6 +98,7 @@ class Stick(StickTest):
         self.assertIn("uas", self.bench.machine.check("cat /sys/bus/usb/drivers/uas/*:*/uevent"))
         self.assertIn(("amphora", 7), self.installed())
 
+    @long
     def test_5_no_file_system(self):
         self.image("noise").write_bytes(b"no file system " * 100_000)
         self.plug("noise", self.image("noise"))
