@@ -246,8 +246,8 @@ class BreakOut(ImageTest):
             self.assertEqual(self.pc.notes(), "")
             self.assert_not_marked()
         with self.subTest("the judge sees a mount and a program"):
-            self.assert_seen("mkdir -p /run/m && mount -t tmpfs m /run/m && cp /usr/bin/busybox /run/m/sh", "/run/m is mounted")
-            self.assert_seen("setsid /run/m/sh sleep 600 > /dev/null 2>&1 & sleep 1", "/run/m/sh runs")
+            self.assert_seen("mkdir -p /run/m && mount -t tmpfs m /run/m && cp /usr/bin/busybox /run/m/sleep", "/run/m is mounted")
+            self.assert_seen("setsid /run/m/sleep 600 > /dev/null 2>&1 & sleep 1", "/run/m/sleep runs")
 
     def assert_not_marked(self):
         self.assertEqual(self.pc.run(f"ls {hostile_stick.MARK}").status, 1, "something of the stick was run")
