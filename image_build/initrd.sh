@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the initrd: busybox, dmsetup, e2fsck, the drivers of modules.list that are marked so, and initrd/init.
+# Makes the initrd: busybox, dmsetup, e2fsck, chattr, the drivers of modules.list that are marked so, and initrd/init.
 #
 #   initrd.sh DEBIAN ROOT LEVEL OUT    DEBIAN: the packages' files; ROOT: the image's, with the modules;
 #                                   LEVEL: of zstd
@@ -24,6 +24,7 @@ add() {
 }
 add "$debian/usr/sbin/dmsetup" "$tree/bin/dmsetup"
 add "$debian/usr/sbin/e2fsck" "$tree/bin/e2fsck"
+add "$debian/usr/bin/chattr" "$tree/bin/chattr"
 cp -L "$debian/usr/lib64/ld-linux-x86-64.so.2" "$tree/lib64/"
 install -m 755 "$here/initrd/init" "$tree/init"
 
@@ -34,6 +35,16 @@ cp "$root/usr/lib/modules/$version"/modules.{order,builtin,builtin.modinfo} "$tr
 depmod --basedir "$tree" "$version"
 # What no device asks for by itself
 printf '%s\n' squashfs dm_verity sha256_ssse3 ext4 crc32c_generic crc32c_intel overlay efivarfs sd_mod >"$tree/modules"
+
+# A keymap without a key, as busybox's loadkmap reads it: which of 256 maps follow (those that the kernel has: plain, Shift, AltGr,
+# Ctrl, Shift+Ctrl, Alt, Ctrl+Alt), and for each what its 128 keys do, which is nothing (K_HOLE, 0x0200).
+{
+    printf bkeymap
+    for map in {0..255}; do
+        case $map in 0 | 1 | 2 | 4 | 5 | 8 | 12) printf '\1' ;; *) printf '\0' ;; esac
+    done
+    for ((key = 0; key < 7 * 128; key++)); do printf '\0\2'; done
+} >"$tree/keymap"
 
 find "$tree" -exec touch --no-dereference --date="@$SOURCE_DATE_EPOCH" {} +
 (cd "$tree" && find . -print0 | LC_ALL=C sort -z | cpio --quiet --reproducible --null --owner=0:0 -o -H newc) |

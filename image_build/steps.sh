@@ -229,9 +229,11 @@ make_kernel_image() {
         image_build/test_agent.sh "$debian/tree" "$work/root" "$work/extra.cpio"
         cat "$work/extra.cpio" >>"$initrd"
     fi
+    # watchdog.stop_on_reboot=0: drivers stop the hardware's watchdog when the kernel is to restart the machine, and then nobody
+    # watches whether it does.
     {
         printf '%s ' quiet loglevel=3 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
-            net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
+            i8042.nokbd i8042.noaux watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
         printf 'frustumscreen.root_hash=%s frustumscreen.root_blocks=%d frustumscreen.hash_blocks=%d frustumscreen.salt=%s' \
             "$root_hash" "$root_blocks" "$hash_blocks" "$salt"
     } >"$work/cmdline"

@@ -42,6 +42,16 @@ class Start(ImageTest):
         self.assertEqual(pc.notes(), "")
 
     @long
+    def test_restart_that_hangs(self):
+        """The kernel stops where it should start the machine again: the hardware's watchdog goes on, and does it."""
+        self.start()
+        self.pc.may_start_anew()
+        self.pc.spawn("busybox halt -f")
+        self.assertTrue(self.pc.resets_within(120.0), "the machine hangs for ever")
+        self.pc.wait_for_start()
+        self.pc.wait_until_lit()
+
+    @long
     def test_two_kiosks_are_not_the_same(self):
         self.start()
         first = self.machine_id()
@@ -62,7 +72,11 @@ class Start(ImageTest):
         self.assertIn("0f44 1", self.pc.check(used))
         self.pc.monitor("device_add", driver="usb-kbd", id="typing", bus="usb.0")
         eventually(lambda: "0627 0" in self.pc.check(used), 30.0, lambda: f"a keyboard may be used: {self.pc.check(used)}")
-        self.assertNotIn("QEMU USB Keyboard", self.pc.check("cat /proc/bus/input/devices"))
+        for keys in (("ctrl", "alt", "f2"), ("alt", "right"), ("ctrl", "alt", "delete")):  # at PS/2, which an emulated PC has too
+            self.pc.monitor("send-key", keys=[{"type": "qcode", "data": key} for key in keys])
+        self.pc.check("sleep 2")
+        self.assertNotIn("eyboard", self.pc.check("cat /proc/bus/input/devices"))
+        self.assertEqual(self.pc.check("cat /sys/class/tty/tty0/active").strip(), "tty1")
 
     def assert_lit_on_memory(self):
         """Lit, and it says that nothing is kept."""

@@ -1,0 +1,312 @@
+"""Break-out: what somebody with a keyboard, a stick, a device that types or a network cable can try, from power on. Long:
+./test image --all. What `judge` finds strange is held against real break-ins at the end of each test: it must see them."""
+
+import shutil
+import socket
+import struct
+import subprocess
+import time
+
+import judge
+from appliance import ESP, Appliance, eventually
+from image_test import IMAGE, ImageTest, long
+import hostile_stick  # it needs tests/hil, by appliance
+
+FUNCTION_KEYS = [f"f{number}" for number in range(1, 13)]
+COMBINATIONS = [
+    *(("ctrl", "alt", key) for key in FUNCTION_KEYS), *(("alt", key) for key in FUNCTION_KEYS), *((key,) for key in FUNCTION_KEYS),
+    *(("alt", key) for key in ("left", "right", "up")), *(("alt", "sysrq", key) for key in "bceirostukghvf"),
+    *(("ctrl", "alt", "delete"),) * 7, ("ctrl", "alt", "backspace"), ("ctrl", "alt", "esc"), ("ctrl", "alt", "pause"),
+    *(("ctrl", key) for key in ("c", "d", "z", "backslash", "s", "q", "scroll_lock", "pause")), ("alt_r", "scroll_lock"),
+    ("shift", "scroll_lock"), ("shift", "pgup"), ("scroll_lock",), ("pause",), ("print",), ("esc",), ("esc",), ("menu",), ("meta_l", "r"),
+    ("sleep",), ("wake",), ("num_lock",), ("insert",), ("delete",), ("power",), *((key,) for key in "root"), ("ret",), ("ret",)]
+NETWORK = ("e1000e", "virtio-net-pci")
+MENU_S = 60.0
+HEALS_S = 420.0  # the firmware's watchdog is five minutes
+LOADER_VARIABLES = "ls /sys/firmware/efi/efivars | grep -e ^LoaderEntryDefault -e ^LoaderConfig -e ^LoaderEntryOneShot"
+
+
+class Attacked(Appliance):
+    """A PC with `more` devices, to which something may be done from the moment of power on."""
+
+    more = ()
+    at_power_on = None
+
+    def _command(self):
+        return super()._command() + [str(word) for word in self.more]
+
+    def _connect_agent(self):
+        attack, self.at_power_on = self.at_power_on, None
+        if attack:
+            attack()
+        super()._connect_agent()
+
+    def press(self, *keys, pause_s=0.12):
+        self.monitor("send-key", keys=[{"type": "qcode", "data": key} for key in keys], **{"hold-time": 50})
+        time.sleep(pause_s)
+
+    def said(self):
+        """What firmware and boot loader have written on the serial line, where their console is too."""
+        log = self.logs / "serial.log"
+        return log.read_text(errors="replace") if log.exists() else ""
+
+
+@long
+class BreakOut(ImageTest):
+    def setUp(self):
+        super().setUp()
+        self.pc = Attacked(IMAGE, self.pc.logs, self.sockets, self.pc.usb)
+
+    def start(self):
+        super().start()
+        self.pc.may_start_anew()
+        eventually(lambda: "inactive" in self.pc.run("systemctl is-active frustumscreen-grow").output, 120.0, "it grows for ever")
+        self.before = judge.facts(self.pc)
+        self.assertEqual(judge.wrong(self.before, self.before), [], "something is strange before anybody did anything")
+
+    def assert_nobody_is_in(self, **options):
+        """At rest again: nothing that came has stayed, and the exhibit is the same, and lit."""
+        said = [None]
+
+        def rests():
+            said[0] = judge.wrong(self.before, judge.facts(self.pc), **options)
+            return not said[0]
+
+        eventually(rests, 60.0, lambda: f"somebody is in: {said[0]}")
+        self.assertFalse(self.pc.resets_within(1.0), "the machine started again")
+        self.pc.wait_until_lit()
+
+    def assert_seen(self, command, words):
+        """A real break-in, by the agent's hand, of which the judge must say this."""
+        self.pc.run(command)
+        eventually(lambda: any(words in line for line in judge.wrong(self.before, judge.facts(self.pc))), 60.0,
+                   f"the judge does not see it: {command}")
+
+    # The boot loader.
+
+    def call_menu(self, key):
+        """A key that is held from power on."""
+        deadline = time.monotonic() + 4 * MENU_S
+        known = len(self.pc.said())
+        while "(h)elp" not in self.pc.said()[known:]:
+            self.assertLess(time.monotonic(), deadline, "the boot loader's menu does not come: does this test hold the key well?")
+            self.pc.press(key, pause_s=0.05)
+            if key != "h":
+                self.pc.press("h", pause_s=0.05)
+
+    def signed_command_line(self):
+        """As in the kernel image on the disk."""
+        begin, _ = self.pc.partition(ESP)
+        image = self.sockets / "kernel.efi"
+        listed = subprocess.run(["mdir", "-b", "-i", f"{self.pc.disk}@@{begin}", "::EFI/Linux"], check=True, capture_output=True,
+                                text=True).stdout.split()
+        subprocess.run(["mcopy", "-i", f"{self.pc.disk}@@{begin}", listed[0], image], check=True)
+        words = subprocess.run(["objcopy", "-O", "binary", "--only-section=.cmdline", image, "/dev/stdout"], check=True,
+                               capture_output=True).stdout
+        return words.rstrip(b"\0").decode().strip()
+
+    def in_the_menu(self):
+        """Each key that it knows, and a command line typed as if there were an editor."""
+        self.call_menu("h")
+        known = len(self.pc.said())
+        for key in ("e", "e", "up", "down", "home", "end", "pgup", "pgdn", "minus"):
+            self.pc.press(key, pause_s=0.3)
+        self.assertNotIn("root_hash", self.pc.said()[known:], "the editor opened")
+        for keys in (("d",), ("t",), ("t",), ("t",), ("r",), ("w",), ("v",), ("f",), ("l",), ("ctrl", "l"), ("esc",), ("f2",), ("home",), ("e",)):
+            self.pc.press(*keys, pause_s=0.5)
+        self.assertRegex(self.pc.said()[known:], "Default boot entry|default boot entry", "d, t: did these keys come?")
+        for key in ("spc", *"init", "equal", "slash", *"bin", "slash", *"sh", "spc"):
+            self.pc.press(key)
+        self.pc.press("home")
+        self.pc.press("ret", pause_s=0.0)
+        self.while_it_starts()
+
+    def while_it_starts(self):
+        """In kernel and initrd."""
+        for _ in range(6):
+            for keys in (("ctrl", "alt", "delete"), ("alt", "sysrq", "b"), ("ctrl", "alt", "f2"), ("ctrl", "c"), ("ret",), ("esc",)):
+                self.pc.press(*keys, pause_s=0.2)
+
+    def test_keyboard(self):
+        """At USB and PS/2, from power on."""
+        self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
+        command_line = self.signed_command_line()
+        self.pc.at_power_on = self.in_the_menu
+        self.start()
+        self.assertEqual(self.pc.check("cat /proc/cmdline").strip(), command_line)
+        self.assertEqual(self.pc.run(LOADER_VARIABLES).output, "", "what was chosen in the menu outlives this start")
+        self.assertNotIn("Keyboard", str(self.before.get("keyboards")))
+
+        with self.subTest("PS/2"):  # QEMU gives keys to the USB keyboard first, as long as it is there
+            self.pc.monitor("device_del", id="keyboard")
+            self.press_everything()
+        with self.subTest("USB, not authorised"):
+            self.pc.monitor("device_add", driver="usb-kbd", id="typing", bus="usb.0", port="9")
+            time.sleep(5.0)
+            self.press_everything()
+        with self.subTest("USB, as if it had said that it is a tracker"):
+            self.pc.check("for d in /sys/bus/usb/devices/*; do grep -qs 0627 $d/idVendor && echo 1 > $d/authorized; done; "
+                          "modprobe usbhid; modprobe hid-generic; modprobe evdev")
+            eventually(lambda: "Keyboard" in self.pc.check("cat /proc/bus/input/devices"), 30.0, "it is no keyboard")
+            self.before = judge.facts(self.pc)
+            self.assert_keys_come()
+            self.press_everything()
+        with self.subTest("serial line"):
+            self.type_on_serial_line()
+        with self.subTest("the judge sees a console that was switched"):
+            self.pc.write("/run/map.hex", KEYMAP.hex())
+            self.pc.check("xxd -r -p /run/map.hex | loadkmap")
+            self.pc.press("ctrl", "alt", "f2", pause_s=2.0)
+            self.assert_seen("true", "the console shows ['tty2']")
+
+    def press_everything(self):
+        for keys in COMBINATIONS:
+            self.pc.press(*keys)
+        time.sleep(3.0)
+        self.assert_nobody_is_in()
+
+    def assert_keys_come(self):
+        """The kernel counts them."""
+        event = self.pc.check("sed -n '/Keyboard/,/^$/s/.*\\(event[0-9]*\\).*/\\1/p' /proc/bus/input/devices").split()[0]
+        self.pc.check(f"cat /dev/input/{event} > /run/typed & sleep 1")
+        self.pc.press("a")
+        eventually(lambda: int(self.pc.check("stat -c %s /run/typed")) > 0, 10.0, "no key comes")
+        self.pc.check("kill $(pidof cat); rm /run/typed")
+
+    def type_on_serial_line(self):
+        with socket.socket(socket.AF_UNIX) as port:
+            port.connect(str(self.sockets / "serial"))
+            for words in (b"\r\n", b"root\r\n", b"\x03\x04\x1a\x1c", b"\r\nid > /run/typed\r\n", b"$3#33", b"~.", b"+++ATH\r\n"):
+                port.sendall(words)
+                time.sleep(0.5)
+            self.pc.monitor("chardev-send-break", id="serial")
+            port.sendall(b"b")
+            time.sleep(2.0)
+        self.assert_nobody_is_in()
+
+    def test_menu_is_left_alone(self):
+        """Somebody holds a key at power on and goes away: the firmware's watchdog starts the machine again."""
+        self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
+
+        def hold():
+            self.call_menu("x")
+            self.pc.may_start_anew()
+            begun = time.monotonic()
+            self.assertTrue(self.pc.resets_within(HEALS_S), "the menu stays for ever")
+            print(f"\nthe menu stood for {time.monotonic() - begun:.0f} s", flush=True)
+
+        self.pc.at_power_on = hold
+        self.start()
+        self.assert_nobody_is_in()
+
+    def test_firmware_from_the_menu(self):
+        """Q leaves the boot loader for the firmware, whose own menus follow; afterwards the machine starts as ever."""
+        self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
+
+        def leave():
+            self.call_menu("h")
+            known = len(self.pc.said())
+            self.pc.press("shift", "q", pause_s=20.0)
+            shown = self.pc.said()[known:]
+            self.assertNotIn("Linux", shown)
+            (self.pc.logs / "after_q.txt").write_text(shown, encoding="utf-8")
+            self.pc.monitor("system_reset")
+
+        self.pc.at_power_on = leave
+        self.start()
+        self.assert_nobody_is_in()
+
+    # USB.
+
+    def test_hostile_stick(self):
+        """Nothing of it is run, and only what the importer looks through is mounted, while it does."""
+        boot_loader = subprocess.run(["mtype", "-i", f"{self.pc.disk}@@{self.pc.partition(ESP)[0]}", "::EFI/BOOT/BOOTX64.EFI"], check=True,
+                                     capture_output=True).stdout
+        folder = self.pc.logs / "stick"
+        self.addCleanup(shutil.rmtree, folder)
+        stick = hostile_stick.make(folder, boot_loader)
+        self.start()
+        self.pc.plug("hostile", stick)
+        seen, deadline = set(), time.monotonic() + 90.0
+        while time.monotonic() < deadline:
+            now = judge.facts(self.pc)
+            seen |= {line.partition(" ")[0] for line in now["mounted"]}
+            self.assertEqual(judge.wrong(self.before, now, mounted=r"/run/frustumscreen-stick/stick\d+p\d+"), [])
+        self.assertIn("/run/frustumscreen-stick", {place.rpartition("/")[0] for place in seen}, "was the stick looked at at all?")
+        self.assert_not_marked()
+        eventually(lambda: not [row for row in judge.facts(self.pc)["mounted"] if "stick" in row], 240.0, "it stays mounted")
+        self.assert_nobody_is_in()
+        with self.subTest("in a PC that is switched on"):
+            version = self.pc.check("cat /run/frustumscreen-boot/slot /etc/machine-id")
+            self.pc.monitor("system_reset")
+            self.assertTrue(self.pc.resets_within(10.0))
+            self.pc.wait_for_start()
+            self.pc.wait_until_lit()
+            self.assertEqual(self.pc.check("cat /run/frustumscreen-boot/slot /etc/machine-id"), version)
+            self.assertEqual(self.pc.notes(), "")
+            self.assert_not_marked()
+        with self.subTest("the judge sees a mount and a program"):
+            self.assert_seen("mkdir -p /run/m && mount -t tmpfs m /run/m && cp /usr/bin/busybox /run/m/sleep", "/run/m is mounted")
+            self.assert_seen("setsid /run/m/sleep 600 > /dev/null 2>&1 & sleep 1", "/run/m/sleep runs")
+
+    def assert_not_marked(self):
+        self.assertEqual(self.pc.run(f"ls {hostile_stick.MARK}").status, 1, "something of the stick was run")
+
+    def test_devices_that_type_and_networks(self):
+        """A hub with a keyboard, mice, a card reader, a camera, a serial port and a network card; and cables with a peer on them."""
+        self.pc.more = [word for number, card in enumerate((*NETWORK, "usb")) for word in (
+            "-netdev", f"user,id=net{number}", "-object", f"filter-dump,id=dump{number},netdev=net{number},file={self.pc.logs}/net{number}.pcap",
+            *(("-device", f"{card},netdev=net{number},mac=52:54:00:00:00:0{number},romfile=") if card != "usb" else ()))]
+        self.pc.more += ["-chardev", "null,id=port"]
+        shared = self.sockets / "shared"
+        shared.mkdir()
+        self.start()
+        self.pc.monitor("device_add", driver="usb-hub", id="hub", bus="usb.0", port="9")
+        for number, (driver, options) in enumerate((
+                ("usb-kbd", {}), ("usb-mouse", {}), ("usb-tablet", {}), ("usb-wacom-tablet", {}), ("usb-ccid", {}),
+                ("usb-mtp", {"rootdir": str(shared)}), ("usb-serial", {"chardev": "port", "always-plugged": True}),
+                ("usb-net", {"netdev": "net2", "mac": "52:54:00:00:00:02"})), 1):
+            self.pc.monitor("device_add", driver=driver, id=f"bad{number}", bus="usb.0", port=f"9.{number}", **options)
+        eventually(lambda: len(self.usb("0")) >= 8, 60.0, lambda: f"not all are refused: {self.usb('0')}, used: {self.usb('1')}")
+        for device in self.usb("0"):
+            self.assertEqual(self.pc.run(f"ls -d /sys/bus/usb/devices/{device}:*").status, 1, f"{device} has interfaces")
+        self.press_everything()
+        self.pc.monitor("device_del", id="hub")
+        self.pc.check("sleep 20")
+        self.assert_nobody_is_in()
+        with self.subTest("the judge sees an open port"):
+            self.assert_seen("setsid nc -l -p 4444 > /dev/null 2>&1 & sleep 1", "somebody may be spoken to")
+        self.pc.stop()
+        for number in range(3):
+            dump = (self.pc.logs / f"net{number}.pcap").read_bytes()
+            self.assertEqual(sent_by(dump, bytes((0x52, 0x54, 0, 0, 0, number))), [], f"net{number}: a packet left the machine")
+
+    def usb(self, authorised):
+        """Names of the devices that may be used (1) or not (0)."""
+        return self.pc.check(f"cd /sys/bus/usb/devices; for d in *-*; do case $d in *:*) ;; *) "
+                             f"[ $(cat $d/authorized) != {authorised} ] || echo $d ;; esac; done").split()
+
+
+def sent_by(dump, address):
+    """Packets of a file of libpcap's whose sender is `address`."""
+    magic, = struct.unpack_from("<I", dump)
+    assert magic == 0xA1B2C3D4, "not libpcap's format"
+    place, found = 24, []
+    while place < len(dump):
+        length, = struct.unpack_from("<I", dump, place + 8)
+        packet = dump[place + 16:place + 16 + length]
+        if packet[6:12] == address:
+            found.append(packet)
+        place += 16 + length
+    return found
+
+
+def _keymap(keys):
+    """For busybox' loadkmap. `keys`: (map, key) -> what it does."""
+    maps = sorted({0, *(number for number, _ in keys)})
+    return b"bkeymap" + bytes(number in maps for number in range(256)) + b"".join(
+        struct.pack("<128H", *(keys.get((number, key), 0x0200) for key in range(128))) for number in maps)
+
+
+# Ctrl, Alt, and both with F2: to the second console (linux/keyboard.h: KT_SHIFT, KT_CONS)
+KEYMAP = _keymap({(number, key): what for number in (0, 4, 8, 12) for key, what in ((29, 0x0702), (56, 0x0703), (60, 0x0501))})
