@@ -72,13 +72,15 @@ class Version:
 
     name: str
     sha256: str
-    words: dict
+    words: dict  # of the command line, behind `frustumscreen.`
+    reads_second_table: bool
 
     @staticmethod
     def of(name, kernel):
         data = kernel.read_bytes()
         words = dict(re.findall(rb"frustumscreen\.([a-z_]+)=([0-9a-f]+)", data))
-        return Version(name, hashlib.sha256(data).hexdigest(), {key.decode(): value.decode() for key, value in words.items()})
+        return Version(name, hashlib.sha256(data).hexdigest(), {key.decode(): value.decode() for key, value in words.items()},
+                       re.search(rb" gpt [^\0]*frustumscreen\.root_hash=", data) is not None)
 
 
 @dataclass
@@ -138,6 +140,8 @@ class Checker:
         if table == "second":
             state.notes.add("second partition table")
         self._look_at_boot(disk, found, generation, state)
+        if table == "second" and not all(version.reads_second_table for version in self._versions.values() if version.name == state.version):
+            state.faults.append("the first partition table is torn, and this kernel reads no other")
         if "version" in must.least and state.version != must.least["version"]:
             state.faults.append(f"version {state.version} would start, though {must.least['version']} was told as taken")
         self._look_at_data(disk, found[DATA], must, state)
@@ -201,9 +205,10 @@ class Checker:
         status = _run("e2fsck", "-p", image).returncode
         if status & 3:
             state.notes.add("e2fsck -p mended")
-        if status & ~3:
-            state.notes.add("e2fsck -y needed")
-            status = _run("e2fsck", "-y", image).returncode
+        for _ in range(3):
+            if status & ~3:
+                state.notes.add("e2fsck -y needed")
+                status = _run("e2fsck", "-f", "-y", image).returncode
         state.e2fsck_s = time.monotonic() - begun
         if status & ~3:
             state.faults.append(f"e2fsck cannot mend the data partition, status {status}")
