@@ -7,7 +7,6 @@ Errors   MachineError, AssertionError.
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -20,23 +19,13 @@ sys.path.insert(0, str(HERE.parent / "image_build"))
 from appliance import Appliance, tracker  # noqa: E402
 from bench import Patience, eventually  # noqa: E402
 import sticks  # noqa: E402
+from states import kept_text  # noqa: E402
 from write_log import RecordedDisk, sparse_copy  # noqa: E402
 
 KEPT, UNSAFE, SETTINGS = "/data/settings/kept.txt", "/data/settings/unsafe.txt", "/data/settings/kiosk.toml"
 LIBRARY = "/var/lib/frustumscreen/library"
 REPORT = "/run/frustumscreen-import/report.json"
 GOOD_S, UPDATE_S, IMPORT_S = 600.0, 900.0, 240.0
-
-
-def kept_text(number):
-    """What stands in for a calibration: its words say whether it is whole."""
-    return "".join(f"{number} {line}\n" for line in range(400)) + f"end {number}\n"
-
-
-def kept_number(text):
-    """The number of a whole text; None: it is not whole."""
-    found = re.search(r"end (\d+)\n$", text)
-    return int(found[1]) if found and text == kept_text(int(found[1])) else None
 
 
 class Lent:

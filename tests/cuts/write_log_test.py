@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 from client import Client
+from states import TOOLS, partitions
 from write_log import FLUSH, MARK, SECTOR, WRITE, RecordedDisk, Replay, copy_part
 
 SEEDS = range(300)
@@ -161,14 +162,12 @@ class Table(unittest.TestCase):
     """The partition table's reader, held against sfdisk, which writes it."""
 
     def test_damaged(self):
-        from states import partitions  # it needs the emulated PC's folders alone
-
         with tempfile.TemporaryDirectory() as folder:
             disk = pathlib.Path(folder) / "disk"
             with open(disk, "wb") as file:
                 file.truncate(8 << 20)
             subprocess.run(["sfdisk", "--quiet", disk], check=True, text=True, input="label: gpt\nstart=1MiB, size=2MiB, name=one\n"
-                           "start=3MiB, size=1MiB, name=two\n")
+                           "start=3MiB, size=1MiB, name=two\n", env=TOOLS)
             wanted = {"one": (1 << 20, 2 << 20), "two": (3 << 20, 1 << 20)}
             size = disk.stat().st_size
             self.assertEqual(partitions(disk, size), (wanted, "first"))
