@@ -14,6 +14,7 @@ import shutil
 import struct
 import subprocess
 import time
+import tomllib
 import zlib
 from dataclasses import dataclass, field
 
@@ -252,12 +253,18 @@ class Checker:
                 else:
                     state.faults.append(fault)
         self._look_at_library(tree / "lib/frustumscreen/library", must, state)
-        faults = tree / "lib/frustumscreen-watchdog"
-        for path in faults.rglob("*.json") if faults.exists() else ():
+        for path in sorted([*tree.rglob("lib/**/*.json"), *tree.rglob("cache/**/*.json"), *tree.rglob("cache/**/*.toml")]):
             try:
-                json.loads(path.read_text(encoding="utf-8"))
+                text = path.read_text(encoding="utf-8")
+                json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
             except ValueError:
-                state.notes.add(f"{path.name} of the watchdog is no JSON")
+                state.faults.append(f"{path.relative_to(tree)} is torn")
+
+        watchdog = tree / "lib/frustumscreen-watchdog"
+        if (watchdog / "memory").exists() and not _has_memory((watchdog / "memory").read_bytes()):
+            state.faults.append("of the watchdog's memory both slots are torn")
+        if (watchdog / "faults").exists() and not _are_lines((watchdog / "faults").read_bytes()):
+            state.faults.append("the watchdog's faults are torn")
 
     def _look_at_library(self, library, must, state):
         least, most = must.least.get("set", 0), must.most.get("set", 0)
@@ -289,6 +296,25 @@ def _saved_number(text):
     if found:
         return int(found[1])
     return 0 if text.endswith("\n") and "[exhibit]" in text and "# saved" not in text else None
+
+
+def _has_memory(data):
+    """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or nothing was ever written."""
+    def is_whole(slot):
+        found = re.fullmatch(rb"frustumscreen-ladder-1 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
+        checksum = 0xCBF29CE484222325  # FNV-1a
+        for byte in found[2] if found else b"":
+            checksum = (checksum ^ byte) * 0x100000001B3 % (1 << 64)
+        return found is not None and int(found[1], 16) == checksum
+
+    slots = [data[:4096], data[4096:]]
+    return any(map(is_whole, slots)) or not any(slot.strip(b" \0") for slot in slots)
+
+
+def _are_lines(data):
+    """Lines of 256 bytes, each with its number (app/programs/watchdog/fault_book.h)."""
+    lines = [data[at:at + 256] for at in range(0, len(data), 256)]
+    return all(re.fullmatch(rb"%d [^\0\n]*\n" % (number + 1), line) and len(line) == 256 for number, line in enumerate(lines))
 
 
 class Must:

@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
+import states
 from states import DATA, ESP, SLOT_A, SLOT_B, TOOLS, Checker, Must, Version, kept_number, kept_text, partitions
 
 MIB = 1 << 20
@@ -69,6 +70,8 @@ class States(unittest.TestCase):
     def data(cls):
         tree, data = cls.folder / "tree", cls.folder / "data"
         (tree / "settings").mkdir(parents=True)
+        (tree / "lib/frustumscreen-watchdog").mkdir(parents=True)
+        (tree / "lib/frustumscreen-watchdog/faults.json").write_text('{"faults": 7}', encoding="ascii")
         (tree / "machine-id").write_text(MACHINE_ID + "\n", encoding="ascii")
         (tree / "settings/kept.txt").write_text(kept_text(3), encoding="ascii")
         (tree / "settings/kiosk.toml").write_text("[exhibit]\n# saved 3\n", encoding="ascii")
@@ -177,9 +180,29 @@ class States(unittest.TestCase):
             disk.write(bytes(6))
         self.assert_fault("kept.txt is damaged")
 
+    def test_torn_json(self):
+        place = self.disk.read_bytes().find(b'{"faults": 7}')
+        with open(self.disk, "r+b") as disk:
+            disk.seek(place)
+            disk.write(bytes(13))
+        self.assert_fault("lib/frustumscreen-watchdog/faults.json is torn")
+
     def test_another_machine(self):
         self.must.take('{"kept": "machine-id", "value": "%s"}' % ("f" * 32))
         self.assert_fault("the machine-id was")
+
+    def test_watchdog(self):
+        """With a line that frustumscreen-watchdog has written."""
+        slot = (b"frustumscreen-ladder-1 a860832fbef0bb75 2 2089103435194244904 236287 236187 0 1 0 1 0 2 0 236187" + b" -1" * 12 +
+                b" ").ljust(4095) + b"\n"
+        blank = b" " * 4096
+        for memory, is_right in ((blank * 2, True), (slot + blank, True), (blank + slot, True), (slot.replace(b" 2 ", b" 3 ", 1) + slot, True),
+                                 (slot.replace(b" 2 ", b" 3 ", 1) + blank, False), (slot[:512] + bytes(3584) + blank, False)):
+            self.assertEqual(states._has_memory(memory), is_right)
+        line = b"1 2026-11-23T19:15:26Z awake 236 s: no_picture -> restart_exhibit".ljust(255) + b"\n"
+        for faults, is_right in ((b"", True), (line, True), (line + line.replace(b"1", b"2", 1), True), (line + line, False), (line[:-1], False),
+                                 (line + bytes(256), False)):
+            self.assertEqual(states._are_lines(faults), is_right)
 
     def test_kept_text(self):
         self.assertEqual(kept_number(kept_text(17)), 17)
