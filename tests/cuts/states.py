@@ -138,6 +138,11 @@ class Checker:
         return {name: found[name] for name in (SLOT_A, SLOT_B)}
 
     @staticmethod
+    def data_begins(disk):
+        found, _ = partitions(disk, disk.stat().st_size)
+        return found[DATA][0]
+
+    @staticmethod
     def _file(disk, esp, name):
         """A file's SHA-256; None: it cannot be read."""
         done = subprocess.run(["mtype", "-i", f"{disk}@@{esp[0]}", f"::{name}"], capture_output=True, check=False, env=TOOLS)
