@@ -28,7 +28,7 @@ MIB = 1 << 20
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
 PHASES = ("first start", "save", "import", "running", "update", "start")
 # What only a start with the firmware and the boot loader can tell about; they take most of a start's time
-OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "second partition table"}
+OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "empty kernel image", "second partition table"}
 AGAIN = "after a cut: "
 CUTS_AGAIN = 20  # of a start after a cut
 

@@ -176,33 +176,33 @@ class Checker:
         for name, sha256 in self._boot_files.items():
             if self._file(esp, (0, 0), name) != sha256:
                 state.faults.append(f"{name} is not what it was")
-        self._choose(esp, disk, found, generation, state, "")
-        # Whoever mends it must not lose it.
-        if checked.returncode != 0:
-            _run("fsck.vfat", "-a", "-w", esp)
-            if _run("fsck.vfat", "-n", esp).returncode != 0:
-                state.faults.append("fsck.vfat does not mend the boot partition")
-            self._choose(esp, disk, found, generation, state, "after fsck.vfat, ")
+        self._choose(esp, disk, found, generation, state)
 
-    def _choose(self, esp, disk, found, generation, state, when):
+    def _choose(self, esp, disk, found, generation, state):
         """What the boot loader takes first must be whole, and so must its root."""
         listed = _run("mdir", "-b", "-i", esp, "::EFI/Linux").stdout.split()
         names = sorted((name for name in (path.rpartition("/")[2] for path in listed) if _tries(name)), key=_order)
-        if not names:
-            state.faults.append(f"{when}there is no kernel image")
-            return
         state.kernel = self.folder / "kernel.efi"
-        state.kernel.unlink(missing_ok=True)
-        _run("mcopy", "-n", "-i", esp, f"::EFI/Linux/{names[0]}", state.kernel)
-        version = self._versions.get(hashlib.sha256(state.kernel.read_bytes()).hexdigest()) if state.kernel.exists() else None
+        for name in names:
+            state.kernel.unlink(missing_ok=True)
+            _run("mcopy", "-n", "-i", esp, f"::EFI/Linux/{name}", state.kernel)
+            data = state.kernel.read_bytes() if state.kernel.exists() else b"unreadable"
+            if data:
+                break
+            state.notes.add("empty kernel image")  # systemd-boot passes over what has no sections
+        else:
+            state.faults.append(f"there is no kernel image, of {names}")
+            state.kernel = None
+            return
+        version = self._versions.get(hashlib.sha256(data).hexdigest())
         if version is None:
-            state.faults.append(f"{when}the kernel image {names[0]} is damaged, of {names}")
+            state.faults.append(f"the kernel image {name} is damaged, of {names}")
             return
         state.version = version.name
-        if _tries(names[0])[1] == 0:
-            state.faults.append(f"{when}no kernel image has a try left: {names}")
+        if _tries(name)[1] == 0:
+            state.faults.append(f"no kernel image has a try left: {names}")
         if not any(self._verifies(disk, slot, found[slot], generation[slot], version) for slot in (SLOT_A, SLOT_B)):
-            state.faults.append(f"{when}{names[0]} would start, and no slot has its root")
+            state.faults.append(f"{name} would start, and no slot has its root")
 
     def _verifies(self, disk, slot, place, generation, version):
         key = slot, generation, version.name

@@ -128,6 +128,13 @@ class States(unittest.TestCase):
         state = self.look()
         self.assertEqual((state.faults, state.version), ([], "0.1.0"))
 
+    def test_an_empty_one_is_passed_over(self):
+        empty = self.folder / "empty"
+        empty.touch()
+        run("mcopy", "-i", f"{self.disk}@@{self.parts[ESP][0]}", empty, "::EFI/Linux/frustumscreen_0.3.0+3.efi")
+        state = self.look()
+        self.assertEqual((state.faults, state.notes, state.version), ([], {"empty kernel image"}, "0.2.0"))
+
     def test_root_half_written(self):
         self.put(self.disk, SLOT_B, b"x", 9000)
         self.assert_fault("frustumscreen_0.2.0+3.efi would start, and no slot has its root")
