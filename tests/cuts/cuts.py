@@ -107,9 +107,9 @@ class Cuts:
 
     def record(self, folder):
         """One kiosk's life."""
-        bundle = self.work / "bundles/update-0.2.0.raucb"
-        if not bundle.exists():
-            self.updates.make()
+        shutil.rmtree(folder, ignore_errors=True)
+        (self.work / "bundles/update-0.2.0.raucb").unlink(missing_ok=True)
+        bundle = self.updates.make()
         with Lent(self.image, folder, Recorded) as pc:
             life = Session(pc, self.work, self.tools, bundle, self.say)
             life.first_start()
@@ -131,7 +131,7 @@ class Cuts:
         must = must or Must()
         chosen = moments(replay, count, chance, (checker.data_begins(self.image), now.stat().st_size - MIB))
         started = self._sample(chosen, boots, chance)
-        left_to_cut_again, faulty = dict.fromkeys(PHASES, cut_again), 0
+        left_to_cut_again, faulty, known = dict.fromkeys(PHASES, cut_again), 0, {"unsafe file lost"}
         for number, (at, phase, seed) in enumerate(chosen):
             while replay.at < at:
                 entry = replay.entries[replay.at]
@@ -151,7 +151,8 @@ class Cuts:
                     self.say(self.faults[-1])
             row.faulty += bool(state.faults)
             faulty += bool(state.faults)
-            if number in started and state.kernel:
+            is_new, known = bool(boots and state.notes - known), known | state.notes  # the first of each kind is started, too
+            if (number in started or is_new) and state.kernel:
                 left_to_cut_again[phase] -= 1
                 self.start(Cut(number, phase, state, must, row), replay, left_to_cut_again[phase] >= 0, chance)
                 self.write_table()
