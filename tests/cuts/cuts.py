@@ -22,7 +22,7 @@ from appliance import Appliance
 from bench import Patience
 from states import Checker, Must, State, Version, kept_number
 from updates import Updates
-from write_log import FLUSH, MARK, Replay
+from write_log import MARK, Replay, moments
 
 MIB = 1 << 20
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -31,28 +31,6 @@ PHASES = ("first start", "save", "import", "running", "update", "start")
 OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "empty kernel image", "second partition table"}
 AGAIN = "after a cut: "
 CUTS_AGAIN = 20  # of a start after a cut
-
-
-def moments(log, count, chance, data):
-    """`count` moments for each phase: [(record, phase, seed)], in the log's order. A flush is taken at random, then a write before it, so
-    that a long copy between two flushes does not hide everything else. Every second time it is one before which something was written
-    outside the data partition, if there is one: such are few, and most depends on them. `log`: a Replay; `data`: (begin, end) of it."""
-    intervals, outside, phase, begin = collections.defaultdict(list), collections.defaultdict(list), "", 0
-    for number, entry in enumerate(log.entries):
-        if entry.kind in (FLUSH, MARK):
-            if number > begin:
-                intervals[phase].append((begin, number))
-                if not all(data[0] <= written.place < data[1] for written in log.entries[begin:number]):
-                    outside[phase].append((begin, number))
-            begin = number + 1
-        if entry.kind == MARK:
-            phase = json.loads(log.words(entry)).get("phase", phase)
-    chosen = []
-    for phase in sorted(intervals):
-        for number in range(count if phase else 0):
-            begin, end = chance.choice(outside[phase] if number % 2 and outside[phase] else intervals[phase])
-            chosen.append((chance.randrange(begin, end) + 1, phase, chance.getrandbits(64)))
-    return sorted(chosen)
 
 
 class Row:

@@ -10,6 +10,8 @@ Threads  RecordedDisk: `mark` from any. Replay: one caller.
 Errors   OSError; AssertionError for a log that is none.
 """
 
+import collections
+import json
 import os
 import pathlib
 import shutil
@@ -188,6 +190,29 @@ class Replay:
     def keep(self, path):
         """A copy of the disk as it is now."""
         sparse_copy(self.path, path)
+
+
+def moments(log, count, chance, data):
+    """`count` moments for each phase: [(record, phase, seed)], in the log's order. A flush is taken at random, then a write before it, so
+    that a long copy between two flushes does not hide everything else. Every second time it is one before which something was written
+    outside the data partition, if there is one: such are few, and most depends on them. `log`: a Replay; `data`: (begin, end) of it."""
+    intervals, outside, phase, begin = collections.defaultdict(list), collections.defaultdict(list), "", 0
+    for number, entry in enumerate(log.entries):
+        if entry.kind in (FLUSH, MARK):
+            if number > begin:
+                intervals[phase].append((begin, number))
+                if not all(data[0] <= written.place < data[1] for written in log.entries[begin:number]):
+                    outside[phase].append((begin, number))
+            begin = number + 1
+        if entry.kind == MARK:
+            phase = json.loads(log.words(entry)).get("phase", phase)
+    chosen = []
+    for phase in sorted(intervals):
+        for number in range(count if phase else 0):
+            begin, end = chance.choice(outside[phase] if number % 2 and outside[phase] else intervals[phase])
+            at = end if chance.random() < 0.5 else chance.randrange(begin, end) + 1  # at the end most is at stake
+            chosen.append((at, phase, chance.getrandbits(64)))
+    return sorted(chosen)
 
 
 def copy_part(disk, place, length, target):

@@ -8,7 +8,7 @@ import unittest
 
 from client import Client
 from states import TOOLS, partitions
-from write_log import FLUSH, MARK, SECTOR, WRITE, RecordedDisk, Replay, copy_part
+from write_log import FLUSH, MARK, SECTOR, WRITE, RecordedDisk, Replay, copy_part, moments
 
 SEEDS = range(300)
 
@@ -86,6 +86,31 @@ class Log(Recorded):
         found = self.left(2)
         self.assertLessEqual({"........", "xxxxyyyy", "xxxx....", "....yyyy"}, found)
         self.assertGreater(len(found), 30)
+
+    def test_moments(self):
+        """Of each phase as many as were asked for, none before it or behind it, half of them where few writes are; a seed gives the same."""
+        def machine(client, disk):
+            for phase in ("one", "two"):
+                disk.mark('{"phase": "%s"}' % phase)
+                for number in range(20):
+                    client.write(4 * SECTOR, sector("d"))
+                    client.flush()
+                    if number == 7:
+                        client.write(0, sector("e"))
+                        client.flush()
+
+        self.record(machine)
+        replay = Replay(self.image, self.log, self.folder / "now")
+        chosen = moments(replay, 200, random.Random(3), (SECTOR, 8 * SECTOR))
+        self.assertEqual(chosen, moments(replay, 200, random.Random(3), (SECTOR, 8 * SECTOR)))
+        self.assertNotEqual(chosen, moments(replay, 200, random.Random(4), (SECTOR, 8 * SECTOR)))
+        for phase, begin in (("one", 0), ("two", 43)):
+            found = [at for at, of, _ in chosen if of == phase]
+            self.assertEqual(len(found), 200)
+            self.assertTrue(all(begin < at <= begin + 43 and replay.entries[at - 1].kind == WRITE for at in found))
+            rare = [at for at in found if replay.entries[at - 1].place == 0]
+            self.assertTrue(100 <= len(rare) < 130, len(rare))
+        replay.close()
 
     def test_a_part_with_holes(self):
         sparse = self.folder / "sparse"
