@@ -48,6 +48,7 @@ for part; do
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
                 lintian                           # looks at the Debian packages
                 squashfs-tools cpio zstd fdisk dosfstools mtools       # a made-up image, to be taken apart
+                cryptsetup-bin e2fsprogs                               # a made-up disk after a power cut
                 python3-jsonschema python3-license-expression          # read its bill of materials
                 shellcheck clang-format pyflakes3 # how it is written
             )

@@ -233,7 +233,7 @@ make_kernel_image() {
     # watches whether it does.
     {
         printf '%s ' quiet loglevel=3 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
-            i8042.nokbd i8042.noaux watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
+            gpt i8042.nokbd i8042.noaux watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
         printf 'frustumscreen.root_hash=%s frustumscreen.root_blocks=%d frustumscreen.hash_blocks=%d frustumscreen.salt=%s' \
             "$root_hash" "$root_blocks" "$hash_blocks" "$salt"
     } >"$work/cmdline"

@@ -25,24 +25,13 @@ COMMAND_FLAG_FUA = 1
 EIO = 5
 
 
-class Disk:
-    """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
-    it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
-    is cut by itself after so many writes, and without it each write fails; `tell_at`: the read at which `is_reached` is set;
-    `change`: called before each read with the disk's bytes, the place and the length."""
+class Server:
+    """One disk behind a socket. Whoever derives from it answers: `read(place, length)`, `write(place, data, through)`, `flush()`,
+    each the bytes or None, or OSError with the number that the machine is told; one call at a time."""
 
-    def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, tell_at=None, change=None, size=None):
-        self.path = pathlib.Path(path)
-        self.delay_s, self.cut_after, self.tell_at, self.change = delay_s, cut_after, tell_at, change
-        self.writes = self.flushes = self.reads = 0
-        self._now = bytearray(pathlib.Path(image).read_bytes()) if size is None else None
-        self._durable = bytearray(self._now) if cut_after is not None else None
-        self._size = len(self._now) if size is None else size
-        self._head = pathlib.Path(image).read_bytes() if size is not None else b""
-        self._unflushed = []
-        self._random = random.Random(seed)
+    def __init__(self, path, size):
+        self.path, self._size = pathlib.Path(path), size
         self._lock = threading.Lock()
-        self.is_cut, self.is_reached = threading.Event(), threading.Event()
         self._listens = socket.socket(socket.AF_UNIX)
         self.path.unlink(missing_ok=True)
         self._listens.bind(os.fspath(self.path))
@@ -50,29 +39,11 @@ class Disk:
         threading.Thread(target=self._accept, daemon=True).start()
 
     def stop(self):
-        self.is_cut.set()
         self._listens.close()
         self.path.unlink(missing_ok=True)
 
-    def cut(self):
-        """The power fails: of what was not flushed, a share of the sectors that chance says has arrived."""
-        with self._lock:
-            self._cut()
-
-    def _cut(self):
-        if self.is_cut.is_set():
-            return
-        self.is_cut.set()
-        share = self._random.choice((0.0, 0.5, 0.9, 1.0))
-        for place, data in self._unflushed:
-            for at in range(0, len(data), SECTOR):
-                if self._random.random() < share:
-                    self._durable[place + at:place + at + SECTOR] = data[at:at + SECTOR]
-
-    def survived(self, image):
-        """Writes what the cut disk holds."""
-        assert self.is_cut.is_set()
-        pathlib.Path(image).write_bytes(self._durable)
+    def pause(self, kind):
+        """Before a command is answered; others may be answered meanwhile."""
 
     def _accept(self):
         while True:
@@ -128,39 +99,86 @@ class Disk:
         data = self._receive(connection, length) if kind == COMMAND_WRITE else b""
         if kind == COMMAND_DISCONNECT:
             return False
-        if kind == COMMAND_READ and self.delay_s:
-            time.sleep(self.delay_s)
-        answer, error = b"", 0
-        with self._lock:
-            if self.is_cut.is_set():
-                error = EIO
-            elif kind == COMMAND_READ:
-                self.reads += 1
-                if self.reads == self.tell_at:
-                    self.is_reached.set()
-                answer = self._read(place, length)
-            elif kind == COMMAND_WRITE and self.cut_after is None:
-                self.writes += 1
-                error = EIO
-            elif kind == COMMAND_WRITE:
-                self._write(place, data, bool(flags & COMMAND_FLAG_FUA))
-            elif kind == COMMAND_FLUSH:
-                self.flushes += 1
-                self._flush()
-        if error:
-            answer = b""
-        connection.sendall(struct.pack(">II8s", 0x67446698, error, handle) + answer)
+        self.pause(kind)
+        answer, error = None, 0
+        try:
+            with self._lock:
+                if kind == COMMAND_READ:
+                    answer = self.read(place, length)
+                elif kind == COMMAND_WRITE:
+                    self.write(place, data, bool(flags & COMMAND_FLAG_FUA))
+                elif kind == COMMAND_FLUSH:
+                    self.flush()
+        except OSError as wrong:
+            error = wrong.errno
+        connection.sendall(struct.pack(">II8s", 0x67446698, error, handle) + (answer or b""))
         return True
 
-    def _read(self, place, length):
+
+class Disk(Server):
+    """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
+    it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
+    is cut by itself after so many writes, and without it each write fails; `tell_at`: the read at which `is_reached` is set;
+    `change`: called before each read with the disk's bytes, the place and the length."""
+
+    def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, tell_at=None, change=None, size=None):
+        self.delay_s, self.cut_after, self.tell_at, self.change = delay_s, cut_after, tell_at, change
+        self.writes = self.flushes = self.reads = 0
+        self._now = bytearray(pathlib.Path(image).read_bytes()) if size is None else None
+        self._durable = bytearray(self._now) if cut_after is not None else None
+        self._head = pathlib.Path(image).read_bytes() if size is not None else b""
+        self._unflushed = []
+        self._random = random.Random(seed)
+        self.is_cut, self.is_reached = threading.Event(), threading.Event()
+        super().__init__(path, len(self._now) if size is None else size)
+
+    def stop(self):
+        self.is_cut.set()
+        super().stop()
+
+    def cut(self):
+        """The power fails: of what was not flushed, a share of the sectors that chance says has arrived."""
+        with self._lock:
+            self._cut()
+
+    def _cut(self):
+        if self.is_cut.is_set():
+            return
+        self.is_cut.set()
+        share = self._random.choice((0.0, 0.5, 0.9, 1.0))
+        for place, data in self._unflushed:
+            for at in range(0, len(data), SECTOR):
+                if self._random.random() < share:
+                    self._durable[place + at:place + at + SECTOR] = data[at:at + SECTOR]
+
+    def survived(self, image):
+        """Writes what the cut disk holds."""
+        assert self.is_cut.is_set()
+        pathlib.Path(image).write_bytes(self._durable)
+
+    def pause(self, kind):
+        if kind == COMMAND_READ and self.delay_s:
+            time.sleep(self.delay_s)
+
+    def _fail(self, otherwise):
+        if otherwise or self.is_cut.is_set():
+            raise OSError(EIO, "the disk fails")
+
+    def read(self, place, length):
+        self._fail(False)
+        self.reads += 1
+        if self.reads == self.tell_at:
+            self.is_reached.set()
         if self._now is None:  # larger than memory: what the image does not have is zero
             return self._head[place:place + length].ljust(length, b"\0")
         if self.change:
             self.change(self._now, place, length)
         return bytes(self._now[place:place + length])
 
-    def _write(self, place, data, through):
+    def write(self, place, data, through):
+        self._fail(False)
         self.writes += 1
+        self._fail(self.cut_after is None)
         self._now[place:place + len(data)] = data
         if through:
             self._durable[place:place + len(data)] = data
@@ -169,7 +187,9 @@ class Disk:
         if self.writes == self.cut_after:
             self._cut()
 
-    def _flush(self):
+    def flush(self):
+        self._fail(False)
+        self.flushes += 1
         for place, data in self._unflushed:
             self._durable[place:place + len(data)] = data
         self._unflushed.clear()

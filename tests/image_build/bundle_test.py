@@ -166,9 +166,27 @@ class BootSlots(Folder):
 
     def test_a_good_start_arms_the_tries_again(self):
         for name in ("1.2.0+2-1", "1.2.0", "1.2.0+0-5", "1.2.0+5"):
+            for path in self.linux.iterdir():
+                path.unlink()
             self.image(f"frustumscreen_{name}.efi", RUNNING)
             self.says("set-state", "a", "good")
             self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
+
+    def test_what_a_power_cut_leaves_of_a_rename(self):
+        """An empty new name goes; of two names of one file none does, since that would free the other's blocks."""
+        self.image("frustumscreen_1.2.0+4-1.efi", RUNNING)
+        (self.linux / "frustumscreen_1.2.0+5.efi").touch()
+        (self.linux / "frustumscreen_1.3.0+3.efi").touch()
+        self.assertEqual((self.says("get-primary"), self.says("get-state", "b")), ("a", "bad"))
+        self.says("set-state", "a", "good")
+        self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
+        for twin in ("frustumscreen_1.2.0+3-2.efi", "frustumscreen_1.2.0.part"):
+            os.link(self.linux / "frustumscreen_1.2.0+5.efi", self.linux / twin)
+        both = self.images()
+        self.image("frustumscreen_1.3.0.part", OTHER)
+        for words in (("set-state", "a", "good"), ("set-state", "b", "bad")):
+            self.says(*words)
+            self.assertEqual(self.images(), both)
 
     def test_the_running_version_is_never_taken_away(self):
         self.image("frustumscreen_1.2.0+5.efi", RUNNING)

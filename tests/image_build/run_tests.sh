@@ -2,20 +2,33 @@
 # ./test image: makes the image for tests, and starts it in an emulated PC with UEFI.
 #
 #   run_tests.sh [--all] [NAME...]    --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
+#   run_tests.sh --cuts [OPTION...]   power cuts instead: ../cuts/cuts.py, whose options these are
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
-if [[ ${1-} == --all ]]; then
+cuts=false
+if [[ ${1-} == --cuts ]]; then
+    cuts=true
+    shift
+    if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
+        exec python3 "$here/../cuts/cuts.py" --help
+    fi
+elif [[ ${1-} == --all ]]; then
     export FRUSTUMSCREEN_IMAGE_ALL=1
     shift
 fi
 ./tests/image_build/make_image.sh
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
 keys=build/image/test_keys
-if [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
+if $cuts || [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
     image_build/build --quick --newer --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
     FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
     export FRUSTUMSCREEN_IMAGE_NEXT FRUSTUMSCREEN_IMAGE_KEYS
+fi
+if $cuts; then
+    cmake/build.sh release frustumscreen-import frustumscreen-pack frustumscreen-bake frustumscreen-artifact
+    tests/hil/bake_packs.sh build/release/bin build/hil/packs
+    PYTHONDONTWRITEBYTECODE=1 exec /usr/bin/python3 tests/cuts/cuts.py "$@"
 fi
 FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/image)/logs
 export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES PYTHONDONTWRITEBYTECODE=1

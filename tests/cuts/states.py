@@ -1,0 +1,338 @@
+"""Whether a disk that a cut has left is a kiosk that starts at once and has kept what it must: held against Debian's own tools, sfdisk's
+rules, fsck.vfat, mtools, veritysetup, e2fsck and debugfs, without starting it.
+
+Threads  one caller.
+Errors   a fault of the disk is a sentence in what `look` returns; whatever else is wrong raises.
+"""
+
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import time
+import tomllib
+import zlib
+from dataclasses import dataclass, field
+
+from write_log import SECTOR, copy_part
+
+TOOLS = {**os.environ, "PATH": os.environ["PATH"] + ":/usr/sbin:/sbin", "MTOOLS_SKIP_CHECK": "1"}
+ESP, SLOT_A, SLOT_B, DATA = "frustumscreen-esp", "frustumscreen-a", "frustumscreen-b", "frustumscreen-data"
+
+
+def _run(*words, **options):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, errors="replace", env=TOOLS, **options)
+
+
+def kept_text(number):
+    """What stands in for a calibration: its words say whether it is whole."""
+    return "".join(f"{number} {line}\n" for line in range(400)) + f"end {number}\n"
+
+
+def kept_number(text):
+    """The number of a whole text; None: it is not whole."""
+    found = re.search(r"end (\d+)\n$", text)
+    return int(found[1]) if found and text == kept_text(int(found[1])) else None
+
+
+# The partition table, as Linux and the firmware read it: UEFI specification 2.10, 5.3.
+
+
+def _table(disk, place, sectors):
+    """{name: (place, length)} of a GPT whose header is at this sector; None: header or entries are not what their checksums are of."""
+    disk.seek(place * SECTOR)
+    header = disk.read(SECTOR)
+    if header[:8] != b"EFI PART":
+        return None
+    size, check = struct.unpack_from("<II", header, 12)
+    here, = struct.unpack_from("<Q", header, 24)
+    entries_at, count, entry_size, entries_check = struct.unpack_from("<QIII", header, 72)
+    if not 92 <= size <= SECTOR or here != place or zlib.crc32(header[:16] + bytes(4) + header[20:size]) != check or count > 4096:
+        return None
+    disk.seek(entries_at * SECTOR)
+    entries = disk.read(count * entry_size)
+    if zlib.crc32(entries) != entries_check:
+        return None
+    found = {}
+    for at in range(0, len(entries), entry_size):
+        first, last = struct.unpack_from("<QQ", entries, at + 32)
+        if entries[at:at + 16] != bytes(16) and last < sectors:
+            name = entries[at + 56:at + 128].decode("utf-16-le").rstrip("\0")
+            found[name] = (first * SECTOR, (last - first + 1) * SECTOR)
+    return found
+
+
+def partitions(path, size):
+    """(partitions, which table). The second table, at the disk's end, is read by the firmware always, and by Linux if its command
+    line says `gpt`."""
+    with open(path, "rb") as disk:
+        first = _table(disk, 1, size // SECTOR)
+        if first is not None:
+            return first, "first"
+        return _table(disk, size // SECTOR - 1, size // SECTOR), "second"
+
+
+# The boot partition.
+
+
+@dataclass
+class Version:
+    """One version of the system: its kernel image's bytes, and how its root is found."""
+
+    name: str
+    sha256: str
+    words: dict  # of the command line, behind `frustumscreen.`
+    reads_second_table: bool
+
+    @staticmethod
+    def of(name, kernel):
+        data = kernel.read_bytes()
+        words = dict(re.findall(rb"frustumscreen\.([a-z_]+)=([0-9a-f]+)", data))
+        return Version(name, hashlib.sha256(data).hexdigest(), {key.decode(): value.decode() for key, value in words.items()},
+                       re.search(rb" gpt [^\0]*frustumscreen\.root_hash=", data) is not None)
+
+
+@dataclass
+class State:
+    """What was found."""
+
+    faults: list = field(default_factory=list)
+    notes: set = field(default_factory=set)  # what is no fault: which repairs there were
+    version: str = ""
+    kernel: pathlib.Path = None
+    e2fsck_s: float = 0.0
+
+
+def _tries(name):
+    """(version, tries left or None) of a kernel image's name; None: it has another name."""
+    found = re.fullmatch(r"frustumscreen_([0-9][^+]*)(?:\+(\d+)(?:-(\d+))?)?\.efi", name)
+    return found and (found[1], int(found[2]) if found[2] else None)
+
+
+def _order(name):
+    """As systemd-boot sorts: what has tries left first, then the newest."""
+    version, left = _tries(name)
+    return left == 0, [-int(part) for part in version.split(".")]
+
+
+class Checker:
+    """`folder`: for its own files; `versions`: those that may be on the disk; `tools`: kiosk.Tools; `image`: the disk as it was built."""
+
+    def __init__(self, folder, versions, tools, image, size):
+        self.folder, self._tools, self._size = folder, tools, size
+        self._versions = {version.sha256: version for version in versions}
+        folder.mkdir(parents=True, exist_ok=True)
+        self._verified, self._packs = {}, {}
+        found, _ = partitions(image, image.stat().st_size)
+        self._boot_files = {name: self._file(image, found[ESP], name) for name in ("EFI/BOOT/BOOTX64.EFI", "loader/loader.conf")}
+        assert all(self._boot_files.values())
+
+    @staticmethod
+    def slots(disk):
+        """{name: (place, length)} of the two slots."""
+        found, _ = partitions(disk, disk.stat().st_size)
+        return {name: found[name] for name in (SLOT_A, SLOT_B)}
+
+    @staticmethod
+    def data_begins(disk):
+        found, _ = partitions(disk, disk.stat().st_size)
+        return found[DATA][0]
+
+    @staticmethod
+    def _file(disk, esp, name):
+        """A file's SHA-256; None: it cannot be read."""
+        done = subprocess.run(["mtype", "-i", f"{disk}@@{esp[0]}", f"::{name}"], capture_output=True, check=False, env=TOOLS)
+        return hashlib.sha256(done.stdout).hexdigest() if done.returncode == 0 else None
+
+    def look(self, disk, generation, must):
+        """`generation`: of the slots' contents (Replay); `must`: a Must of what was acknowledged before the cut."""
+        state = State()
+        found, table = partitions(disk, self._size)
+        if not found or {ESP, SLOT_A, SLOT_B, DATA} - found.keys():
+            state.faults.append(f"no partition table is whole ({table})")
+            return state
+        if table == "second":
+            state.notes.add("second partition table")
+        self._look_at_boot(disk, found, generation, state)
+        if table == "second" and not all(version.reads_second_table for version in self._versions.values() if version.name == state.version):
+            state.faults.append("the first partition table is torn, and this kernel reads no other")
+        if "version" in must.least and state.version != must.least["version"]:
+            state.faults.append(f"version {state.version} would start, though {must.least['version']} was told as taken")
+        self._look_at_data(disk, found[DATA], must, state)
+        return state
+
+    def _look_at_boot(self, disk, found, generation, state):
+        esp = self.folder / "esp.img"
+        copy_part(disk, *found[ESP], esp)
+        checked = _run("fsck.vfat", "-n", esp)
+        if checked.returncode != 0:
+            state.notes.add("boot partition not clean")
+        elif "irty bit" in checked.stdout:
+            state.notes.add("boot partition marked as in use")
+        for name, sha256 in self._boot_files.items():
+            if self._file(esp, (0, 0), name) != sha256:
+                state.faults.append(f"{name} is not what it was")
+        self._choose(esp, disk, found, generation, state)
+
+    def _choose(self, esp, disk, found, generation, state):
+        """What the boot loader takes first must be whole, and so must its root."""
+        listed = _run("mdir", "-b", "-i", esp, "::EFI/Linux").stdout.split()
+        names = sorted((name for name in (path.rpartition("/")[2] for path in listed) if _tries(name)), key=_order)
+        state.kernel = self.folder / "kernel.efi"
+        for name in names:
+            state.kernel.unlink(missing_ok=True)
+            _run("mcopy", "-n", "-i", esp, f"::EFI/Linux/{name}", state.kernel)
+            data = state.kernel.read_bytes() if state.kernel.exists() else b"unreadable"
+            if data:
+                break
+            state.notes.add("empty kernel image")  # systemd-boot passes over what has no sections
+        else:
+            state.faults.append(f"there is no kernel image, of {names}")
+            state.kernel = None
+            return
+        version = self._versions.get(hashlib.sha256(data).hexdigest())
+        if version is None:
+            state.faults.append(f"the kernel image {name} is damaged, of {names}")
+            return
+        state.version = version.name
+        if _tries(name)[1] == 0:
+            state.faults.append(f"no kernel image has a try left: {names}")
+        if not any(self._verifies(disk, slot, found[slot], generation[slot], version) for slot in (SLOT_A, SLOT_B)):
+            state.faults.append(f"{name} would start, and no slot has its root")
+
+    def _verifies(self, disk, slot, place, generation, version):
+        key = slot, generation, version.name
+        if key not in self._verified:
+            part = self.folder / "slot.img"
+            copy_part(disk, *place, part)
+            blocks = int(version.words["root_blocks"])
+            self._verified[key] = _run("veritysetup", "verify", part, part, version.words["root_hash"],
+                                       f"--hash-offset={4096 * blocks}").returncode == 0
+        return self._verified[key]
+
+    # The data partition, as the initrd treats it.
+
+    def _look_at_data(self, disk, place, must, state):
+        image = self.folder / "data.img"
+        copy_part(disk, *place, image)
+        begun = time.monotonic()
+        status = _run("e2fsck", "-p", image).returncode
+        if status & 3:
+            state.notes.add("e2fsck -p mended")
+        for _ in range(3):
+            if status & ~3:
+                state.notes.add("e2fsck -y needed")
+                status = _run("e2fsck", "-f", "-y", image).returncode
+        state.e2fsck_s = time.monotonic() - begun
+        if status & ~3:
+            state.faults.append(f"e2fsck cannot mend the data partition, status {status}")
+            return
+        whole = _run("e2fsck", "-f", "-n", image)
+        if whole.returncode != 0:
+            state.faults.append(f"what e2fsck -p has passed is damaged: {whole.stdout.strip().splitlines()[1:4]}")
+        tree = self.folder / "tree"
+        shutil.rmtree(tree, ignore_errors=True)
+        tree.mkdir()
+        _run("debugfs", "-R", f"rdump / {tree}", image)
+        self._look_at_files(tree, must, state)
+
+    def _look_at_files(self, tree, must, state):
+        if "machine-id" in must.least:
+            path = tree / "machine-id"
+            found = path.read_text(errors="replace").strip() if path.exists() else None
+            if found != must.least["machine-id"]:
+                state.faults.append(f"the machine-id was {must.least['machine-id']}, and is {found}")
+        for what, name, number_of in (("settings", "kiosk.toml", _saved_number), ("kept", "kept.txt", kept_number),
+                                      ("unsafe", "unsafe.txt", kept_number)):
+            path = tree / "settings" / name
+            found = number_of(path.read_text(errors="replace")) if path.exists() else 0
+            least, most = must.least.get(what, 0), must.most.get(what, 0)
+            if found is None or not least <= found <= most:
+                fault = f"{name} is damaged" if found is None else f"{name} has number {found}, not {least} to {most}"
+                if what == "unsafe":
+                    state.notes.add("unsafe file lost")
+                else:
+                    state.faults.append(fault)
+        self._look_at_library(tree / "lib/frustumscreen/library", must, state)
+        for path in sorted([*tree.rglob("lib/**/*.json"), *tree.rglob("cache/**/*.json"), *tree.rglob("cache/**/*.toml")]):
+            try:
+                text = path.read_text(encoding="utf-8")
+                json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
+            except ValueError:
+                state.faults.append(f"{path.relative_to(tree)} is torn")
+
+        watchdog = tree / "lib/frustumscreen-watchdog"
+        if (watchdog / "memory").exists() and not _has_memory((watchdog / "memory").read_bytes()):
+            state.faults.append("of the watchdog's memory both slots are torn")
+        if (watchdog / "faults").exists() and not _are_lines((watchdog / "faults").read_bytes()):
+            state.faults.append("the watchdog's faults are torn")
+
+    def _look_at_library(self, library, must, state):
+        least, most = must.least.get("set", 0), must.most.get("set", 0)
+        found = 0
+        if (library / "set.txt").exists():
+            done = self._tools.run("import", "--list", "--into", library, "--json")
+            if done.returncode != 0:
+                state.faults.append(f"the library is damaged: {done.stderr.strip()}")
+                return
+            listed = json.loads(done.stdout)
+            found = listed["number"]
+            for pack in listed["packs"]:
+                self._look_at_pack(library / pack["file"], pack["sha256"], state)
+        if not least <= found <= most:
+            state.faults.append(f"the set is number {found}, not {least} to {most}")
+
+    def _look_at_pack(self, path, sha256, state):
+        if not path.exists() or hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+            state.faults.append(f"the pack {path.name} of the set is missing or damaged")
+        elif sha256 not in self._packs:
+            self._packs[sha256] = self._tools.run("pack", "verify", path).returncode == 0
+        if not self._packs.get(sha256, True):
+            state.faults.append(f"the pack {path.name} is not sound")
+
+
+def _saved_number(text):
+    """Of the museum's settings; 0: as shipped."""
+    found = re.search(r"# saved (\d+)\n$", text)
+    if found:
+        return int(found[1])
+    return 0 if text.endswith("\n") and "[exhibit]" in text and "# saved" not in text else None
+
+
+def _has_memory(data):
+    """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or nothing was ever written."""
+    def is_whole(slot):
+        found = re.fullmatch(rb"frustumscreen-ladder-1 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
+        checksum = 0xCBF29CE484222325  # FNV-1a
+        for byte in found[2] if found else b"":
+            checksum = (checksum ^ byte) * 0x100000001B3 % (1 << 64)
+        return found is not None and int(found[1], 16) == checksum
+
+    slots = [data[:4096], data[4096:]]
+    return any(map(is_whole, slots)) or not any(slot.strip(b" \0") for slot in slots)
+
+
+def _are_lines(data):
+    """Lines of 256 bytes, each with its number (app/programs/watchdog/fault_book.h)."""
+    lines = [data[at:at + 256] for at in range(0, len(data), 256)]
+    return all(re.fullmatch(rb"%d [^\0\n]*\n" % (number + 1), line) and len(line) == 256 for number, line in enumerate(lines))
+
+
+class Must:
+    """What marks of a log say: `least`: what was acknowledged; `most`: what was begun."""
+
+    def __init__(self):
+        self.phase, self.least, self.most = "", {}, {}
+
+    def take(self, words):
+        mark = json.loads(words)
+        if "phase" in mark:
+            self.phase = mark["phase"]
+        if "begun" in mark and mark["begun"] != "version":
+            self.most[mark["begun"]] = mark["value"]
+        if "kept" in mark and mark["kept"] != "grown":
+            self.least[mark["kept"]] = mark["value"]
