@@ -8,4 +8,14 @@ cp -a /extra/over/. /run/extra/upper/
 for applet in $(busybox --list | grep -vx busybox); do
     [ -e "/root/usr/bin/$applet" ] || [ -e "/root/usr/sbin/$applet" ] || ln -s busybox "/run/extra/upper/usr/bin/$applet"
 done
+# "frustumscreen.test_without=UNIT" on the command line: the start without this unit, to be compared with.
+# shellcheck disable=SC2154 # command_line: of initrd/init
+for word in $command_line; do
+    case $word in
+        frustumscreen.test_without=*)
+            mkdir -p /run/extra/upper/etc/systemd/system
+            ln -s /dev/null "/run/extra/upper/etc/systemd/system/${word#*=}"
+            ;;
+    esac
+done
 mount -t overlay -o lowerdir=/root,upperdir=/run/extra/upper,workdir=/run/extra/work extra /root

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # ./test image: makes the image for tests, and starts it in an emulated PC with UEFI.
 #
-#   run_tests.sh [--all] [NAME...]    --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
+#   run_tests.sh [--all] [NAME...]      --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
+#   run_tests.sh --start-time [OPTION...]    how long starts take; options of start_time.py
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
@@ -9,14 +10,14 @@ if [[ ${1-} == --all ]]; then
     export FRUSTUMSCREEN_IMAGE_ALL=1
     shift
 fi
+if [[ ${1-} == --start-time ]]; then
+    start_time=true
+    shift
+fi
 ./setup.sh hil kiosk image packages window
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
-image_build/packages --out "$FRUSTUMSCREEN_IMAGE_PACKAGES"
-# Whoever signs the updates of the image for tests
-keys=build/image/test_keys
-PYTHONPATH=tests/image_build PYTHONDONTWRITEBYTECODE=1 \
-    python3 -c 'import pathlib, sys, updates; updates.make_key(pathlib.Path(sys.argv[1]), "update")' $keys
-image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt
+keys=build/image/test_keys # of whoever signs the updates of the image for tests
+"$here/make_test_image.sh"
 if [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
     image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
     FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
@@ -27,6 +28,9 @@ export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES
 rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"
 /usr/bin/python3 "$here/real_image_test.py" . out/image/test
 cd "$here"
+if [[ ${start_time-} ]]; then
+    exec ./start_time.py "$@"
+fi
 if (($# > 0)); then
     exec python3 -m unittest -v "$@"
 fi
