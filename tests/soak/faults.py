@@ -3,8 +3,10 @@
 Threads  one caller, that of the kiosk.
 """
 
+import json
 import pathlib
 import random
+import subprocess
 import sys
 import time
 from dataclasses import dataclass
@@ -94,9 +96,9 @@ class Faults:
         return self._says("display", "is lit")
 
     def _killed(self):
-        process = self.kiosk._process(EXHIBIT)
+        process = self.kiosk.process_of(EXHIBIT)
         self.kiosk.machine.check(f"kill -KILL {process}")
-        return self.kiosk.until(lambda: self.kiosk._process(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
+        return self.kiosk.until(lambda: self.kiosk.process_of(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
 
     def _disk_full(self):
         machine = self.kiosk.machine
@@ -119,7 +121,6 @@ class Faults:
 
     def _outcome(self, name, image, pull_at=None):
         """Puts a stick in, and takes it out when its import has ended, or at this stage; the last report."""
-        import json
         kiosk, seen = self.kiosk, [{}]
         before = kiosk.machine.read(REPORT) or ""
 
@@ -186,7 +187,6 @@ class Packs:
         self.unsigned.write_bytes(pathlib.Path(built_in).read_bytes())
 
     def _run(self, *words):
-        import subprocess
         subprocess.run([self._program, *(str(word) for word in words)], check=True, capture_output=True)
 
     def settings(self):

@@ -146,7 +146,7 @@ class Kiosk:
         except ValueError:
             return {}
 
-    def _process(self, unit):
+    def process_of(self, unit):
         words = (self.machine.read(f"/sys/fs/cgroup/system.slice/{unit}/cgroup.procs") or "").split()
         return int(words[0]) if words else 0
 
@@ -161,7 +161,7 @@ class Kiosk:
         if not memory or not uptime:
             return None
         disk = [int(word) for word in (machine.read(self._data) or "").split()] or [0] * 11
-        exhibit, watchdog, status = self._process(EXHIBIT), self._process(WATCHDOG), self.status()
+        exhibit, watchdog, status = self.process_of(EXHIBIT), self.process_of(WATCHDOG), self.status()
         try:
             steps = json.loads(machine.read("/run/frustumscreen-watchdog/status.json") or "{}").get("faults", [])
         except ValueError:
