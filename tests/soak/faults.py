@@ -17,10 +17,8 @@ sys.path.insert(0, str(HERE.parent / "import"))
 import sticks  # noqa: E402  from tests/hil, by kiosk
 import plain_pack  # noqa: E402
 
-LIBRARY = "/var/lib/frustumscreen/library"
 REPORT = "/run/frustumscreen-import/report.json"
 BACK_S, IMPORT_S = 60.0, 120.0
-FAULTS_MUST_END_S = 90.0  # so long after a fault a step of the watchdog may still be due to it
 
 
 @dataclass
