@@ -36,8 +36,8 @@ def stamp_s(pc, unit, name="ActiveEnterTimestampMonotonic"):
     return 1e-6 * int(pc.check(f"systemctl show -P {name} {unit}").strip() or 0)
 
 
-def one_start(pc, exhibit):
-    """One start from its kernel's first instant; all in seconds."""
+def one_start(pc, exhibit, rests_s=0.0):
+    """One start from its kernel's first instant; all in seconds. `rests_s`: the machine stays on for so long afterwards."""
     pc.more_words = "" if exhibit else WITHOUT_EXHIBIT
     begun = time.monotonic()
     pc.start()
@@ -51,6 +51,7 @@ def one_start(pc, exhibit):
         eventually(pc.lit_picture, START_S, "the exhibit says that it is lit, and the screen is dark")
     elif found["frustumscreen_s"]:
         raise AssertionError("the exhibit was not left out")
+    time.sleep(rests_s)
     pc.check("sync")
     pc.stop()
     Patience.clock = time.monotonic
@@ -77,7 +78,7 @@ def main():
     pc = Direct(pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"]), logs, sockets, {"tracker": mock.usb})
     starts = []
     try:
-        first = one_start(pc, True)
+        first = one_start(pc, True, rests_s=20.0)
         for _ in range(arguments.starts):
             for exhibit in (True, False):
                 starts.append(one_start(pc, exhibit))
