@@ -15,13 +15,16 @@ class Event:
     kind: str  # "press", or a fault's
 
 
-def plan(hours, kinds, seed):
-    """Presses at random, and each kind of fault once in every whole hour, at least once in all; in the order of time."""
+def plan(hours, kinds, seed, once=()):
+    """Presses at random, and each kind of fault once in every whole hour, at least once in all; in the order of time. Those in `once`
+    come in the first hour alone."""
     dice = random.Random(seed)
     events = [Event(dice.uniform(0.0, 3600.0 * hours), "press") for _ in range(round(PRESSES_PER_H * hours))]
     spans = max(1, round(hours))
     for number in range(spans):
-        order = dice.sample(kinds, len(kinds))
+        order = [kind for kind in dice.sample(kinds, len(kinds)) if number == 0 or kind not in once]
+        if not order:
+            break
         length_s = 3600.0 * hours / spans
         for place, kind in enumerate(order):  # spread over the hour; each somewhere in its part of it
             part_s = length_s / len(order)

@@ -11,6 +11,7 @@ import statistics
 
 LIMITS = {"memory_mb_per_h": 1.0, "longest_dark_s": 60.0, "false_alarms": 0, "not_back": 0, "unexpected_ends": 0}
 WARM_UP_S = 60.0  # a process loads, and fills its caches
+LEAST_SPAN_S = 1200.0  # of one process after that: steps, such as a language's texts that are loaded once, are no slope yet
 LATER_S = 90.0  # so long after a fault something may still be due to it
 Z95 = 1.96
 
@@ -46,11 +47,14 @@ def runs_of(samples, value, pid=None):
 
 
 def slope(samples, value, pid, pace):
-    found = theil_sen(runs_of(samples, value, pid))
+    runs = runs_of(samples, value, pid)
+    found = theil_sen(runs)
     if found is None:
         return {"verdict": "too few samples"}
     per_h = [number / pace for number in found]
     verdict = "holds" if per_h[2] <= LIMITS["memory_mb_per_h"] else "missed" if per_h[1] > LIMITS["memory_mb_per_h"] else "too short to say"
+    if max(3600.0 * (run[-1][0] - run[0][0]) for run in runs) < LEAST_SPAN_S:
+        verdict = "too short to say"
     return {"mb_per_exhibit_h": per_h[0], "low": per_h[1], "high": per_h[2], "mb_per_h_passed": found[0], "verdict": verdict}
 
 

@@ -69,6 +69,8 @@ class Slopes(unittest.TestCase):
         self.assertEqual(len(report["missed"]), 1)
 
     def test_too_short_is_said(self):
+        """Nineteen minutes after the first are no slope, whatever the samples say."""
+        self.assertEqual(soak(samples=samples(60.0, length_s=1200.0))["memory"]["exhibit"]["verdict"], "too short to say")
         self.assertEqual(soak(samples=samples(0.0, length_s=120.0))["memory"]["exhibit"]["verdict"], "too short to say")
         self.assertEqual(soak(samples=samples(0.0, length_s=70.0))["memory"]["exhibit"]["verdict"], "too few samples")
 
@@ -127,6 +129,11 @@ class Plan(unittest.TestCase):
             self.assertEqual(sorted(hours), list(range(8)))
         self.assertEqual(sum(event.kind == "press" for event in events), 480)
         self.assertEqual(events, sorted(events, key=lambda event: event.at_s))
+
+    def test_once(self):
+        times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, {"kind 4"}) if event.kind == "kind 4"]
+        self.assertEqual(len(times), 1)
+        self.assertLess(times[0], 3600.0)
 
     def test_each_kind_once_in_a_short_one(self):
         self.assertEqual(sorted(event.kind for event in day.plan(0.4, self.KINDS, 1) if event.kind != "press"), sorted(self.KINDS))

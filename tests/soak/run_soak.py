@@ -70,7 +70,7 @@ def main():
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     image, binaries = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"]), CHECKOUT / "build" / "release" / "bin"
-    events = day.plan(arguments.hours, kinds, arguments.seed)
+    events = day.plan(arguments.hours, kinds, arguments.seed, fault_module.ENDS_EXHIBIT)
     sockets = pathlib.Path(tempfile.mkdtemp(prefix="soak-"))
     packs = fault_module.Packs(binaries / "frustumscreen-pack", CHECKOUT / "build" / "release" / "kiosk" / "built_in.fspack", out / "packs")
     poses = walk(binaries / "frustumscreen-poses", HERE.parent / "hil/guest/etc/frustumscreen/kiosk.toml", arguments.seed, VISIT_S,
