@@ -88,8 +88,8 @@ public:
     /// What a renderer for it must be able to do.
     [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
-    /// Draws every rung some times for the view and starts the governor with the medians. `target` then holds
-    /// some picture, which must not be presented.
+    /// Draws every rung two to seven times for the view, fewer where a frame takes long, and starts the governor with the medians.
+    /// `target` then holds some picture, which must not be presented.
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     /// Starts the governor with times that were measured: one for each rung, finest first.

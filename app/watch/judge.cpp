@@ -28,12 +28,13 @@ void Judge::count_endings(MonotonicTime now, std::uint32_t failures) {
 
 bool Judge::picture_lives(MonotonicTime now, const Outcome& outcome) {
     if (outcome.process != process_ && outcome.process != 0) {
-        judged_since_ = counted_ = now;
+        judged_since_ = counted_ = process_since_ = now;
         has_lived_ = false;
     }
     process_ = outcome.process;
     const std::optional<ExhibitSays>& says = outcome.exhibit;
-    if (outcome.process == 0 || !says || says->age > fresh_for || !says->well) {
+    if (outcome.process == 0 || !says || says->age > fresh_for || now - says->age < process_since_ ||
+        !says->well) {
         return false;
     }
     if (says->pictures != pictures_ || says->asleep) {

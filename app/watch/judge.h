@@ -53,6 +53,7 @@ private:
     MonotonicTime judged_since_; ///< the start, the latest step, or the latest start of the exhibit's process
     bool has_lived_ = false;     ///< since then
     std::int32_t process_ = 0;
+    MonotonicTime process_since_; ///< when it was first seen; what was said before is of the one before it
     std::uint64_t pictures_ = 0;
     double endings_ = 0.0;
     MonotonicTime drained_;

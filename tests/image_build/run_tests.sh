@@ -3,6 +3,7 @@
 #
 #   run_tests.sh [--all] [NAME...]    --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
 #   run_tests.sh --cuts [OPTION...]   power cuts instead: ../cuts/cuts.py, whose options these are
+#   run_tests.sh --start-time [OPTION...]    how long starts take; options of start_time.py
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
@@ -13,6 +14,9 @@ if [[ ${1-} == --cuts ]]; then
     if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
         exec python3 "$here/../cuts/cuts.py" --help
     fi
+elif [[ ${1-} == --start-time ]]; then
+    start_time=true
+    shift
 elif [[ ${1-} == --all ]]; then
     export FRUSTUMSCREEN_IMAGE_ALL=1
     shift
@@ -35,6 +39,9 @@ export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS FRUSTUMSCREEN_IMAGE_PACKAGES
 rm -rf "$FRUSTUMSCREEN_IMAGE_LOGS"
 /usr/bin/python3 "$here/real_image_test.py" . out/image/test
 cd "$here"
+if [[ ${start_time-} ]]; then
+    exec ./start_time.py "$@"
+fi
 if (($# > 0)); then
     exec python3 -m unittest -v "$@"
 fi

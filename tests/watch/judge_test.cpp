@@ -62,6 +62,25 @@ TEST(Judge, AsleepIsNotDark) {
     scene.well(hours(1));
 }
 
+TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
+    Scene scene;
+    scene.well(minutes(2));
+    scene.outcome.process = 0; // killed; what it said last stays for the next one to overwrite
+    scene.counts = false;
+    scene.outcome.exhibit->age = seconds(1);
+    EXPECT_FALSE(scene.look().trouble);
+    scene.outcome.process = 322;
+    for (int second = 2; second < 50; ++second) { // its start takes long, and within its patience
+        scene.outcome.exhibit->age = seconds(second);
+        const Seen seen = scene.look();
+        ASSERT_FALSE(seen.lit);
+        ASSERT_FALSE(seen.trouble) << word_of(*seen.trouble) << " after " << second << " s";
+    }
+    scene.outcome.exhibit->age = seconds(0);
+    scene.counts = true;
+    scene.well(minutes(2));
+}
+
 TEST(Judge, AFrozenPictureIsSeen) {
     Scene scene;
     scene.well(minutes(2));

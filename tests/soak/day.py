@@ -1,0 +1,32 @@
+"""What happens in a soak, and when: seeded, so that a soak can be had again.
+
+Time     hours and seconds of the exhibit's time; a soak runs `pace` times faster than a museum (docs/soak.md).
+"""
+
+import random
+from dataclasses import dataclass
+
+PRESSES_PER_H = 60  # of the buttons, at a busy museum
+
+
+@dataclass
+class Event:
+    at_s: float
+    kind: str  # "press", or a fault's
+
+
+def plan(hours, kinds, seed, once=()):
+    """Presses at random, and each kind of fault once in every whole hour, at least once in all; in the order of time. Those in `once`
+    come in the first hour alone."""
+    dice = random.Random(seed)
+    events = [Event(dice.uniform(0.0, 3600.0 * hours), "press") for _ in range(round(PRESSES_PER_H * hours))]
+    spans = max(1, round(hours))
+    for number in range(spans):
+        order = [kind for kind in dice.sample(kinds, len(kinds)) if number == 0 or kind not in once]
+        if not order:
+            break
+        length_s = 3600.0 * hours / spans
+        for place, kind in enumerate(order):  # spread over the hour; each somewhere in its part of it
+            part_s = length_s / len(order)
+            events.append(Event(number * length_s + (place + dice.uniform(0.0, 0.5)) * part_s, kind))
+    return sorted(events, key=lambda event: event.at_s)
