@@ -8,6 +8,7 @@ moment of that log and says what of the unflushed bytes arrived (write_log.Repla
 import argparse
 import collections
 import copy
+import functools
 import json
 import pathlib
 import random
@@ -17,9 +18,10 @@ import sys
 import time
 from dataclasses import dataclass
 
-from kiosk import KEPT, LIBRARY, SETTINGS, Direct, Lent, Recorded, Session, Tools
+from kiosk import KEPT, LIBRARY, SETTINGS, Lent, Recorded, Session, Tools
 from appliance import Appliance
 from bench import Patience
+from direct import Direct
 from states import Checker, Must, State, Version, kept_number
 from updates import Updates
 from write_log import MARK, Replay, moments
@@ -154,10 +156,10 @@ class Cuts:
         disk = self.work / "cut.raw"
         replay.keep(disk)
         with_firmware = is_recorded or bool(OF_THE_FIRMWARE & cut.state.notes)
-        Direct.kernel = cut.state.kernel
+        direct = functools.partial(Direct, kernel_image=cut.state.kernel)
         cut.row.boots += 1
         wrong, lit_s, begun = [], 0.0, time.monotonic()
-        with Lent(disk, folder, Recorded if is_recorded else Appliance if with_firmware else Direct) as pc:
+        with Lent(disk, folder, Recorded if is_recorded else Appliance if with_firmware else direct) as pc:
             disk.unlink()
             try:
                 if is_recorded:

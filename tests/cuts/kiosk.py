@@ -65,25 +65,6 @@ class Recorded(Appliance):
         self.recorded.stop()
 
 
-class Direct(Appliance):
-    """Starts a kernel image of its boot partition without the firmware, which takes most of a start: what the firmware and the boot
-    loader write is not tried here. `kernel`: the kernel image, a file."""
-
-    kernel = None
-
-    def _command(self):
-        parts = {}
-        for section in ("linux", "initrd", "cmdline"):
-            parts[section] = self.logs / section
-            subprocess.run(["objcopy", "-O", "binary", f"--only-section=.{section}", self.kernel, parts[section]], check=True)
-        words = parts["cmdline"].read_bytes().rstrip(b"\0").decode()
-        command = super()._command()
-        drives = [at for at, word in enumerate(command) if word.startswith("if=pflash")]
-        for at in reversed(drives):
-            del command[at - 1:at + 1]
-        return [*command, "-kernel", str(parts["linux"]), "-initrd", str(parts["initrd"]), "-append", words]
-
-
 class Session:
     """One recorded run through everything that a kiosk keeps. Each mark in the log is a JSON object: `phase` begins one; `begun` names
     what may be there from now on, `kept` what must."""

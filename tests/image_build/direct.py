@@ -6,26 +6,19 @@ Frame, time, threads, errors   as in appliance.py.
 Source   sections .linux, .initrd, .cmdline: systemd-stub(7).
 """
 
-import subprocess
-
 from appliance import Appliance
-
-
-def parts_of(kernel_image, folder):
-    """Kernel, initrd and command line of a kernel image, as files in `folder`, and the last as text."""
-    files = {name: folder / name for name in ("linux", "initrd", "cmdline")}
-    dumps = [f"--dump-section=.{name}={file}" for name, file in files.items()]  # objcopy also wants to write a copy
-    subprocess.run(["objcopy", *dumps, kernel_image, folder / "copy.efi"], check=True)
-    return files["linux"], files["initrd"], files["cmdline"].read_text(encoding="ascii").strip("\0 \n")
+import image as parts  # from tests/hil, by appliance
 
 
 class Direct(Appliance):
-    """`image`: frustumscreen.raw, beside which lies its one kernel image."""
+    """`image`: the disk; `kernel_image`: default: the one that lies beside it, where ./image_build/build has left both."""
 
-    def __init__(self, image, folder, sockets, usb):
+    def __init__(self, image, folder, sockets, usb, kernel_image=None):
         super().__init__(image, folder, sockets, usb)
-        (kernel_image,) = image.parent.glob("frustumscreen_*.efi")
-        self._linux, self._initrd, self.command_line = parts_of(kernel_image, folder)
+        if kernel_image is None:
+            (kernel_image,) = image.parent.glob("frustumscreen_*.efi")
+        parts.kernel_image_parts(kernel_image, folder)
+        self.command_line = (folder / "cmdline").read_text(encoding="ascii").strip("\0 \n")
         self.more_words = ""  # on the kernel's command line, of the next start
 
     def is_running(self):
@@ -35,7 +28,7 @@ class Direct(Appliance):
         return [str(word) for word in (
             "qemu-system-x86_64", "-name", "frustumscreen-image", "-machine", "q35", "-accel", "tcg,thread=multi,tb-size=512",
             "-cpu", "max", "-smp", self.processors, "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
-            "-kernel", self._linux, "-initrd", self._initrd, "-append", f"{self.command_line} {self.more_words}".strip(),
+            "-kernel", self.logs / "linux", "-initrd", self.logs / "initrd", "-append", f"{self.command_line} {self.more_words}".strip(),
             "-drive", f"if=none,id=disk,format=raw,file={self.disk},readonly={'on' if self.read_only else 'off'}",
             "-device", "virtio-blk-pci,drive=disk,serial=disk",
             *self.lines(),
