@@ -159,6 +159,8 @@ class Update(ImageTest):
         pack, = self.told()
         self.assertEqual((pack["outcome"], pack["refusal"]), ("refused", "not_a_pack"))
         self.assertIn("was tried here and did not start", pack["reason"])
+        self.assertNotRegex((self.logs / "serial.log").read_text(errors="replace"), "frustumscreen-stick@.*Stopping timed out",
+                            "a restart waited for the stick")
         self.assertFalse(self.pc.resets_within(30.0), "the machine starts again, with what failed")
 
     def test_does_not_boot(self):
