@@ -203,7 +203,7 @@ settings_of_image() {
 make_slot() {
     local slot=$work/slot blocks formatted
     # All files are root's: what others own is made at each start.
-    env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 64K -all-root -no-xattrs \
+    env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
         -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible -exit-on-error >/dev/null
     blocks=$(($(stat -c %s "$slot") / 4096))
     (($(stat -c %s "$slot") % 4096 == 0)) || fail "the root's file system does not end with a block of 4096 bytes"
