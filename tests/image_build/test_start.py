@@ -20,7 +20,7 @@ class Start(ImageTest):
         self.assertEqual(pc.check("hostname").strip(), f"frustumscreen-{machine_id[:6]}")
         self.assertIn("[integrity]", pc.check("cat /sys/kernel/security/lockdown"))
         self.assert_keyboard_is_not_used()
-        self.assertLess(memory.used_mb(pc), memory.LIMIT_MB - memory.LARGER_PICTURE_MB, "the system takes too much memory")
+        self.assertLess(memory.used_mb(pc), memory.LIMIT_MB, "the system takes too much memory")
         eventually(lambda: int(pc.check("stat -f -c %b /data")) * 4096 > 4 * small, 120.0, "the data partition does not grow")
         self.assertEqual(pc.check("systemctl --failed --no-legend").strip(), "")
         self.switch_off()

@@ -99,13 +99,13 @@ class Faults:
         return self.kiosk.until(lambda: self.kiosk.process_of(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
 
     def _disk_full(self):
-        """Only root could still write there; no block is written for it."""
+        """Only root could still write there; almost no block is written for it."""
         machine = self.kiosk.machine
         free = "df -k /data | awk 'NR == 2 { print $4 }'"
-        machine.check(f"fallocate -l $(($({free}) * 1024)) /data/full")
+        machine.check(f"fallocate -l $((($({free}) - 4096) * 1024)) /data/full && head -c 6291456 /dev/zero > /data/rest")
         is_full = int(machine.check(free)) == 0
         self.kiosk.rest(5.0)
-        machine.check("rm -f /data/full; sync")
+        machine.check("rm -f /data/full /data/rest; sync")
         return is_full
 
     def _clock_leaps(self):

@@ -18,6 +18,7 @@ from kiosk import HERE, Kiosk, walk
 import day
 import faults as fault_module
 import judge
+import memory  # from tests/image_build, by kiosk
 import write_report
 from family import Ended, Family  # from tests/hil, by kiosk
 
@@ -83,6 +84,7 @@ def main():
         kiosk.begin()
         kiosk.rest(SETTLE_S)
         ends_before = len(kiosk.ends())
+        say(f"the whole system takes {memory.used_mb(kiosk.machine):.0f} MB, without the test's agent")
         doer = fault_module.Faults(kiosk, packs, arguments.seed)
         say(f"{arguments.hours:g} hours of the exhibit's time in {60 * arguments.hours / arguments.pace:.0f} minutes, {len(events)} events")
         done = soak(kiosk, doer, events, 3600.0 * arguments.hours, arguments.pace)
