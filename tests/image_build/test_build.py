@@ -11,13 +11,14 @@ from image_test import IMAGE, long
 
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = CHECKOUT / "image_build" / "build"
+UPDATE_CA = CHECKOUT / "build" / "image" / "test_keys" / "update.crt"
 TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose password is "snakeoil"; never a museum's
 
 
 def build(*options):
     """As make_image.sh."""
-    return subprocess.run([BUILD, "--quick", "--newer", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], *options],
-                          capture_output=True, text=True, check=False)
+    return subprocess.run([BUILD, "--quick", "--newer", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"],
+                           "--update-ca", UPDATE_CA, *options], capture_output=True, text=True, check=False)
 
 
 def keys_in(folder):
