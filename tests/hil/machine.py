@@ -278,9 +278,9 @@ class Machine:
         return base64.b64decode(found["buf-b64"]).decode(errors="replace")
 
     def write(self, path, text):
-        """Writes a small file in the guest."""
-        encoded = base64.b64encode(text.encode()).decode()
-        self.check(f"echo {encoded} | base64 -d > {shlex.quote(path)}")
+        """Writes a small file in the guest; whoever reads it meanwhile reads the old one whole."""
+        encoded, path = base64.b64encode(text.encode()).decode(), shlex.quote(path)
+        self.check(f"echo {encoded} | base64 -d > {path}.new && mv {path}.new {path}")
 
     # Sticks at the USB ports.
 
