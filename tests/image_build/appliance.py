@@ -15,6 +15,7 @@ HIL = pathlib.Path(__file__).resolve().parent.parent / "hil"
 sys.path.insert(0, str(HIL))
 
 # pylint: disable=wrong-import-position
+import image as parts  # noqa: E402
 import screen  # noqa: E402
 from bench import Mock, eventually  # noqa: E402
 from machine import Machine  # noqa: E402
@@ -22,6 +23,7 @@ from machine import Machine  # noqa: E402
 FIRMWARE = pathlib.Path("/usr/share/OVMF")
 WIDTH, HEIGHT = 640, 400
 ESP, SLOT_A, SLOT_B, DATA = 1, 2, 3, 4  # partitions
+PARTITIONS = {ESP: "frustumscreen-esp", SLOT_A: "frustumscreen-a", SLOT_B: "frustumscreen-b", DATA: parts.DATA_PARTITION}
 LIT_S = 240.0  # from power on until the exhibit is lit; the firmware alone takes 15 to 20
 
 
@@ -75,10 +77,7 @@ class Appliance(Machine):
 
     def partition(self, number):
         """(offset, size) in bytes."""
-        listed = subprocess.run(["sfdisk", "--dump", self.disk], check=True, capture_output=True, text=True).stdout
-        row = [line for line in listed.splitlines() if line.startswith(f"{self.disk}{number} ")][0]
-        values = dict(word.strip().split("=", 1) for word in row.split(":", 1)[1].split(",") if "=" in word)
-        return 512 * int(values["start"]), 512 * int(values["size"])
+        return parts.partition(self.disk, PARTITIONS[number])
 
     def flip(self, offset):
         """Turns all bits of one byte of the disk."""

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,15 +14,8 @@
 
 namespace frustumscreen {
 
-class ProgramFolder : public ::testing::Test {
+class ProgramFolder : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
     /// `command` begins with a program's name; returns the exit status. Its output goes to out.txt and
     /// err.txt.
     [[nodiscard]] int run(const std::string& command) const {
@@ -35,8 +29,6 @@ protected:
         const Result<Bytes> bytes = read_file(folder / file);
         return bytes ? std::string(as_text(*bytes)) : std::string();
     }
-
-    std::filesystem::path folder;
 };
 
 } // namespace frustumscreen

@@ -1,23 +1,16 @@
 #include "app/show/last_good_settings.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 namespace frustumscreen {
 namespace {
 
 using std::chrono::seconds;
 
-class LastGoodSettings : public ::testing::Test {
+class LastGoodSettings : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     static RunStatus at(int second, Health health = Health::Well, std::string_view artifact = "Rings") {
         RunStatus status;
         status.written_at_monotonic = MonotonicTime(seconds(second));
@@ -29,7 +22,6 @@ protected:
         const Result<Bytes> bytes = read_file(folder / "kept.toml", 1000);
         return bytes ? std::string(as_text(*bytes)) : "";
     }
-    std::filesystem::path folder;
 };
 
 TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {

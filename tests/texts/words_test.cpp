@@ -3,9 +3,9 @@
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/words.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/texts/languages.h"
 
-#include <cstdlib>
 #include <filesystem>
 
 using namespace frustumscreen;
@@ -18,14 +18,8 @@ std::string refusal(std::string_view toml) {
     return words ? std::string() : words.error().message;
 }
 
-class WordsFolder : public ::testing::Test {
+class WordsFolder : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     void write(const std::string& name, std::string_view text) const {
         ASSERT_TRUE(write_file(folder / name, as_bytes(text)));
     }
@@ -33,8 +27,6 @@ protected:
     collect(const std::vector<std::string>& languages) const {
         return collect_words(folder, languages);
     }
-
-    std::filesystem::path folder;
 };
 
 const Word& word_of(const CollectedWords& words, std::string_view key) {
