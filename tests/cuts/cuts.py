@@ -32,7 +32,8 @@ PHASES = ("first start", "save", "import", "running", "update", "start")
 # What only a start with the firmware and the boot loader can tell about; they take most of a start's time
 OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "empty kernel image", "second partition table"}
 AGAIN = "after a cut: "
-CUTS_AGAIN = 20  # of a start after a cut
+CUTS_AGAIN = 40  # of a start after a cut
+KEPT_DISKS = 3  # faulty ones of each recording, for whoever looks into it
 ENOUGH = 40  # cuts while settings are saved, of which some must lose what was not synced: one in eight does
 
 
@@ -130,6 +131,8 @@ class Cuts:
                 self.faults.append(f"{label}{phase}, cut {number} (record {at}, seed {seed}): {fault}")
                 if heeds_flushes:
                     self.say(self.faults[-1])
+            if state.faults and heeds_flushes and faulty < KEPT_DISKS:
+                replay.keep(self.work / f"faulty-{now.stem.removeprefix('now-')}{number}.raw")
             row.faulty += bool(state.faults)
             faulty += bool(state.faults)
             is_new, known = bool(boots and state.notes - known), known | state.notes  # the first of each kind is started, too
@@ -181,8 +184,8 @@ class Cuts:
             cut.row.lit_s.append(lit_s)
         self.say(f"{cut.phase}, cut {cut.number} started {'with' if with_firmware else 'without'} the firmware: "
                  f"{wrong or f'lit after {lit_s:.0f} s'} ({time.monotonic() - begun:.0f} s)")
-        if is_recorded and not wrong:
-            self.look(folder, CUTS_AGAIN, 0, chance, label=AGAIN, must=copy.deepcopy(cut.must))
+        if is_recorded and not wrong and self.look(folder, CUTS_AGAIN, 0, chance, label=AGAIN, must=copy.deepcopy(cut.must)):
+            return  # the recording is kept
         shutil.rmtree(folder)
 
     @staticmethod

@@ -220,7 +220,7 @@ class Checker:
         image = self.folder / "data.img"
         copy_part(disk, *place, image)
         begun = time.monotonic()
-        status = _run("e2fsck", "-p", image).returncode
+        status = _run("e2fsck", "-f", "-p", image).returncode
         if status & 3:
             state.notes.add("e2fsck -p mended")
         for _ in range(3):
@@ -233,7 +233,7 @@ class Checker:
             return
         whole = _run("e2fsck", "-f", "-n", image)
         if whole.returncode != 0:
-            state.faults.append(f"what e2fsck -p has passed is damaged: {whole.stdout.strip().splitlines()[1:4]}")
+            state.faults.append(f"what e2fsck has passed is damaged: {whole.stdout.strip().splitlines()[1:4]}")
         tree = self.folder / "tree"
         shutil.rmtree(tree, ignore_errors=True)
         tree.mkdir()

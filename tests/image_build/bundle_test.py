@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Updates of the kiosk's system, without a machine: what ./image_build/bundle makes, read by RAUC itself; and boot-slots on a folder.
+"""Updates of the kiosk's system, without a machine: what ./image_build/bundle makes, read by RAUC itself; boot-slots on a folder; and
+trim-boot-folder on a boot partition.
 
 bundle_test.py [unittest's arguments]
 """
@@ -15,6 +16,7 @@ import unittest
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 BUNDLE = TOP / "image_build/bundle"
 BOOT_SLOTS = TOP / "image_build/files/usr/lib/frustumscreen/boot-slots"
+TRIM = TOP / "image_build/files/usr/lib/frustumscreen/trim-boot-folder"
 RUNNING, OTHER = "aa" * 32, "bb" * 32  # hashes of roots
 
 
@@ -201,6 +203,86 @@ class BootSlots(Folder):
         for version in ("1.3.0", "1.4.0"):
             self.image(f"frustumscreen_{version}.efi", OTHER, self.folder / "bundle")
         self.refuses("set-primary", "b")
+
+
+class TrimBootFolder(Folder):
+    """mkfs.fat and mtools make the boot partition; the bytes of its folder say what was done."""
+
+    def setUp(self):
+        super().setUp()
+        self.disk = self.folder / "esp.img"
+        self.made("mkfs.fat", "-C", "-F", "32", "-s", "1", self.disk, 40960)
+        for name in ("EFI", "EFI/Linux"):
+            self.made("mmd", "-i", self.disk, f"::{name}")
+
+    def made(self, *command):
+        done = run(*command, env={"PATH": os.environ["PATH"] + ":/usr/sbin:/sbin", "MTOOLS_SKIP_CHECK": "1"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def put(self, *names):
+        for name in names:
+            (self.folder / "file").write_text(name, encoding="ascii")
+            self.made("mcopy", "-i", self.disk, self.folder / "file", f"::EFI/Linux/{name}")
+
+    def remove(self, *names):
+        for name in names:
+            self.made("mdel", "-i", self.disk, f"::EFI/Linux/{name}")
+
+    def images(self):
+        listed = self.made("mdir", "-b", "-i", self.disk, "::EFI/Linux").split()
+        names = [path.rpartition("/")[2] for path in listed]
+        for name in names:
+            self.assertEqual(self.made("mtype", "-i", self.disk, f"::EFI/Linux/{name}"), name)
+        self.made("fsck.fat", "-n", self.disk)
+        return names
+
+    def kinds(self):
+        """The first byte of each name of the folder, "." not: a removed one is e5, and 0 is behind the last."""
+        data = self.disk.read_bytes()
+        place = data.index(b".          ")
+        while data[place + 32:place + 34] != b".." or data[place - 512:place - 511] != b".":  # EFI/Linux is behind EFI
+            place = data.index(b".          ", place + 1)
+        return [data[at] for at in range(place + 64, place + 512, 32)]
+
+    def trim(self):
+        return run(TRIM, self.disk)
+
+    def test_removed_names_at_the_end_go(self):
+        self.put("frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
+        self.remove("frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
+        self.assertEqual(self.kinds().count(0xE5), 7)
+        self.assertEqual((self.trim().returncode, self.kinds()[3:]), (0, [0] * 11))
+        self.assertEqual(self.images(), ["frustumscreen_0.1.0+5.efi"])
+
+    def test_removed_names_before_others_stay(self):
+        self.put("frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
+        self.remove("frustumscreen_0.1.0+5.efi")
+        before = self.disk.read_bytes()
+        self.assertEqual((self.trim().returncode, self.disk.read_bytes() == before), (0, True))
+        self.assertEqual(self.images(), ["frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi"])
+
+    def test_a_folder_of_many_sectors(self):
+        names = [f"frustumscreen_0.{number}.0+5.efi" for number in range(40)]
+        self.put(*names)
+        self.remove(*names[2:])
+        self.assertEqual((self.trim().returncode, self.kinds()[6:]), (0, [0] * 8))
+        self.put("frustumscreen_1.0.0+3.efi")  # nothing that was there before comes back
+        self.assertEqual(self.images(), [*names[:2], "frustumscreen_1.0.0+3.efi"])
+
+    def test_what_is_no_boot_partition(self):
+        for disk, words in ((bytes(1 << 20), "no FAT32"), (None, "no folder EFI/Linux")):
+            if disk is None:
+                self.made("mdeltree", "-i", self.disk, "::EFI/Linux")
+            else:
+                self.disk, whole = self.folder / "other.img", self.disk
+                self.disk.write_bytes(disk)
+            before = self.disk.read_bytes()
+            done = self.trim()
+            self.assertEqual((done.returncode, self.disk.read_bytes() == before), (1, True))
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.disk = whole
 
 
 if __name__ == "__main__":
