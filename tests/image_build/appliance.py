@@ -108,6 +108,10 @@ class Appliance(Machine):
         screen.write_png(self.logs / "lit.png", picture)
         return picture
 
+    def firmware_starts(self):
+        """How often the firmware has started the disk since power on, as it says on the serial line."""
+        return (self.logs / "serial.log").read_bytes().count(b"BdsDxe: starting Boot")
+
     def notes(self):
         """What the start has to say of the disk; empty: nothing was wrong."""
         return self.run("cat /run/frustumscreen-boot/notes 2>/dev/null").output
