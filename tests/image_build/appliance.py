@@ -95,6 +95,11 @@ class Appliance(Machine):
 
     # While it runs.
 
+    def let_disk_hang(self, hangs):
+        """What is asked of it waits: a byte in each second is none."""
+        limits = {name: 0 for name in ("bps", "bps_rd", "bps_wr", "iops", "iops_rd", "iops_wr")}
+        self.monitor("block_set_io_throttle", device="disk", **{**limits, "bps": int(hangs)})
+
     def lit_picture(self):
         path = self.sockets / "screen.ppm"
         self.screendump(path)

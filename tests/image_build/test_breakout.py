@@ -22,7 +22,7 @@ COMBINATIONS = [
     ("sleep",), ("wake",), ("num_lock",), ("insert",), ("delete",), ("power",), *((key,) for key in "root"), ("ret",), ("ret",)]
 NETWORK = ("e1000e", "virtio-net-pci")
 MENU_S = 60.0
-HEALS_S = 420.0  # the firmware's watchdog is five minutes
+MENU_STAYS_S = 330.0  # the firmware's watchdog would be five minutes
 LOADER_VARIABLES = "ls /sys/firmware/efi/efivars | grep -e ^LoaderEntryDefault -e ^LoaderConfig -e ^LoaderEntryOneShot"
 
 
@@ -189,15 +189,15 @@ class BreakOut(ImageTest):
         self.assert_nobody_is_in()
 
     def test_menu_is_left_alone(self):
-        """Somebody holds a key at power on and goes away: the firmware's watchdog starts the machine again."""
+        """Somebody holds a key at power on and goes away: the menu stays, since systemd-boot stops the firmware's watchdog for it.
+        Return, or the power switch, ends it."""
         self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
 
         def hold():
             self.call_menu("x")
             self.pc.may_start_anew()
-            begun = time.monotonic()
-            self.assertTrue(self.pc.resets_within(HEALS_S), "the menu stays for ever")
-            print(f"\nthe menu stood for {time.monotonic() - begun:.0f} s", flush=True)
+            self.assertFalse(self.pc.resets_within(MENU_STAYS_S), "the menu ends by itself: docs/security.md says that it does not")
+            self.pc.press("ret")
 
         self.pc.at_power_on = hold
         self.start()

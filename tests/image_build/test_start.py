@@ -6,6 +6,8 @@ from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, screen
 from image_test import IMAGE, ImageTest, long
 import memory
 
+HANGS_S = 300.0  # that a disk answers nothing
+
 
 class Start(ImageTest):
     def test_first_start(self):
@@ -124,6 +126,29 @@ class Start(ImageTest):
         self.switch_off()
         self.start()
         self.assertIn("100%", self.pc.check("df /data"))
+
+    @long
+    def test_disk_that_hangs(self):
+        """It answers nothing any more, as a worn one does, until the machine is started again: at most once, and lit at the end."""
+        self.start()
+        self.pc.may_start_anew()
+        self.pc.check("sync")
+        self.pc.let_disk_hang(True)
+        begun = self.pc.granted_s()
+        self.pc.spawn("echo 3 > /proc/sys/vm/drop_caches; cat /usr/bin/* > /dev/null; touch /data/hung; sync")
+        dark, restart_s = [], None
+        while restart_s is None and self.pc.granted_s() < begun + HANGS_S:
+            if self.pc.resets_within(5.0):
+                restart_s = self.pc.granted_s() - begun
+            elif self.pc.lit_picture() is None:
+                dark.append(round(self.pc.granted_s() - begun))
+        self.pc.let_disk_hang(False)
+        print(f"\nthe disk hangs: restart after {restart_s} s, dark seen at {dark} s", flush=True)
+        self.pc.wait_until_lit()
+        print(f"lit {self.pc.granted_s() - begun:.0f} s after the disk hung", flush=True)
+        self.assertTrue(restart_s or not dark, "dark, and nothing starts the machine again")
+        self.assertFalse(self.pc.resets_within(60.0), "it starts more than once")
+        self.pc.wait_until_lit()
 
     @long
     def test_root_in_the_other_slot(self):
