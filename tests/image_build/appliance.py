@@ -87,11 +87,11 @@ class Appliance(Machine):
             disk.seek(offset)
             disk.write(bytes([byte[0] ^ 0xFF]))
 
-    def fill(self, number, byte=b"\0"):
-        """Overwrites a partition's first 8 MiB."""
+    def fill(self, number, byte=b"\0", size=8 << 20):
+        """Overwrites the beginning of a partition."""
         with open(self.disk, "r+b") as disk:
             disk.seek(self.partition(number)[0])
-            disk.write(byte * (8 << 20))
+            disk.write(byte * size)
 
     # While it runs.
 

@@ -42,7 +42,8 @@ class ImageTest(unittest.TestCase):
 
     def say_lit(self):
         """For the tables in docs/: the guest's seconds since power on, and how often the machine was started since."""
-        print(f"\n{self.id().rsplit('.', 1)[-1]}: lit {self.pc.granted_s():.0f} s after power on, {self.pc.firmware_starts()} starts", flush=True)
+        print(f"\n{self.id().rsplit('.', 1)[-1]}: lit {self.pc.granted_s():.0f} s after power on, {self.pc.firmware_starts()} starts; "
+              f"{self.pc.notes()}", flush=True)
 
     def switch_off(self):
         """By the plug, not by a command."""

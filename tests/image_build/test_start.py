@@ -91,8 +91,19 @@ class Start(ImageTest):
 
     @long
     def test_data_partition_overwritten(self):
-        self.pc.fill(DATA, b"\xa5")
+        """All of it: nothing is left to mend."""
+        self.pc.fill(DATA, b"\xa5", self.pc.partition(DATA)[1])
         self.assert_lit_on_memory()
+
+    @long
+    def test_data_partition_overwritten_at_its_beginning(self):
+        """The copies of the superblock are behind it: a file system again, without what was in it."""
+        self.pc.fill(DATA, b"\xa5")
+        self.start()
+        self.assertRegex(self.pc.notes(), "^data: the data partition was damaged and is mended")
+        self.machine_id()
+        self.pc.check("touch /var/lib/frustumscreen/new /etc/frustumscreen/new")
+        self.assertIn(" /data ext4 rw", self.pc.check("cat /proc/mounts"))
 
     @long
     def test_data_partition_missing(self):
@@ -144,6 +155,8 @@ class Start(ImageTest):
                 dark.append(round(self.pc.granted_s() - begun))
         self.pc.let_disk_hang(False)
         print(f"\nthe disk hangs: restart after {restart_s} s, dark seen at {dark} s", flush=True)
+        if restart_s:
+            self.pc.wait_for_start()  # the card shows the old picture for a while
         self.pc.wait_until_lit()
         print(f"lit {self.pc.granted_s() - begun:.0f} s after the disk hung", flush=True)
         self.assertTrue(restart_s or not dark, "dark, and nothing starts the machine again")
