@@ -87,13 +87,18 @@ class Appliance(Machine):
             disk.seek(offset)
             disk.write(bytes([byte[0] ^ 0xFF]))
 
-    def fill(self, number, byte=b"\0"):
-        """Overwrites a partition's first 8 MiB."""
+    def fill(self, number, byte=b"\0", size=8 << 20):
+        """Overwrites the beginning of a partition."""
         with open(self.disk, "r+b") as disk:
             disk.seek(self.partition(number)[0])
-            disk.write(byte * (8 << 20))
+            disk.write(byte * size)
 
     # While it runs.
+
+    def let_disk_hang(self, hangs):
+        """What is asked of it waits: a byte in each second is none."""
+        limits = {name: 0 for name in ("bps", "bps_rd", "bps_wr", "iops", "iops_rd", "iops_wr")}
+        self.monitor("block_set_io_throttle", device="disk", **{**limits, "bps": int(hangs)})
 
     def lit_picture(self):
         path = self.sockets / "screen.ppm"
@@ -107,6 +112,10 @@ class Appliance(Machine):
         picture = eventually(self.lit_picture, timeout_s, "the screen stays dark")
         screen.write_png(self.logs / "lit.png", picture)
         return picture
+
+    def firmware_starts(self):
+        """How often the firmware has started the disk since power on, as it says on the serial line."""
+        return (self.logs / "serial.log").read_bytes().count(b"BdsDxe: starting Boot")
 
     def notes(self):
         """What the start has to say of the disk; empty: nothing was wrong."""

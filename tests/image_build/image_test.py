@@ -38,6 +38,12 @@ class ImageTest(unittest.TestCase):
         Patience.clock = self.pc.granted_s
         self.addCleanup(setattr, Patience, "clock", time.monotonic)
         self.pc.wait_until_lit()
+        self.say_lit()
+
+    def say_lit(self):
+        """For the tables in docs/: the guest's seconds since power on, and how often the machine was started since."""
+        print(f"\n{self.id().rsplit('.', 1)[-1]}: lit {self.pc.granted_s():.0f} s after power on, {self.pc.firmware_starts()} starts; "
+              f"{self.pc.notes()}", flush=True)
 
     def switch_off(self):
         """By the plug, not by a command."""

@@ -22,7 +22,7 @@ COMBINATIONS = [
     ("sleep",), ("wake",), ("num_lock",), ("insert",), ("delete",), ("power",), *((key,) for key in "root"), ("ret",), ("ret",)]
 NETWORK = ("e1000e", "virtio-net-pci")
 MENU_S = 60.0
-HEALS_S = 420.0  # the firmware's watchdog is five minutes
+MENU_STAYS_S = 330.0  # the firmware's watchdog would be five minutes
 LOADER_VARIABLES = "ls /sys/firmware/efi/efivars | grep -e ^LoaderEntryDefault -e ^LoaderConfig -e ^LoaderEntryOneShot"
 
 
@@ -159,7 +159,7 @@ class BreakOut(ImageTest):
             self.type_on_serial_line()
         with self.subTest("the judge sees a console that was switched"):
             self.pc.write("/run/map.hex", KEYMAP.hex())
-            self.pc.check("xxd -r -p /run/map.hex | loadkmap")
+            self.pc.check("xxd -r -p /run/map.hex | loadkmap; : > /dev/tty2")  # the kernel shows no console that nobody has opened
             self.pc.press("ctrl", "alt", "f2", pause_s=2.0)
             self.assert_seen("true", "the console shows ['tty2']")
 
@@ -172,7 +172,7 @@ class BreakOut(ImageTest):
     def assert_keys_come(self):
         """The kernel counts them."""
         event = self.pc.check("sed -n '/Keyboard/,/^$/s/.*\\(event[0-9]*\\).*/\\1/p' /proc/bus/input/devices").split()[0]
-        self.pc.check(f"cat /dev/input/{event} > /run/typed & sleep 1")
+        self.pc.check(f"cat /dev/input/{event} > /run/typed 2> /dev/null & sleep 1")
         self.pc.press("a")
         eventually(lambda: int(self.pc.check("stat -c %s /run/typed")) > 0, 10.0, "no key comes")
         self.pc.check("kill $(pidof cat); rm /run/typed")
@@ -189,15 +189,15 @@ class BreakOut(ImageTest):
         self.assert_nobody_is_in()
 
     def test_menu_is_left_alone(self):
-        """Somebody holds a key at power on and goes away: the firmware's watchdog starts the machine again."""
+        """Somebody holds a key at power on and goes away: the menu stays, since systemd-boot stops the firmware's watchdog for it.
+        Return, or the power switch, ends it."""
         self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
 
         def hold():
             self.call_menu("x")
             self.pc.may_start_anew()
-            begun = time.monotonic()
-            self.assertTrue(self.pc.resets_within(HEALS_S), "the menu stays for ever")
-            print(f"\nthe menu stood for {time.monotonic() - begun:.0f} s", flush=True)
+            self.assertFalse(self.pc.resets_within(MENU_STAYS_S), "the menu ends by itself: docs/security.md says that it does not")
+            self.pc.press("ret")
 
         self.pc.at_power_on = hold
         self.start()

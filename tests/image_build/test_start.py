@@ -6,6 +6,8 @@ from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, screen
 from image_test import IMAGE, ImageTest, long
 import memory
 
+HANGS_S = 300.0  # that a disk answers nothing
+
 
 class Start(ImageTest):
     def test_first_start(self):
@@ -89,8 +91,19 @@ class Start(ImageTest):
 
     @long
     def test_data_partition_overwritten(self):
-        self.pc.fill(DATA, b"\xa5")
+        """All of it: nothing is left to mend."""
+        self.pc.fill(DATA, b"\xa5", self.pc.partition(DATA)[1])
         self.assert_lit_on_memory()
+
+    @long
+    def test_data_partition_overwritten_at_its_beginning(self):
+        """The copies of the superblock are behind it: a file system again, without what was in it."""
+        self.pc.fill(DATA, b"\xa5")
+        self.start()
+        self.assertRegex(self.pc.notes(), "^data: the data partition was damaged and is mended")
+        self.machine_id()
+        self.pc.check("touch /var/lib/frustumscreen/new /etc/frustumscreen/new")
+        self.assertIn(" /data ext4 rw", self.pc.check("cat /proc/mounts"))
 
     @long
     def test_data_partition_missing(self):
@@ -124,6 +137,31 @@ class Start(ImageTest):
         self.switch_off()
         self.start()
         self.assertIn("100%", self.pc.check("df /data"))
+
+    @long
+    def test_disk_that_hangs(self):
+        """It answers nothing any more, as a worn one does, until the machine is started again: at most once, and lit at the end."""
+        self.start()
+        self.pc.may_start_anew()
+        self.pc.check("sync")
+        self.pc.let_disk_hang(True)
+        begun = self.pc.granted_s()
+        self.pc.spawn("echo 3 > /proc/sys/vm/drop_caches; cat /usr/bin/* > /dev/null; touch /data/hung; sync")
+        dark, restart_s = [], None
+        while restart_s is None and self.pc.granted_s() < begun + HANGS_S:
+            if self.pc.resets_within(5.0):
+                restart_s = self.pc.granted_s() - begun
+            elif self.pc.lit_picture() is None:
+                dark.append(round(self.pc.granted_s() - begun))
+        self.pc.let_disk_hang(False)
+        print(f"\nthe disk hangs: restart after {restart_s} s, dark seen at {dark} s", flush=True)
+        if restart_s:
+            self.pc.wait_for_start()  # the card shows the old picture for a while
+        self.pc.wait_until_lit()
+        print(f"lit {self.pc.granted_s() - begun:.0f} s after the disk hung", flush=True)
+        self.assertTrue(restart_s or not dark, "dark, and nothing starts the machine again")
+        self.assertFalse(self.pc.resets_within(60.0), "it starts more than once")
+        self.pc.wait_until_lit()
 
     @long
     def test_root_in_the_other_slot(self):
