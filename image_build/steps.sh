@@ -151,6 +151,9 @@ make_root() {
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"
+    while read -r name; do # else a new version of a library would make starts slower, and nobody would see why
+        [[ -e $root/$name ]] || fail "files/usr/share/frustumscreen/read_ahead names /$name, which the root does not have; name what took its place"
+    done <"$root/usr/share/frustumscreen/read_ahead"
     find "$root" -type f -printf '%s\t%P\n' | sort -k 2 | awk -F '\t' -v OFS='\t' \
         'NR == FNR { known[$3]; next } !($2 in known) { print $1, "what the image adds: words, units, users, indexes of modules", $2 }' \
         "$work/kept" - >"$work/added"
