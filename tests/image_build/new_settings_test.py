@@ -2,7 +2,7 @@
 """What a kiosk does with settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
 what it is asked for.
 
-settings_test.py [unittest's arguments]
+new_settings_test.py [unittest's arguments]
 """
 
 import json
