@@ -261,6 +261,7 @@ make_disk() {
     image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
     rm -f "$out"/frustumscreen_*.{slot,efi} # of another version
     mv "$work/disk" "$out/frustumscreen.raw"
+    cp "$work/kiosk.toml" "$out/" # for a technician to begin with
     mv "$work/slot" "$out/frustumscreen_$version.slot"
     mv "$work/kernel.efi" "$out/frustumscreen_$version.efi"
     cp "$work/kept" "$out/kept.tsv"

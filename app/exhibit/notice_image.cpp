@@ -113,6 +113,17 @@ public:
         }
     }
 
+    /// The kiosk's own typeface, from left to right: it is English, for a technician.
+    void remark(const std::string& text) {
+        if (text.empty() || !type_.typesetter.can_set(text)) {
+            return;
+        }
+        const Paragraph paragraph{text, em_px_, false, 1.0, 0.0};
+        top_ += px_of(between_packs_em);
+        add({type_.typesetter.set(std::span(&paragraph, 1), width_em_ * em_px_), 0}, 0, top_,
+            caption_text_brightness);
+    }
+
     [[nodiscard]] NoticeShape drawn() const {
         NoticeShape shape;
         shape.image.coverage = Coverage(std::max(width_, 1), std::max(height_, 1));
@@ -200,6 +211,7 @@ NoticeShape shape_of(const NoticeText& text, double width_em, bool in_columns, c
     } else {
         page.stacked(text.lines);
     }
+    page.remark(text.remark);
     return page.drawn();
 }
 

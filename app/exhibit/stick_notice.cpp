@@ -1,6 +1,7 @@
 #include "app/exhibit/stick_notice.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/library/stick_settings.h"
 
 #include <fmt/format.h>
 
@@ -103,6 +104,14 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
     return lines;
 }
 
+/// Where no shell is, nobody else tells the technician which line is wrong.
+std::string remark_of(const ImportReport& report) {
+    const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
+        return pack.file == settings_file_name && pack.outcome == ImportOutcome::Refused;
+    });
+    return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
+}
+
 } // namespace
 
 std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal) {
@@ -134,10 +143,11 @@ NoticeText notice_text(const ImportReport& report, std::size_t most_lines) {
             text.sentences.emplace_back("stick.take_out");
         }
         text.lines = lines_of(report, most_lines);
+        text.remark = remark_of(report);
         return text;
     }
     }
-    NoticeText text{{"stick.take_out"}, lines_of(report, most_lines), false};
+    NoticeText text{{"stick.take_out"}, lines_of(report, most_lines), false, remark_of(report)};
     if (text.lines.empty()) {
         text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
     }

@@ -36,6 +36,7 @@ struct NoticeText {
     std::vector<std::string_view> sentences; ///< keys, one below the other
     std::vector<NoticeLine> lines;           ///< refusals first
     bool ring = false;
+    std::string remark{}; ///< what is wrong with the stick's settings, in English; empty: nothing
     [[nodiscard]] bool operator==(const NoticeText&) const = default;
 };
 inline constexpr std::size_t most_notice_lines = 8;

@@ -92,6 +92,9 @@ void Import::tell(ImportStage stage) {
     report_.stage = stage;
     told_ = outside_.now();
     report_.packs.clear();
+    if (request_.settings) {
+        report_.packs.push_back(*request_.settings);
+    }
     if (exhibit_line_) {
         report_.packs.push_back(*exhibit_line_);
     }

@@ -1,5 +1,6 @@
 #include "app/library/library_folder.h"
 
+#include "app/library/tree_text.h"
 #include "app/pack/sha256.h"
 #include "firmware_host/base/file.h"
 
@@ -15,21 +16,6 @@ namespace {
 
 constexpr std::size_t most_verdict_bytes = 64U << 10U;
 constexpr std::string_view pack_ending = ".fspack";
-
-FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t most_bytes) {
-    const FileResult<std::unique_ptr<const FileContent>> file = tree.open(std::string(path));
-    if (!file) {
-        return tl::unexpected<FileFault>(file.error());
-    }
-    if ((*file)->bytes() > most_bytes) {
-        return file_fault(EFBIG);
-    }
-    std::string text((*file)->bytes(), '\0');
-    if (const int fault = (*file)->read(0, std::as_writable_bytes(std::span(text))); fault != 0) {
-        return file_fault(fault);
-    }
-    return text;
-}
 
 void note_files(const InstalledSet& set, std::set<std::string>& named) {
     for (const InstalledPack& pack : set.packs) {
@@ -96,20 +82,9 @@ FileResult<void> settle(WritableTree& library) {
 }
 
 FileResult<void> switch_to(WritableTree& library, const SetFile& file) {
-    const std::string text = write_set_file(file);
-    const std::string next(next_set_file_name);
-    {
-        const FileResult<std::unique_ptr<NewFile>> created = library.create(next);
-        if (!created) {
-            return tl::unexpected<FileFault>(created.error());
-        }
-        const FileResult<void> written =
-            (*created)->append(as_bytes(text)).and_then([&] { return (*created)->sync(); });
-        if (!written) {
-            return written;
-        }
-    }
-    return library.rename(next, std::string(set_file_name)).and_then([&] { return library.sync_folder(""); });
+    return replace_text(library, set_file_name, next_set_file_name, write_set_file(file)).and_then([&] {
+        return library.sync_folder("");
+    });
 }
 
 void clear_away(WritableTree& library, const SetFile& file) {

@@ -51,6 +51,16 @@ TEST(NoticeText, each_stage_has_its_sentence_and_its_ring) {
     EXPECT_EQ(notice_text(failed).sentences, (Keys{"stick.refused.unreadable"}));
 }
 
+TEST(NoticeText, wrong_settings_are_told_with_their_line) {
+    ImportReport report = report_of("a", ImportStage::Done);
+    report.packs = {{"kiosk.toml", "", ImportOutcome::Refused, ImportRefusal::NotAPack, "line 3: no"},
+                    {"vase.fspack", "", ImportOutcome::Refused, ImportRefusal::Unsigned, "it is not signed"}};
+    EXPECT_EQ(notice_text(report).remark, "kiosk.toml: line 3: no");
+    EXPECT_EQ(notice_text(report).lines.size(), 2U);
+    report.packs.front() = {"kiosk.toml", "", ImportOutcome::Taken, ImportRefusal::None, ""};
+    EXPECT_EQ(notice_text(report).remark, "") << "what a curator must mend is in the report alone";
+}
+
 TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
     std::set<std::string> keys;
     for (const auto& [key, letters] : synthetic::stick_words()) {

@@ -34,7 +34,8 @@ constexpr const char* sources[] = {"app/exhibit",
                                    "firmware_host/sound",
                                    "firmware_host/tracker",
                                    "app/library/library_folder.cpp",
-                                   "app/library/set_file.cpp"};
+                                   "app/library/set_file.cpp",
+                                   "app/library/stick_settings.cpp"};
 
 /// What has sentences that none of the three pictures shows.
 struct LeftOut {

@@ -3,6 +3,8 @@
 #include "app/library/import_end.h"
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
+#include "app/library/stick_settings.h"
+#include "app/library/trusted_keys.h"
 #include "app/pack/key_folder.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/listed_keys.h"
@@ -152,9 +154,29 @@ void wait_for_readers(const ImportArguments& arguments, const std::string& id) {
     std::this_thread::sleep_for(wait_before_first_word(last_report(arguments), id, age, stands));
 }
 
-/// Nothing of the stick was looked at.
+/// The kiosk's settings, before they are asked whose packs to believe: the stick may bring other keys.
+std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
+                                             const ImportArguments& arguments, std::chrono::sys_days clock) {
+    const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
+    if (!folder) {
+        return std::nullopt; // this kiosk has none to be replaced
+    }
+    const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
+    std::optional<ImportedPack> told =
+        take_settings(stick, **folder, day_here(clock, set ? set->latest_day : ""));
+    if (told && told->outcome == ImportOutcome::Taken && !arguments.report.empty()) {
+        const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
+        if (const Result<void> marked = write_file(mark, {}); !marked) {
+            fmt::print(stderr, "frustumscreen-import: {}\n", marked.error().message);
+        }
+    }
+    return told;
+}
+
+/// Nothing of the stick was looked at, but its settings.
 ImportReport tell_failed(const ImportArguments& arguments, const std::string& id, ImportRefusal refusal,
-                         const std::string& reason) {
+                         const std::string& reason,
+                         const std::optional<ImportedPack>& settings = std::nullopt) {
     ImportReport report;
     report.import_id = id;
     report.stick = printable(arguments.label);
@@ -162,6 +184,9 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     report.refusal = refusal;
     report.reason = reason;
     report.set_number = set_number(arguments);
+    if (settings) {
+        report.packs.push_back(*settings);
+    }
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
 }
@@ -177,6 +202,9 @@ ImportReport import_from(const ImportArguments& arguments) {
     const Result<FolderLock> lock =
         make_folder(arguments.into).and_then([&] { return FolderLock::wait_for(arguments.into); });
     const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
+    if (stick && lock && library && !arguments.settings.empty()) {
+        request.settings = take_settings_of(**stick, **library, arguments, *request.today);
+    }
     const Result<void> trusted = read_trust(arguments, request);
     wait_for_readers(arguments, request.import_id);
     if (!stick) {
@@ -186,7 +214,8 @@ ImportReport import_from(const ImportArguments& arguments) {
                                    .and_then([&] { return library.map([](const auto&) {}); })
                                    .and_then([&] { return trusted; });
     if (!ready) {
-        return tell_failed(arguments, request.import_id, ImportRefusal::Unwritable, ready.error().message);
+        return tell_failed(arguments, request.import_id, ImportRefusal::Unwritable, ready.error().message,
+                           request.settings);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
     const ImportSurroundings outside{monotonic_now, processor_time, [&](const ImportReport& report) {

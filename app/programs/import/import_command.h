@@ -19,6 +19,9 @@ struct ImportArguments {
     std::filesystem::path into;   ///< the installed set's; it is made where it is missing
     std::filesystem::path keys;   ///< folder of *.pub; empty: those of `config`
     std::filesystem::path config; ///< settings; empty: none
+    /// Folder of the kiosk's own kiosk.toml, which the stick's replaces (library/stick_settings.h); empty, or not there: it is left
+    /// alone. What was taken is marked by a file settings-taken beside the report.
+    std::filesystem::path settings;
     std::filesystem::path report; ///< file; empty: none
     std::string label;            ///< the stick's
     std::string id;               ///< of this import; empty: a new one

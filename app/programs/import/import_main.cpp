@@ -79,6 +79,9 @@ int run(int argc, char** argv) {
     auto* keys = app.add_option("--keys", arguments.keys, "folder of the museum's public keys (*.pub)");
     auto* config =
         app.add_option("--config", arguments.config, "settings (TOML): exhibit.keys, exhibit.unsigned");
+    app.add_option("--settings", arguments.settings,
+                   "folder of the kiosk's own kiosk.toml: the stick's replaces it, signed if it names a key; "
+                   "a file settings-taken beside the report says so");
     app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
         ->check(CLI::IsMember({"refuse", "allow"}));
     auto* report = app.add_option("--report", arguments.report,

@@ -150,8 +150,12 @@ void add_signing_commands(CLI::App& app, Request& request) {
     CLI::App* to_keygen = app.add_subcommand(
         "keygen", "makes a pair of keys in minisign's format; on a terminal it asks for a password");
     to_keygen->add_option("-o,--output", request.key_name, "NAME: writes NAME.key and NAME.pub")->required();
-    CLI::App* to_sign = app.add_subcommand("sign", "signs packs, and set files (*.toml -> *.toml.minisig)");
-    to_sign->add_option("FILE", request.sign.files, "packs (*.fspack), set files (*.toml)")->required();
+    CLI::App* to_sign = app.add_subcommand(
+        "sign", "signs packs, set files and a kiosk's settings (*.toml -> *.toml.minisig)");
+    to_sign
+        ->add_option("FILE", request.sign.files,
+                     "packs (*.fspack), set files (*.toml), settings (kiosk.toml)")
+        ->required();
     to_sign->add_option("--key", request.sign.key, "the secret key (NAME.key)")->required();
     to_sign
         ->add_option("--serial", request.sign.serial,

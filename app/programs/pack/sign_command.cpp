@@ -1,6 +1,7 @@
 #include "app/programs/pack/sign_command.h"
 
 #include "app/library/exhibit_file.h"
+#include "app/library/stick_settings.h"
 #include "app/pack/limits.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
@@ -12,6 +13,7 @@
 #include "app/pack/zip_archive.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/password_prompt.h"
+#include "app/settings/settings.h"
 #include "firmware_host/base/open_file.h"
 #include "firmware_host/base/printable.h"
 
@@ -130,14 +132,23 @@ Error named(const std::string& file, Error error) {
     return error;
 }
 
-Result<std::uint64_t> sign_set_file(const SignRequest& request, const SecretKey& key,
-                                    const std::string& file) {
+/// A kiosk's settings are told by their name, which they must have on the stick; any other *.toml is a set file.
+Result<void> check_sound(std::string_view text, const std::string& file) {
+    if (std::filesystem::path(file).filename() == settings_file_name) {
+        return parse_settings(text, file).map([](const CheckedSettings&) {});
+    }
+    const Result<ExhibitFile> sound = parse_exhibit_file(text);
+    return sound ? Result<void>() : tl::unexpected<Error>(named(file, sound.error()));
+}
+
+Result<std::uint64_t> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
+    static_assert(most_stick_settings_bytes == most_exhibit_file_bytes);
     const Result<Bytes> text = read_file(file, most_exhibit_file_bytes);
     if (!text) {
         return tl::unexpected<Error>(text.error());
     }
-    if (const Result<ExhibitFile> sound = parse_exhibit_file(as_text(*text)); !sound) {
-        return tl::unexpected<Error>(named(file, sound.error()));
+    if (const Result<void> sound = check_sound(as_text(*text), file); !sound) {
+        return tl::unexpected<Error>(sound.error());
     }
     const std::string beside = file + ".minisig";
     const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
@@ -150,7 +161,7 @@ Result<std::uint64_t> sign_set_file(const SignRequest& request, const SecretKey&
 }
 
 Result<std::uint64_t> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    return file.ends_with(".toml") ? sign_set_file(request, key, file) : sign_pack(request, key, file);
+    return file.ends_with(".toml") ? sign_text(request, key, file) : sign_pack(request, key, file);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-/// frustumscreen-pack sign: signatures into packs, and beside set files.
+/// frustumscreen-pack sign: signatures into packs, and beside set files and a kiosk's settings.
 ///
 /// Errors   one sentence, beginning with the file's name. A file that fails stays as it was, and the others are signed.
 /// Threads  one caller.
@@ -15,7 +15,7 @@
 namespace frustumscreen {
 
 struct SignRequest {
-    std::vector<std::string> files; ///< packs, or set files (*.toml)
+    std::vector<std::string> files; ///< packs; set files (*.toml); a kiosk's settings (kiosk.toml)
     std::filesystem::path key;
     std::optional<std::uint64_t> serial; ///< none: `now_s`
     std::uint64_t now_s = 0;             ///< since 1970

@@ -1,0 +1,67 @@
+"""Settings on a stick: taken, the exhibit starts again with them and says so; unsigned, wrong and unusable ones change nothing."""
+
+import screen
+from bench import SETTINGS, UPRIGHT, USUAL, WIDTH, eventually
+from hil_test import CENTRE_M, long
+from stick_bench import StickTest, pulled_packs
+
+WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
+RESTART_S = 90.0
+TOLD_PIXELS = 300
+
+
+@long
+class SettingsByStick(StickTest):
+    settings = USUAL.replace("captions = false", WORDS)
+    after = f"rm -f {SETTINGS}.*"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.bench.machine.write(SETTINGS, cls.settings)  # no key yet: that comes with the stick
+        # The other artifact alone, and the museum's key
+        amphora = '"/var/lib/frustumscreen/packs/amphora.fspack", '
+        assert amphora in cls.settings
+        cls.brought = cls.settings.replace(amphora, "") + cls.keys
+        cls.prop = screen.grown(screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], "nautilus-cup")[0]), 8, WIDTH)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.bench.machine.check(cls.after)
+        super().tearDownClass()
+
+    def put(self, name, text):
+        """What is told of these settings on a stick."""
+        self.plug(name, self.make(name, "vfat", {"kiosk.toml": text.encode()}))
+        told = pulled_packs(self.outcome())["kiosk.toml"]
+        self.pull(name)
+        return told
+
+    def lit_beside_prop(self):
+        return screen.count([row & ~prop for row, prop in zip(screen.lit(self.bench.screendump()), self.prop)])
+
+    def test_1_taken(self):
+        before = self.bench.main_process()
+        self.assertEqual(self.put("first", self.brought), ("taken", "none"))
+        eventually(lambda: self.bench.main_process() not in (before, "0"), RESTART_S, "the exhibit is not started again")
+        self.bench.status_says("artifact", "^nautilus-cup$", RESTART_S)
+        # The table tells of the stick after the restart.
+        eventually(lambda: self.lit_beside_prop() > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
+        self.assert_at(CENTRE_M, artifact="nautilus-cup")
+        self.assertEqual(self.bench.machine.read(SETTINGS), self.brought)
+        self.assertEqual(self.bench.machine.read(f"{SETTINGS}.before"), self.settings)
+
+    def test_2_not_taken(self):
+        before = self.bench.main_process()
+        self.assertEqual(self.put("again", self.brought), ("already_there", "none"))
+        self.assertEqual(self.put("unsigned", self.settings), ("refused", "unsigned"))
+        self.assertEqual(self.bench.main_process(), before, "the exhibit was started again")
+        self.assertEqual(self.bench.machine.read(SETTINGS), self.brought)
+
+    def test_3_the_exhibit_does_not_start_with_them(self):
+        self.bench.machine.write(SETTINGS, self.settings)
+        unusable = self.settings.replace("[exhibit]", '[display]\ncard = "card99"\n\n[exhibit]')
+        self.assertEqual(self.put("unusable", unusable), ("taken", "none"))
+        eventually(lambda: self.bench.machine.read(SETTINGS) == self.settings, RESTART_S, "the settings of before do not come back")
+        self.bench.status_says("artifact", "^amphora$", RESTART_S)
+        self.assertEqual(pulled_packs(self.report())["kiosk.toml"], ("refused", "not_a_pack"))

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""What a kiosk does with settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
+what it is asked for.
+
+new_settings_test.py [unittest's arguments]
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen/new-settings"
+# `restart` fails as often as the file has lines.
+SYSTEMCTL = """#!/bin/sh
+echo "$*" >>"$ASKED"
+[ "$1" = restart ] && [ -s "$FAILS" ] || exit 0
+sed -i 1d "$FAILS"
+exit 1
+"""
+RESTART = "restart frustumscreen.service"
+
+
+class NewSettings(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.top = pathlib.Path(temporary.name)
+        for folder in ("bin", "settings", "run/frustumscreen-import", "run/frustumscreen-watchdog", "run/frustumscreen-update"):
+            (self.top / folder).mkdir(parents=True)
+        for name, text in {"settings/kiosk.toml": "new", "settings/kiosk.toml.before": "before", "run/frustumscreen-import/settings-taken": "",
+                           "run/frustumscreen-watchdog/mode": "normal\n", "memory": "x", "fails": "", "asked": "", "bin/systemctl": SYSTEMCTL}.items():
+            self.write(name, text)
+        (self.top / "bin/systemctl").chmod(0o755)
+
+    def write(self, name, text):
+        (self.top / name).write_text(text, encoding="ascii")
+
+    def read(self, name):
+        return (self.top / name).read_text(encoding="ascii")
+
+    def start(self):
+        """What the service manager was asked for."""
+        subprocess.run([SCRIPT], check=True, timeout=30, env={
+            **os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "ASKED": str(self.top / "asked"), "FAILS": str(self.top / "fails"),
+            "SETTINGS_FOLDER": str(self.top / "settings"), "SETTINGS_RUN": str(self.top / "run"), "SETTINGS_MEMORY": str(self.top / "memory")})
+        self.assertFalse((self.top / "run/frustumscreen-import/settings-taken").exists())
+        return self.read("asked").splitlines()
+
+    def test_good_ones(self):
+        self.assertEqual(self.start(), [RESTART])
+        self.assertEqual((self.read("settings/kiosk.toml"), self.read("memory")), ("new", "x"))
+        self.assertFalse((self.top / "run/frustumscreen-import/report.json").exists(), "what the importer told is overwritten")
+
+    def test_the_exhibit_does_not_start_with_them(self):
+        self.write("fails", "1\n")
+        self.assertEqual(self.start(), [RESTART, RESTART])
+        self.assertEqual(self.read("settings/kiosk.toml"), "before")
+        report = json.loads(self.read("run/frustumscreen-import/report.json"))
+        self.assertEqual([(pack["file"], pack["outcome"], pack["refusal"]) for pack in report["packs"]], [("kiosk.toml", "refused", "not_a_pack")])
+
+    def test_after_a_fault_the_watchdog_begins_anew(self):
+        self.write("run/frustumscreen-watchdog/mode", "safe\n")
+        self.assertEqual([line.split()[0] for line in self.start()], ["stop", "start", "restart"])
+        self.assertFalse((self.top / "memory").exists())
+
+    def test_an_update_starts_the_machine_anyway(self):
+        self.write("run/frustumscreen-update/installed-stick1", "")
+        self.assertEqual(self.start(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
