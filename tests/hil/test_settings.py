@@ -7,6 +7,7 @@ from stick_bench import StickTest, pulled_packs
 
 WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
 RESTART_S = 90.0
+START_S = 120.0  # TimeoutStartSec: so long the exhibit waits for a card
 TOLD_PIXELS = 300
 
 
@@ -47,6 +48,7 @@ class SettingsByStick(StickTest):
         self.bench.status_says("artifact", "^nautilus-cup$", RESTART_S)
         # The table tells of the stick after the restart.
         eventually(lambda: self.lit_beside_prop() > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
+        eventually(lambda: self.lit_beside_prop() == 0, 60.0, "what was told stays on the table")
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.machine.read(SETTINGS), self.brought)
         self.assertEqual(self.bench.machine.read(f"{SETTINGS}.before"), self.settings)
@@ -62,6 +64,6 @@ class SettingsByStick(StickTest):
         self.bench.machine.write(SETTINGS, self.settings)
         unusable = self.settings.replace("[exhibit]", '[display]\ncard = "card99"\n\n[exhibit]')
         self.assertEqual(self.put("unusable", unusable), ("taken", "none"))
-        eventually(lambda: self.bench.machine.read(SETTINGS) == self.settings, RESTART_S, "the settings of before do not come back")
+        eventually(lambda: self.bench.machine.read(SETTINGS) == self.settings, START_S + RESTART_S, "the settings of before do not come back")
         self.bench.status_says("artifact", "^amphora$", RESTART_S)
         self.assertEqual(pulled_packs(self.report())["kiosk.toml"], ("refused", "not_a_pack"))
