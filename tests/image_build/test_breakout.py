@@ -1,5 +1,5 @@
 """Break-out: what somebody with a keyboard, a stick, a device that types or a network cable can try, from power on. Long:
-./test image --all. What `judge` finds strange is held against real break-ins at the end of each test: it must see them."""
+./test image --all. What `intruders` finds strange is held against real break-ins at the end of each test: it must see them."""
 
 import shutil
 import socket
@@ -7,7 +7,7 @@ import struct
 import subprocess
 import time
 
-import judge
+import intruders
 from appliance import ESP, Appliance, eventually
 from image_test import IMAGE, ImageTest, long
 import hostile_stick  # it needs tests/hil, by appliance
@@ -61,8 +61,8 @@ class BreakOut(ImageTest):
         super().start()
         self.pc.may_start_anew()
         eventually(lambda: "inactive" in self.pc.run("systemctl is-active frustumscreen-grow").output, 120.0, "it grows for ever")
-        self.before = judge.facts(self.pc)
-        self.assertEqual(judge.wrong(self.before, self.before), [], "something is strange before anybody did anything")
+        self.before = intruders.facts(self.pc)
+        self.assertEqual(intruders.wrong(self.before, self.before), [], "something is strange before anybody did anything")
         keymap = self.pc.check("dumpkmap | tail -c +264 | od -An -v -t x2").split()
         self.assertGreater(len(keymap), 7 * 127)
         self.assertLessEqual(set(keymap), {"0200", "027f"}, "a key means something to the kernel")  # K_HOLE, K_NOSUCHMAP
@@ -72,7 +72,7 @@ class BreakOut(ImageTest):
         said = [None]
 
         def rests():
-            said[0] = judge.wrong(self.before, judge.facts(self.pc), **options)
+            said[0] = intruders.wrong(self.before, intruders.facts(self.pc), **options)
             return not said[0]
 
         eventually(rests, 60.0, lambda: f"somebody is in: {said[0]}")
@@ -82,7 +82,7 @@ class BreakOut(ImageTest):
     def assert_seen(self, command, words):
         """A real break-in, by the agent's hand, of which the judge must say this."""
         self.pc.run(command)
-        eventually(lambda: any(words in line for line in judge.wrong(self.before, judge.facts(self.pc))), 60.0,
+        eventually(lambda: any(words in line for line in intruders.wrong(self.before, intruders.facts(self.pc))), 60.0,
                    f"the judge does not see it: {command}")
 
     # The boot loader.
@@ -152,7 +152,7 @@ class BreakOut(ImageTest):
             self.pc.check("udevadm control --stop-exec-queue; for d in /sys/bus/usb/devices/*; do grep -qs 0627 $d/idVendor && echo 1 > $d/authorized; done; "
                           "modprobe usbhid; modprobe hid-generic; modprobe evdev")
             eventually(lambda: "Keyboard" in self.pc.check("cat /proc/bus/input/devices"), 30.0, "it is no keyboard")
-            self.before = judge.facts(self.pc)
+            self.before = intruders.facts(self.pc)
             self.assert_keys_come()
             self.press_everything()
         with self.subTest("serial line"):
@@ -233,12 +233,12 @@ class BreakOut(ImageTest):
         self.pc.plug("hostile", stick)
         seen, deadline = set(), time.monotonic() + 90.0
         while time.monotonic() < deadline:
-            now = judge.facts(self.pc)
+            now = intruders.facts(self.pc)
             seen |= {line.partition(" ")[0] for line in now["mounted"]}
-            self.assertEqual(judge.wrong(self.before, now, mounted=r"/run/frustumscreen-stick/stick\d+p\d+"), [])
+            self.assertEqual(intruders.wrong(self.before, now, mounted=r"/run/frustumscreen-stick/stick\d+p\d+"), [])
         self.assertIn("/run/frustumscreen-stick", {place.rpartition("/")[0] for place in seen}, "was the stick looked at at all?")
         self.assert_not_marked()
-        eventually(lambda: not [row for row in judge.facts(self.pc)["mounted"] if "stick" in row], 240.0, "it stays mounted")
+        eventually(lambda: not [row for row in intruders.facts(self.pc)["mounted"] if "stick" in row], 240.0, "it stays mounted")
         self.assert_nobody_is_in()
         with self.subTest("in a PC that is switched on"):
             version = self.pc.check("cat /run/frustumscreen-boot/slot /etc/machine-id")

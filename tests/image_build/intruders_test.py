@@ -3,7 +3,7 @@
 import copy
 import unittest
 
-import judge
+import intruders
 
 CALM = {
     "process": ["/usr/lib/systemd/systemd", "/usr/bin/frustumscreen", "/usr/bin/frustumscreen-watchdog", "/usr/bin/dash", "/usr/bin/udevadm"],
@@ -15,7 +15,7 @@ CALM = {
 
 class Judge(unittest.TestCase):
     def test_nobody_is_in(self):
-        self.assertEqual(judge.wrong(CALM, copy.deepcopy(CALM)), [])
+        self.assertEqual(intruders.wrong(CALM, copy.deepcopy(CALM)), [])
 
     def test_each_break_in(self):
         for kind, lines, words in (
@@ -33,14 +33,14 @@ class Judge(unittest.TestCase):
                 ("swaps", ["/dev/sda1"], "swaps was"), ("volumes", ["dm-0", "dm-1"], "volumes was"),
                 ("mounted", [*CALM["mounted"], "/mnt ro,nosuid,nodev,noexec"], "/mnt is mounted")):
             with self.subTest(words):
-                said = judge.wrong(CALM, {**CALM, kind: lines})
+                said = intruders.wrong(CALM, {**CALM, kind: lines})
                 self.assertTrue(any(words in line for line in said), said)
 
     def test_mounts(self):
         """A place that is expected must still be one where nothing can be run."""
         for options, strange in (("ro,nosuid,nodev,noexec,nosymfollow", 0), ("rw,nosuid,nodev,noexec", 1), ("ro,nosuid,nodev", 1)):
             now = {**CALM, "mounted": [*CALM["mounted"], f"/run/frustumscreen-stick/stick3 {options}"]}
-            self.assertEqual(len(judge.wrong(CALM, now, mounted="/run/frustumscreen-stick/stick3")), strange, options)
+            self.assertEqual(len(intruders.wrong(CALM, now, mounted="/run/frustumscreen-stick/stick3")), strange, options)
 
 
 if __name__ == "__main__":
