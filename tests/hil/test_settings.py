@@ -8,6 +8,7 @@ from stick_bench import StickTest, pulled_packs
 WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
 RESTART_S = 90.0
 START_S = 120.0  # TimeoutStartSec: so long the exhibit waits for a card
+TOLD_S = 180.0  # the table tells for two minutes
 TOLD_PIXELS = 300
 
 
@@ -48,7 +49,7 @@ class SettingsByStick(StickTest):
         self.bench.status_says("artifact", "^nautilus-cup$", RESTART_S)
         # The table tells of the stick after the restart.
         eventually(lambda: self.lit_beside_prop() > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
-        eventually(lambda: self.lit_beside_prop() == 0, 60.0, "what was told stays on the table")
+        eventually(lambda: self.lit_beside_prop() == 0, TOLD_S, "what was told stays on the table")
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.machine.read(SETTINGS), self.brought)
         self.assertEqual(self.bench.machine.read(f"{SETTINGS}.before"), self.settings)
