@@ -1,9 +1,9 @@
 #include "app/library/stick_settings.h"
 
 #include "app/library/import_failure.h"
+#include "app/library/signed_text.h"
 #include "app/library/stick_pack.h"
 #include "app/library/tree_text.h"
-#include "app/pack/limits.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 
@@ -35,26 +35,10 @@ tl::unexpected<ImportFailure> failed_on_disk(FileFault fault) {
     return tl::unexpected<ImportFailure>(disk_failure(settings_file_name, fault));
 }
 
-/// Nothing: there is no such file.
-Outcome<std::optional<std::string>> read_from_stick(FileTree& stick, std::string_view name,
-                                                    std::size_t most_bytes) {
-    FileResult<std::string> text = read_text(stick, name, most_bytes);
-    if (text) {
-        return *std::move(text);
-    }
-    if (text.error().number == ENOENT) {
-        return std::optional<std::string>();
-    }
-    if (text.error().number == EFBIG) {
-        return failed(ImportRefusal::NotAPack,
-                      fmt::format("{}: it is too large; allowed are at most {} bytes", name, most_bytes));
-    }
-    return tl::unexpected<ImportFailure>(stick_failure(name, text.error()));
-}
-
 /// What the kiosk has now.
 struct Own {
     std::string text;             ///< of kiosk.toml; empty: it cannot be read
+    bool sound = false;           ///< these are settings
     std::vector<TrustedKey> keys; ///< that its settings name
     std::uint64_t serial = 0;     ///< the highest that was taken; 0: none
 };
@@ -70,6 +54,7 @@ Outcome<Own> read_own(WritableTree& folder) {
     Own own;
     own.text = read_text(folder, settings_file_name, most_stick_settings_bytes).value_or("");
     std::optional<std::vector<TrustedKey>> keys = keys_named_by(own.text);
+    own.sound = keys.has_value();
     if (!keys) {
         keys = keys_named_by(read_text(folder, settings_before_name, most_stick_settings_bytes).value_or(""));
     }
@@ -89,38 +74,24 @@ Outcome<Own> read_own(WritableTree& folder) {
 }
 
 /// Whether these bytes may be believed: their serial, 0 where nobody has to sign. Nothing of them is parsed.
-Outcome<std::uint64_t> believe(const std::string& text, const std::optional<std::string>& signature,
-                               const Own& own, std::optional<std::chrono::sys_days> today) {
+Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
+                               std::optional<std::chrono::sys_days> today) {
     if (own.keys.empty()) {
         return 0;
     }
-    if (!signature) {
-        return failed(ImportRefusal::Unsigned,
-                      fmt::format("{}: it is not signed, as no {} lies beside it; sign it with "
-                                  "frustumscreen-pack sign, and put both on the stick",
-                                  settings_file_name, settings_signature_name));
-    }
-    const tl::expected<Signer, SignatureRefusal> signer =
-        check_signature(as_bytes(text), *signature, own.keys, today);
+    const Outcome<Signer> signer = signer_of(settings_file_name, file, own.keys, today);
     if (!signer) {
-        ImportFailure failure = failure_of(signer.error());
-        failure.reason = fmt::format("{}: {}", settings_file_name, failure.reason);
-        return tl::unexpected<ImportFailure>(std::move(failure));
+        return tl::unexpected<ImportFailure>(signer.error());
     }
     if (signer->serial < own.serial) {
-        return failed(ImportRefusal::Older,
-                      fmt::format("{}: its serial {} is lower than that of the settings that were taken "
-                                  "last, {}; sign it anew to go back to it",
-                                  settings_file_name, signer->serial, own.serial));
+        return tl::unexpected<ImportFailure>(lower_serial(settings_file_name, signer->serial, own.serial));
     }
     return signer->serial;
 }
 
 /// Of settings that nobody had to sign, and that one of their own keys has signed all the same: older ones are refused from then on.
-std::uint64_t serial_of_first(const std::string& text, const std::optional<std::string>& signature,
-                              const CheckedSettings& settings) {
-    const tl::expected<Signer, SignatureRefusal> signer =
-        check_signature(as_bytes(text), signature, settings->exhibit.keys, std::nullopt);
+std::uint64_t serial_of_first(const SignedText& file, const CheckedSettings& settings) {
+    const Outcome<Signer> signer = signer_of(settings_file_name, file, settings->exhibit.keys, std::nullopt);
     return signer ? signer->serial : 0;
 }
 
@@ -135,7 +106,7 @@ FileResult<void> keep_serial(WritableTree& folder, std::uint64_t serial, const O
 }
 
 FileResult<void> keep_before(WritableTree& folder, const Own& own) {
-    if (!keys_named_by(own.text)) {
+    if (!own.sound) {
         return {}; // what is spoilt is nothing to go back to
     }
     return replace_text(folder, settings_before_name, next_name, own.text).and_then([&] {
@@ -143,17 +114,14 @@ FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     });
 }
 
-Outcome<ImportOutcome> take(FileTree& stick, const std::string& text, WritableTree& folder,
+Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
                             std::optional<std::chrono::sys_days> today) {
-    const auto signature = read_from_stick(stick, settings_signature_name, pack_format::most_signature_bytes);
-    if (!signature) {
-        return tl::unexpected<ImportFailure>(signature.error());
-    }
+    const std::string& text = *file.text;
     const Outcome<Own> own = read_own(folder);
     if (!own) {
         return tl::unexpected<ImportFailure>(own.error());
     }
-    const Outcome<std::uint64_t> serial = believe(text, *signature, *own, today);
+    const Outcome<std::uint64_t> serial = believe(file, *own, today);
     if (!serial && own->text != text) {
         return tl::unexpected<ImportFailure>(serial.error());
     }
@@ -161,8 +129,7 @@ Outcome<ImportOutcome> take(FileTree& stick, const std::string& text, WritableTr
     if (!settings) {
         return failed(ImportRefusal::NotAPack, settings.error().message);
     }
-    const std::uint64_t seen =
-        own->keys.empty() ? serial_of_first(text, *signature, *settings) : serial.value_or(0);
+    const std::uint64_t seen = own->keys.empty() ? serial_of_first(file, *settings) : serial.value_or(0);
     if (const FileResult<void> kept = keep_serial(folder, seen, *own); !kept) {
         return failed_on_disk(kept.error());
     }
@@ -188,12 +155,12 @@ Outcome<ImportOutcome> take(FileTree& stick, const std::string& text, WritableTr
 std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
                                           std::optional<std::chrono::sys_days> today) {
     ImportedPack told{std::string(settings_file_name), "", {}, {}, ""};
-    const auto text = read_from_stick(stick, settings_file_name, most_stick_settings_bytes);
-    if (text && !*text) {
+    const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, most_stick_settings_bytes);
+    if (file && !file->text) {
         return std::nullopt;
     }
-    const Outcome<ImportOutcome> outcome = text.and_then(
-        [&](const std::optional<std::string>& found) { return take(stick, *found, folder, today); });
+    const Outcome<ImportOutcome> outcome =
+        file.and_then([&](const SignedText& found) { return take(found, folder, today); });
     if (outcome) {
         told.outcome = *outcome;
     } else {

@@ -19,7 +19,6 @@
 namespace frustumscreen {
 
 inline constexpr std::string_view settings_file_name = "kiosk.toml";
-inline constexpr std::string_view settings_signature_name = "kiosk.toml.minisig";
 inline constexpr std::string_view settings_before_name = "kiosk.toml.before";
 inline constexpr std::string_view settings_serial_name = "kiosk.toml.serial";
 inline constexpr std::size_t most_stick_settings_bytes = 64U << 10U;

@@ -119,6 +119,11 @@ def _order(name):
     return left == 0, [-int(part) for part in version.split(".")]
 
 
+def _read(path):
+    """Its bytes; None: there is no such file. A folder in its place is damage, and so are these bytes to all that looks at them."""
+    return path.read_bytes() if path.is_file() else b"\xff" if path.exists() else None
+
+
 class Checker:
     """`folder`: for its own files; `versions`: those that may be on the disk; `tools`: kiosk.Tools; `image`: the disk as it was built."""
 
@@ -242,14 +247,13 @@ class Checker:
 
     def _look_at_files(self, tree, must, state):
         if "machine-id" in must.least:
-            path = tree / "machine-id"
-            found = path.read_text(errors="replace").strip() if path.is_file() else None
-            if found != must.least["machine-id"]:
+            found = _read(tree / "machine-id")
+            if (found or b"").decode(errors="replace").strip() != must.least["machine-id"]:
                 state.faults.append(f"the machine-id was {must.least['machine-id']}, and is {found}")
         for what, name, number_of in (("settings", "kiosk.toml", _saved_number), ("kept", "kept.txt", kept_number),
                                       ("unsafe", "unsafe.txt", kept_number)):
-            path = tree / "settings" / name
-            found = number_of(path.read_text(errors="replace") if path.is_file() else "") if path.exists() else 0
+            data = _read(tree / "settings" / name)
+            found = number_of(data.decode(errors="replace")) if data is not None else 0
             least, most = must.least.get(what, 0), must.most.get(what, 0)
             if found is None or not least <= found <= most:
                 fault = f"{name} is damaged" if found is None else f"{name} has number {found}, not {least} to {most}"
@@ -260,15 +264,16 @@ class Checker:
         self._look_at_library(tree / "lib/frustumscreen/library", must, state)
         for path in sorted([*tree.rglob("lib/**/*.json"), *tree.rglob("cache/**/*.json"), *tree.rglob("cache/**/*.toml")]):
             try:
-                text = path.read_text(encoding="utf-8") if path.is_file() else "a folder"
+                text = _read(path).decode()
                 json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
             except ValueError:
                 state.faults.append(f"{path.relative_to(tree)} is torn")
 
         watchdog = tree / "lib/frustumscreen-watchdog"
-        if (watchdog / "memory").is_file() and not _has_memory((watchdog / "memory").read_bytes()):
+        memory, faults = _read(watchdog / "memory"), _read(watchdog / "faults")
+        if memory is not None and not _has_memory(memory):
             state.faults.append("of the watchdog's memory both slots are torn")
-        if (watchdog / "faults").is_file() and not _are_lines((watchdog / "faults").read_bytes()):
+        if faults is not None and not _are_lines(faults):
             state.faults.append("the watchdog's faults are torn")
 
     def _look_at_library(self, library, must, state):
@@ -287,7 +292,7 @@ class Checker:
             state.faults.append(f"the set is number {found}, not {least} to {most}")
 
     def _look_at_pack(self, path, sha256, state):
-        if not path.is_file() or hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+        if hashlib.sha256(_read(path) or b"").hexdigest() != sha256:
             state.faults.append(f"the pack {path.name} of the set is missing or damaged")
         elif sha256 not in self._packs:
             self._packs[sha256] = self._tools.run("pack", "verify", path).returncode == 0

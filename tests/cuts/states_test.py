@@ -195,6 +195,20 @@ class States(unittest.TestCase):
             disk.write(bytes(13))
         self.assert_fault("lib/frustumscreen-watchdog/faults.json is torn")
 
+    def test_folder_in_a_files_place(self):
+        data = self.folder / "with_folder"
+        names = {"settings/kept.txt": "kept.txt is damaged", "lib/frustumscreen-watchdog/memory": "memory both slots are torn",
+                 "lib/frustumscreen-watchdog/faults": "the watchdog's faults are torn", "machine-id": "the machine-id was",
+                 "lib/frustumscreen-watchdog/faults.json": "faults.json is torn"}
+        shutil.copyfile(self.folder / "data", data)
+        for name in names:
+            subprocess.run(["debugfs", "-w", "-f", "-", data], input=f"rm /{name}\nmkdir /{name}\n", text=True, check=True, capture_output=True,
+                           env=TOOLS)
+        self.put(self.disk, DATA, data.read_bytes())
+        faults = self.look().faults
+        for words in names.values():
+            self.assertTrue(any(words in fault for fault in faults), (words, faults))
+
     def test_another_machine(self):
         self.must.take('{"kept": "machine-id", "value": "%s"}' % ("f" * 32))
         self.assert_fault("the machine-id was")

@@ -35,6 +35,7 @@ constexpr const char* sources[] = {"app/exhibit",
                                    "firmware_host/tracker",
                                    "app/library/library_folder.cpp",
                                    "app/library/set_file.cpp",
+                                   "app/library/signed_text.cpp",
                                    "app/library/stick_settings.cpp"};
 
 /// What has sentences that none of the three pictures shows.

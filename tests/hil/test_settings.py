@@ -7,7 +7,7 @@ from stick_bench import StickTest, pulled_packs
 
 WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
 RESTART_S = 90.0
-START_S = 120.0  # TimeoutStartSec: so long the exhibit waits for a card
+START_S = 120.0  # so long the exhibit may take with new settings, before those of before are put back
 TOLD_S = 180.0  # the table tells for two minutes
 TOLD_PIXELS = 300
 

@@ -50,7 +50,7 @@ class Update(unittest.TestCase):
             (self.root / folder).mkdir(parents=True)
         for name in ("bin", "lib", "lib64", "sbin"):
             (self.root / name).symlink_to(f"usr/{name}")
-        for name in ("update", "boot-slots", "trim-boot-folder"):
+        for name in ("update", "import-report", "boot-slots", "trim-boot-folder"):
             (self.root / "own" / name).write_bytes((OWN / name).read_bytes())
             (self.root / "own" / name).chmod(0o755)
         for name in ("mount", "umount"):

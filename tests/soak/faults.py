@@ -99,10 +99,10 @@ class Faults:
         return self.kiosk.until(lambda: self.kiosk.process_of(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
 
     def _disk_full(self):
-        """Only root could still write there; almost no block is written for it."""
+        """Only root could still write there; almost no block is written for it. The second writer ends where nothing is left."""
         machine = self.kiosk.machine
         free = "df -k /data | awk 'NR == 2 { print $4 }'"
-        machine.check(f"fallocate -l $((($({free}) - 4096) * 1024)) /data/full; head -c 6291456 /dev/zero > /data/rest || true")  # ends where nothing is left
+        machine.check(f"fallocate -l $((($({free}) - 4096) * 1024)) /data/full; head -c 6291456 /dev/zero > /data/rest || true")
         is_full = int(machine.check(free)) == 0
         self.kiosk.rest(5.0)
         machine.check("rm -f /data/full /data/rest; sync")

@@ -1,0 +1,82 @@
+#include "app/library/signed_text.h"
+
+#include "app/library/tree_text.h"
+#include "app/pack/limits.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view signature_ending = ".minisig";
+
+/// Nothing: there is no such file.
+tl::expected<std::optional<std::string>, ImportFailure>
+read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) {
+    FileResult<std::string> text = read_text(stick, name, most_bytes);
+    if (text) {
+        return *std::move(text);
+    }
+    if (text.error().number == ENOENT) {
+        return std::optional<std::string>();
+    }
+    if (text.error().number == EFBIG) {
+        return tl::unexpected<ImportFailure>(ImportFailure{
+            ImportRefusal::NotAPack,
+            fmt::format("{}: it is too large; allowed are at most {} bytes", name, most_bytes), false});
+    }
+    return tl::unexpected<ImportFailure>(stick_failure(name, text.error()));
+}
+
+} // namespace
+
+tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::string_view name,
+                                                         std::size_t most_bytes) {
+    auto text = read_if_there(stick, std::string(name), most_bytes);
+    if (!text) {
+        return tl::unexpected<ImportFailure>(text.error());
+    }
+    if (!*text) {
+        return SignedText();
+    }
+    auto signature =
+        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::most_signature_bytes);
+    if (!signature) {
+        return tl::unexpected<ImportFailure>(signature.error());
+    }
+    return SignedText{*std::move(text), *std::move(signature)};
+}
+
+tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
+                                              std::span<const TrustedKey> keys,
+                                              std::optional<std::chrono::sys_days> today) {
+    if (!file.signature) {
+        return tl::unexpected<ImportFailure>(
+            ImportFailure{ImportRefusal::Unsigned,
+                          fmt::format("{}: it is not signed, as no {}{} lies beside it; sign it with "
+                                      "frustumscreen-pack sign, and put both on the stick",
+                                      name, name, signature_ending),
+                          false});
+    }
+    return check_signature(as_bytes(file.text.value_or("")), *file.signature, keys, today)
+        .map_error([&](const SignatureRefusal& refusal) {
+            ImportFailure failure = failure_of(refusal);
+            failure.reason = fmt::format("{}: {}", name, failure.reason);
+            return failure;
+        });
+}
+
+ImportFailure lower_serial(std::string_view name, std::uint64_t serial, std::uint64_t latest) {
+    return {ImportRefusal::Older,
+            fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
+                        "sign it anew to go back to it",
+                        name, serial, latest),
+            false};
+}
+
+} // namespace frustumscreen
