@@ -27,8 +27,9 @@ QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumsc
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
 # The installed set, and every pack against its name, which is its SHA-256.
+# Each pack there is what its name says, but for one that an import clears away while it is read.
 LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIBRARY}/packs 2>/dev/null && ls | grep -q fspack$ || exit 0; "
-        'for pack in *.fspack; do echo "${pack%.fspack}  $pack"; done | sha256sum -c >/dev/null')
+        'for pack in *.fspack; do sum=$(sha256sum "$pack" 2>&1) && [ "${sum%% *}" = "${pack%.fspack}" ] || [ ! -e "$pack" ] || { echo "$sum"; exit 1; }; done')
 QUIET_S = 240.0
 LIT_PIXELS = 300
 
