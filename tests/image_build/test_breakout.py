@@ -1,6 +1,8 @@
 """Break-out: what somebody with a keyboard, a stick, a device that types or a network cable can try, from power on. Long:
 ./test image --all. What `intruders` finds strange is held against real break-ins at the end of each test: it must see them."""
 
+import base64
+import json
 import shutil
 import socket
 import struct
@@ -21,6 +23,9 @@ COMBINATIONS = [
     ("shift", "scroll_lock"), ("shift", "pgup"), ("scroll_lock",), ("pause",), ("print",), ("esc",), ("esc",), ("menu",), ("meta_l", "r"),
     ("sleep",), ("wake",), ("num_lock",), ("insert",), ("delete",), ("power",), *((key,) for key in "root"), ("ret",), ("ret",)]
 NETWORK = ("e1000e", "virtio-net-pci")
+SETTINGS = "/etc/frustumscreen/kiosk.toml"
+REPORT = "/run/frustumscreen-import/report.json"
+KEY = base64.b64encode(b"Ed" + bytes(range(40))).decode()  # somebody's whose other half nobody has
 MENU_S = 60.0
 MENU_STAYS_S = 330.0  # the firmware's watchdog would be five minutes
 LOADER_VARIABLES = "ls /sys/firmware/efi/efivars | grep -e ^LoaderEntryDefault -e ^LoaderConfig -e ^LoaderEntryOneShot"
@@ -230,14 +235,21 @@ class BreakOut(ImageTest):
         self.addCleanup(shutil.rmtree, folder)
         stick = hostile_stick.make(folder, boot_loader)
         self.start()
+        # As before visitors come: without a key the kiosk would take its kiosk.toml (docs/security.md).
+        self.pc.check(f"printf '\\n[[exhibit.keys]]\\nname = \"museum\"\\npublic_key = \"{KEY}\"\\n' >> {SETTINGS}")
+        settings = self.pc.read(SETTINGS)
         self.pc.plug("hostile", stick)
-        seen, deadline = set(), time.monotonic() + 90.0
+        seen, told, deadline = set(), set(), time.monotonic() + 90.0
         while time.monotonic() < deadline:
+            report = json.loads(self.pc.read(REPORT) or "{}")
+            told |= {(one["outcome"], one["refusal"]) for one in report.get("packs", []) if one["file"] == "kiosk.toml"}
             now = intruders.facts(self.pc)
             seen |= {line.partition(" ")[0] for line in now["mounted"]}
             self.assertEqual(intruders.wrong(self.before, now, mounted=r"/run/frustumscreen-stick/stick\d+p\d+"), [])
         self.assertIn("/run/frustumscreen-stick", {place.rpartition("/")[0] for place in seen}, "was the stick looked at at all?")
         self.assert_not_marked()
+        self.assertEqual(told, {("refused", "unsigned")}, "its kiosk.toml")
+        self.assertEqual(self.pc.read(SETTINGS), settings)
         eventually(lambda: not [row for row in intruders.facts(self.pc)["mounted"] if "stick" in row], 240.0, "it stays mounted")
         self.assert_nobody_is_in()
         with self.subTest("in a PC that is switched on"):

@@ -3,6 +3,7 @@
 Time     hours and seconds of the exhibit's time; a soak runs `pace` times faster than a museum (docs/soak.md).
 """
 
+import math
 import random
 from dataclasses import dataclass
 
@@ -15,14 +16,16 @@ class Event:
     kind: str  # "press", or a fault's
 
 
-def plan(hours, kinds, seed, once=()):
+def plan(hours, kinds, seed, once=(), every_h=None):
     """Presses at random, and each kind of fault once in every whole hour, at least once in all; in the order of time. Those in `once`
-    come in the first hour alone."""
+    come in the first hour alone, those in `every_h` (kind -> hours) in the first and after so many, at least."""
+    every_h = every_h or {}
     dice = random.Random(seed)
     events = [Event(dice.uniform(0.0, 3600.0 * hours), "press") for _ in range(round(PRESSES_PER_H * hours))]
     spans = max(1, round(hours))
     for number in range(spans):
-        order = [kind for kind in dice.sample(kinds, len(kinds)) if number == 0 or kind not in once]
+        order = [kind for kind in dice.sample(kinds, len(kinds))
+                 if number == 0 or (kind not in once and number % math.ceil(every_h.get(kind, 1)) == 0)]
         if not order:
             break
         length_s = 3600.0 * hours / spans

@@ -118,7 +118,8 @@ def judged(found, may_cause, ends_exhibit):
     hours = (found["looks"][-1][0] - found["looks"][0][0]) / 3600.0
     share, longest = dark(found["looks"])
     memory = {name: slope(samples, value, pid, pace) for name, value, pid in (
-        ("exhibit", "exhibit_mib", "exhibit_pid"), ("watchdog", "watchdog_mib", "watchdog_pid"), ("system", "system_mib", None))}
+        ("exhibit", "exhibit_mib", "exhibit_pid"), ("exhibit, without pages of files", "exhibit_own_mib", "exhibit_pid"),
+        ("watchdog", "watchdog_mib", "watchdog_pid"), ("system", "system_mib", None))}
     steps = [{**step, "fault": due_to(step["awake_s"], faults),
               "false_alarm": not within(step["awake_s"], faults, [kind for kind, causes in may_cause.items() if step["cause"] in causes])}
              for step in found["steps"]]

@@ -23,7 +23,7 @@ def samples(leak_mib_per_h, seed=1, restart_at_s=1800.0, length_s=3600.0):
         process, since = (1, at) if at < restart_at_s else (2, at - restart_at_s)
         noise = dice.gauss(0.0, 0.3) + (25.0 if dice.random() < 0.03 else 0.0)
         found.append({"at_s": float(at), "system_mib": 200.0 + noise, "exhibit_mib": 40.0 * process + leak_mib_per_h * since / 3600.0 + noise,
-                      "watchdog_mib": 3.0, "exhibit_pid": process, "watchdog_pid": 9, "written_bytes": 1000 * at, "writes": at,
+                      "exhibit_own_mib": 20.0 * process, "watchdog_mib": 3.0, "exhibit_pid": process, "watchdog_pid": 9, "written_bytes": 1000 * at, "writes": at,
                       "frames": int(30 * since), "drawn": int(10 * since), "packets": int(240 * since)})
     return found
 
@@ -134,6 +134,11 @@ class Plan(unittest.TestCase):
         times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, {"kind 4"}) if event.kind == "kind 4"]
         self.assertEqual(len(times), 1)
         self.assertLess(times[0], 3600.0)
+
+    def test_room_between(self):
+        """3.2 hours, rounded up: after the first hour the fifth."""
+        times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, (), {"kind 4": 3.2}) if event.kind == "kind 4"]
+        self.assertEqual([int(at // 3600.0) for at in times], [0, 4])
 
     def test_each_kind_once_in_a_short_one(self):
         self.assertEqual(sorted(event.kind for event in day.plan(0.4, self.KINDS, 1) if event.kind != "press"), sorted(self.KINDS))

@@ -47,6 +47,7 @@ class Sample:
     frames: int = 0  # of this process
     drawn: int = 0
     packets: int = 0
+    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read anew
 
 
 @dataclass
@@ -151,8 +152,9 @@ class Kiosk:
         return int(words[0]) if words else 0
 
     def _memory(self, pid):
-        found = re.search(r"^Pss:\s+(\d+) kB", self.machine.read(f"/proc/{pid}/smaps_rollup") or "", re.M) if pid else None
-        return int(found[1]) / 1024 if found else None
+        """(all, what is in no file)"""
+        rows = dict(re.findall(r"^(\w+):\s+(\d+) kB", self.machine.read(f"/proc/{pid}/smaps_rollup") or "", re.M)) if pid else {}
+        return (int(rows["Pss"]) / 1024, int(rows["Pss_Anon"]) / 1024) if rows else (None, None)
 
     def sample(self):
         machine, at_s = self.machine, self.now_s()
@@ -170,10 +172,11 @@ class Kiosk:
             key = {name: step[name] for name in ("awake_s", "cause", "step")}
             if key not in self.log.steps:
                 self.log.steps.append(key)
+        whole, own = self._memory(exhibit)
         return Sample(
-            at_s, float(uptime[0]), (int(memory["MemTotal"]) - int(memory["MemAvailable"])) / 1024, self._memory(exhibit),
-            self._memory(watchdog), exhibit, watchdog, int(memory["Shmem"]) / 1024, 512 * disk[6], disk[4],
-            status.get("frames", 0), status.get("drawn", 0), (status.get("tracker_counts") or {}).get("frames", 0))
+            at_s, float(uptime[0]), (int(memory["MemTotal"]) - int(memory["MemAvailable"])) / 1024, whole,
+            self._memory(watchdog)[0], exhibit, watchdog, int(memory["Shmem"]) / 1024, 512 * disk[6], disk[4],
+            status.get("frames", 0), status.get("drawn", 0), (status.get("tracker_counts") or {}).get("frames", 0), own)
 
     def ends(self):
         """How the exhibit's process ended, each time: (uptime in seconds, result)."""

@@ -71,7 +71,8 @@ def main():
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     image, binaries = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE"]), CHECKOUT / "build" / "release" / "bin"
-    events = day.plan(arguments.hours, kinds, arguments.seed, fault_module.ENDS_EXHIBIT)
+    rests_h = {kind: rest_s * arguments.pace / 3600.0 for kind, rest_s in fault_module.RESTS_S.items()}
+    events = day.plan(arguments.hours, kinds, arguments.seed, fault_module.ENDS_EXHIBIT, rests_h)
     sockets = pathlib.Path(tempfile.mkdtemp(prefix="soak-"))
     packs = fault_module.Packs(binaries / "frustumscreen-pack", CHECKOUT / "build" / "release" / "kiosk" / "built_in.fspack", out / "packs")
     poses = walk(binaries / "frustumscreen-poses", HERE.parent / "hil/guest/etc/frustumscreen/kiosk.toml", arguments.seed, VISIT_S,
