@@ -86,6 +86,13 @@ TEST(Counts, GrowthBeyondAFewPercentIsSaid) {
     EXPECT_NE(counts_table(now, changes(now, before)).find("GROWN"), std::string::npos);
 }
 
+TEST(Counts, AnArtifactThatTheReferenceLacksIsNamed) {
+    const std::vector<CountedPack> reference{{"a", "near", {}}, {"b", "near", {}}};
+    const std::vector<CountedPack> now{{"a", "near", {}}, {"a", "kiosk", {}}, {"c", "near", {}}};
+    EXPECT_EQ(without_reference(now, reference), (std::vector<std::string>{"a in kiosk", "c in near"}));
+    EXPECT_TRUE(without_reference(reference, reference).empty());
+}
+
 TEST(Counts, AFileThatIsNoReferenceIsRefusedInOneLine) {
     for (const char* text : {"", "{}", "[1]", R"({"mean_of_a_frame":[{"artifact":3}]})"}) {
         const Result<std::vector<CountedPack>> read = read_counts(text);

@@ -85,11 +85,42 @@ TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     EXPECT_EQ(missed(judge(none)), 0U);
 }
 
+TEST(Verdicts, ALimitThatIsMissedIsAnErrorOfOneLine) {
+    std::vector<SetUpResult> results = {example(), example()};
+    EXPECT_TRUE(require_limits(results));
+    results[1].name = "kiosk";
+    results[1].techniques[1].times_floor = 4.5;
+    const Result<void> held = require_limits(results);
+    ASSERT_FALSE(held);
+    EXPECT_EQ(held.error().message.find("1 of the limits above are missed, the first: kiosk, default level: "
+                                        "median cost <= 4 x floor (4.50 x)"),
+              0U)
+        << held.error().message;
+    EXPECT_EQ(held.error().message.find('\n'), std::string::npos);
+}
+
+TEST(Verdicts, TheFasterFloorIsTheUnit) {
+    std::vector<TechniqueResult> results = {
+        technique("floor (trilinear)", TechniqueKind::Floor, -1, 5.0, {}),
+        technique("floor (one mip level)", TechniqueKind::Floor, -1, 4.0, {}),
+        technique("faster than any floor", TechniqueKind::PackLevel, 0, 2.0, {})};
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        results[k].cpu_ms = 7.0 + static_cast<double>(k);
+    }
+    in_units_of_floor(results);
+    EXPECT_EQ(results[0].times_floor, 1.25);
+    EXPECT_EQ(results[1].times_floor, 1.0);
+    EXPECT_EQ(results[2].times_floor, 0.5);
+    EXPECT_EQ(results[0].cpu_times_floor,
+              1.0); // the unit of processor time is the floor that takes least of it
+    EXPECT_EQ(results[2].cpu_times_floor, 9.0 / 7.0);
+}
+
 TEST(Verdicts, AFineLevelIsBothFineAndCheap) {
     SetUpResult result = example();
     ASSERT_EQ(missed(judge(result)), 0U);
-    result.techniques[2].times_floor = 5.1;
-    result.techniques[3].times_floor = 50.0;
+    result.techniques[2].times_floor = 8.1;
+    result.techniques[3].times_floor = 80.0;
     EXPECT_EQ(missed(judge(result)), 1U);
     result.techniques[2].times_floor = 4.0;
     result.techniques[2].errors[0].geometric_mean_mm = 0.06;

@@ -79,9 +79,10 @@ TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
 
 TEST_F(CubeProgram, ErrorTimeHoldsItAgainstTheTruthInSixDegreesOfFreedom) {
     ASSERT_EQ(
-        run(fmt::format("frustumscreen-bench error-time --config '{}' --pack star.fspack --mesh star.obj "
-                        "--out bench --poses 6 --peers none",
-                        settings())),
+        run(fmt::format(
+            "frustumscreen-bench error-time --limits none --config '{}' --pack star.fspack --mesh star.obj "
+            "--out bench --poses 6 --peers none",
+            settings())),
         0)
         << text("err.txt") << text("out.txt");
     std::istringstream rows(text("bench/error_time_poses.csv"));

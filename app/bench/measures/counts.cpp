@@ -52,6 +52,13 @@ double growth(double now, double reference) {
     return reference > 0.0 ? now / reference : 1.0;
 }
 
+const CountedPack* find_in(std::span<const CountedPack> reference, const CountedPack& now) {
+    const auto found = std::find_if(reference.begin(), reference.end(), [&now](const CountedPack& one) {
+        return one.artifact == now.artifact && one.set_up == now.set_up;
+    });
+    return found != reference.end() ? &*found : nullptr;
+}
+
 std::string cell(double now, double reference, bool compared) {
     std::string number = now < 100.0 ? fmt::format("{:.1f}", now)
                          : now < 1e6 ? fmt::format("{:.0f}", now)
@@ -137,10 +144,8 @@ std::vector<CountChange> changes(std::span<const CountedPack> counted,
                                  std::span<const CountedPack> reference) {
     std::vector<CountChange> found;
     for (const CountedPack& now : counted) {
-        const auto before = std::find_if(reference.begin(), reference.end(), [&now](const CountedPack& one) {
-            return one.artifact == now.artifact && one.set_up == now.set_up;
-        });
-        if (before == reference.end()) {
+        const CountedPack* const before = find_in(reference, now);
+        if (before == nullptr) {
             continue;
         }
         const bool grown = std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& quantity) {
@@ -149,6 +154,17 @@ std::vector<CountChange> changes(std::span<const CountedPack> counted,
         found.push_back({now, before->counts, grown});
     }
     return found;
+}
+
+std::vector<std::string> without_reference(std::span<const CountedPack> counted,
+                                           std::span<const CountedPack> reference) {
+    std::vector<std::string> names;
+    for (const CountedPack& now : counted) {
+        if (find_in(reference, now) == nullptr) {
+            names.push_back(fmt::format("{} in {}", now.artifact, now.set_up));
+        }
+    }
+    return names;
 }
 
 std::string counts_table(std::span<const CountedPack> counted, std::span<const CountChange> against) {

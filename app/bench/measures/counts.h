@@ -53,6 +53,9 @@ struct CountChange {
 /// Only of packs that the reference has.
 [[nodiscard]] std::vector<CountChange> changes(std::span<const CountedPack> counted,
                                                std::span<const CountedPack> reference);
+/// "ARTIFACT in SET-UP" of those that the reference lacks.
+[[nodiscard]] std::vector<std::string> without_reference(std::span<const CountedPack> counted,
+                                                         std::span<const CountedPack> reference);
 /// One row for each pack; beside each number its change in percent, if the reference has the pack.
 [[nodiscard]] std::string counts_table(std::span<const CountedPack> counted,
                                        std::span<const CountChange> against);

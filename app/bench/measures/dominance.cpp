@@ -68,7 +68,8 @@ Verdict judge_level(const SetUpResult& result, const TechniqueResult& level) {
 } // namespace
 
 bool is_judged_peer(TechniqueKind kind) {
-    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel && kind != TechniqueKind::RayCast;
+    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel &&
+           kind != TechniqueKind::RayCast && kind != TechniqueKind::ReliefCast;
 }
 
 bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b) {

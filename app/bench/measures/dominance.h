@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 inline constexpr double cost_tolerance = 0.05;
 
-/// False for the pack's own levels, for the floor, and for the ray cast, which is a reference.
+/// False for the pack's own levels, our own relief, the floor, and the ray cast, which is a reference.
 [[nodiscard]] bool is_judged_peer(TechniqueKind kind);
 [[nodiscard]] bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b);
 

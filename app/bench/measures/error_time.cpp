@@ -35,7 +35,7 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
     return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), *drawn);
 }
 
-Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth,
+Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth, const Pack& pack,
                        const glm::dmat4& prop_from_artifact, const PeerChoice& choice) {
     Result<void> added;
     if (choice.mesh || choice.two_pass) {
@@ -50,6 +50,9 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
     }
     if (added && choice.relief) {
         added = set.add_relief_peers(truth, mesh, prop_from_artifact, choice.relief_texels);
+    }
+    if (added && choice.relief_cast) {
+        added = set.add_relief_casts(mesh, pack, choice.cast_texels);
     }
     return added;
 }
@@ -66,7 +69,7 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         return tl::unexpected<Error>(opened.error());
     }
     auto& [set, poses, truth, prop_from_artifact] = *opened;
-    Result<void> ready = add_peers(*set, *mesh, truth, prop_from_artifact, options.peers);
+    Result<void> ready = add_peers(*set, *mesh, truth, pack, prop_from_artifact, options.peers);
     progress(set_up.name + ": meshes", 1.0);
     progress(set_up.name + ": errors", 0.0);
     if (ready) {

@@ -83,6 +83,7 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
     if (!poses) {
         return tl::unexpected<Error>(poses.error());
     }
+    const std::size_t first = set.results().size(); // behind the floors
     std::vector<ScalingRow> rows;
     for (const ScalingSource& source : sources) {
         const std::string what = fmt::format("{} triangles: errors", source.mesh->triangles.size());
@@ -95,9 +96,9 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
     }
     set.measure_times(*poses, options.timing_rounds, [&](double done) { progress("times", done); });
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        rows[k].default_level = set.results()[1 + 3 * k];
-        rows[k].finest_level = set.results()[2 + 3 * k];
-        rows[k].two_pass = set.results()[3 + 3 * k];
+        rows[k].default_level = set.results()[first + 3 * k];
+        rows[k].finest_level = set.results()[first + 1 + 3 * k];
+        rows[k].two_pass = set.results()[first + 2 + 3 * k];
     }
     return rows;
 }

@@ -4,6 +4,7 @@
 #include "app/bench/techniques/level_of_detail.h"
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
+#include "app/bench/techniques/relief_cast.h"
 #include "app/render/read_back.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -12,13 +13,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace frustumscreen {
 
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 8> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 9> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
     {TechniqueKind::FullMesh, "full mesh"},
@@ -27,6 +29,7 @@ constexpr std::array<std::pair<TechniqueKind, std::string_view>, 8> kind_names =
     {TechniqueKind::Lod, "LOD"},
     {TechniqueKind::TwoPassLod, "two-pass LOD"},
     {TechniqueKind::Relief, "relief"},
+    {TechniqueKind::ReliefCast, "relief cast"},
 }};
 
 TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
@@ -60,9 +63,12 @@ Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
     const unsigned framebuffer = (*display)->framebuffer();
     std::unique_ptr<TechniqueSet> set(new TechniqueSet(
         std::move(*display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
-    Result<void> added = set->add(make_floor(set->stage_), described(TechniqueKind::Floor, -1, 0));
-    if (!added) {
-        return tl::unexpected<Error>(added.error());
+    for (const FloorFilter filter : {FloorFilter::Trilinear, FloorFilter::OneLevel}) {
+        const Result<void> added =
+            set->add(make_floor(set->stage_, filter), described(TechniqueKind::Floor, -1, 0));
+        if (!added) {
+            return tl::unexpected<Error>(added.error());
+        }
     }
     return set;
 }
@@ -148,6 +154,20 @@ Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh
     return {};
 }
 
+Result<void> TechniqueSet::add_relief_casts(const SourceMesh& mesh, const Pack& pack,
+                                            const std::vector<int>& texels) {
+    for (const int size : texels) {
+        BlocksInBox blocks = blocks_of_source(mesh, pack, stage_.prop, size);
+        const std::size_t count = blocks.relief.blocks.size();
+        if (Result<void> added = add(make_relief_cast(stage_, std::move(blocks)),
+                                     described(TechniqueKind::ReliefCast, -1, count));
+            !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
 Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
     techniques_[k]->draw(pose);
     return read_colour(stage_.framebuffer, stage_.width(), stage_.height());
@@ -193,8 +213,22 @@ void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds
     for (std::size_t k = 0; k < techniques.size(); ++k) {
         results_[k].time_ms = spread_of(times[k].wall_ms);
         results_[k].cpu_ms = quantile(times[k].cpu_ms, 0.5);
-        results_[k].cpu_times_floor = results_[k].cpu_ms / results_[0].cpu_ms;
-        results_[k].times_floor = results_[k].time_ms.median / results_[0].time_ms.median;
+    }
+    in_units_of_floor(results_);
+}
+
+void in_units_of_floor(std::span<TechniqueResult> results) {
+    double wall_ms = std::numeric_limits<double>::infinity();
+    double cpu_ms = std::numeric_limits<double>::infinity();
+    for (const TechniqueResult& result : results) {
+        if (result.kind == TechniqueKind::Floor) {
+            wall_ms = std::min(wall_ms, result.time_ms.median);
+            cpu_ms = std::min(cpu_ms, result.cpu_ms);
+        }
+    }
+    for (TechniqueResult& result : results) {
+        result.times_floor = result.time_ms.median / wall_ms;
+        result.cpu_times_floor = result.cpu_ms / cpu_ms;
     }
 }
 

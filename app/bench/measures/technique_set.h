@@ -33,7 +33,8 @@ enum class TechniqueKind {
     RayCast, ///< the reference: reported, not judged
     Lod,
     TwoPassLod,
-    Relief, ///< relief images, marched or warped
+    Relief,     ///< relief images, marched or warped
+    ReliefCast, ///< layered relief through blocks; its count is of blocks
 };
 /// The name in tables and files.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
@@ -46,14 +47,14 @@ struct TechniqueResult {
     std::vector<PictureError> errors; ///< one for each pose; empty for the floor
     ErrorSummary error;
     Spread time_ms;
-    double times_floor = 0.0; ///< median / the floor's median
+    double times_floor = 0.0; ///< median / that of the faster floor
     double cpu_ms = 0.0;      ///< median, all threads
     double cpu_times_floor = 0.0;
 };
 
 class TechniqueSet {
 public:
-    /// Opens a set with the floor as its first technique.
+    /// Opens a set with the floors, one for each filter.
     [[nodiscard]] static Result<std::unique_ptr<TechniqueSet>> open(const SetUp& set_up);
     TechniqueSet(const TechniqueSet&) = delete;
     TechniqueSet& operator=(const TechniqueSet&) = delete;
@@ -72,6 +73,10 @@ public:
     /// Adds peers that show relief images of `texels` a side.
     [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
                                                 const glm::dmat4& prop_from_artifact, int texels);
+
+    /// Adds our own layered relief, cast on the processor, one for each size.
+    [[nodiscard]] Result<void> add_relief_casts(const SourceMesh& mesh, const Pack& pack,
+                                                const std::vector<int>& texels);
 
     /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
@@ -114,6 +119,8 @@ struct ComparisonOptions {
                                                  std::span<const std::uint32_t> levels,
                                                  const std::shared_ptr<const SourceMesh>& mesh,
                                                  const ComparisonOptions& options);
+/// Sets what is measured in the floor's time; the faster of its filters is the unit. One floor at least.
+void in_units_of_floor(std::span<TechniqueResult> results);
 /// The default level and, where it is another, the finest.
 [[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
 

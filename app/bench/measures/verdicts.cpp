@@ -130,4 +130,22 @@ std::vector<Verdict> judge(const SetUpResult& result) {
     return verdicts;
 }
 
+Result<void> require_limits(std::span<const SetUpResult> results) {
+    std::size_t missed = 0;
+    std::string first;
+    for (const SetUpResult& result : results) {
+        for (const Verdict& verdict : judge(result)) {
+            if (!verdict.held && missed++ == 0) {
+                first = fmt::format("{}, {} ({})", result.name, verdict.what, verdict.found);
+            }
+        }
+    }
+    if (missed == 0) {
+        return {};
+    }
+    return fail(ErrorKind::Internal,
+                fmt::format("{} of the limits above are missed, the first: {}; --limits none only measures",
+                            missed, first));
+}
+
 } // namespace frustumscreen

@@ -18,11 +18,11 @@ struct Limits {
     double colour_rmse = 0.0; ///< against 16 rays
     double times_floor = 0.0; ///< 0: no limit
 };
-inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 5.0};
+inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
 /// Stricter limits: for the default level again, and for some fine level of the pack.
-inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 3.5};
-inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 5.0};
+inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 0.0};
+inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 8.0};
 /// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
 /// million triangles and of four million; smaller ones (by more than 5 %) are not judged.
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
@@ -47,5 +47,8 @@ struct Verdict {
 /// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
 /// level, and whether a peer dominates a level.
 [[nodiscard]] std::vector<Verdict> judge(const SetUpResult& result);
+
+/// The error names how many verdicts are missed, and the first.
+[[nodiscard]] Result<void> require_limits(std::span<const SetUpResult> results);
 
 } // namespace frustumscreen

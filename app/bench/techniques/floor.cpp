@@ -6,15 +6,19 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
 namespace {
 
 constexpr int texels = 1024;
+constexpr int last_level = 10;
 
 constexpr std::string_view vertex = R"(
 uniform vec4 corners[4];
@@ -31,49 +35,97 @@ out vec4 result;
 void main() { result = vec4(texture(colour, at).rgb, 1.0); }
 )";
 
-GlTexture make_texture() {
-    Image8 image(texels, texels);
-    for (int y = 0; y < texels; ++y) {
-        for (int x = 0; x < texels; ++x) {
-            const auto grey = static_cast<std::uint8_t>((x ^ y) & 0xFF);
+/// Bars and squares of every size, in codes; each level has the means of its texels in the one below.
+Image8 pattern(int level) {
+    const int side = texels >> level;
+    const int step = std::min(1 << level, 256);
+    Image8 image(side, side);
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const auto grey = static_cast<std::uint8_t>((((x ^ y) * step) & 0xFF) + (step - 1) / 2);
             image.at(x, y) = {grey, grey, grey, 255};
         }
     }
+    return image;
+}
+
+GlTexture make_texture(const Image8& image, GLsizei levels, GLint min_filter) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
-    glTexStorage2D(GL_TEXTURE_2D, 11, GL_SRGB8_ALPHA8, texels, texels);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels, texels, GL_RGBA, GL_UNSIGNED_BYTE, image.texels.data());
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, image.width, image.height);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    image.texels.data());
+    if (levels > 1) {
+        glGenerateMipmap(GL_TEXTURE_2D);
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, min_filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
 }
 
+/// One texture with all levels, or each level as a texture of its own.
+std::vector<GlTexture> make_textures(FloorFilter filter) {
+    std::vector<GlTexture> textures;
+    if (filter == FloorFilter::Trilinear) {
+        textures.push_back(make_texture(pattern(0), 1 + last_level, GL_LINEAR_MIPMAP_LINEAR));
+        return textures;
+    }
+    for (int level = 0; level <= last_level; ++level) {
+        textures.push_back(make_texture(pattern(level), 1, GL_LINEAR));
+    }
+    return textures;
+}
+
+/// Of a convex quadrangle in clip coordinates, in pixels.
+double area_px(const std::array<glm::dvec4, 4>& corners, int width, int height) {
+    double twice = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const glm::dvec4& a = corners[k];
+        const glm::dvec4& b = corners[(k + 1) % corners.size()];
+        twice += (a.x * b.y - b.x * a.y) / (a.w * b.w);
+    }
+    return 0.5 * std::abs(twice) * 0.25 * width * height;
+}
+
+/// The level of which a texel is about a pixel.
+std::size_t level_of(double pixels) {
+    const double level = 0.5 * std::log2(double{texels} * texels / std::max(pixels, 1.0));
+    return static_cast<std::size_t>(std::clamp(std::lround(level), 0L, long{last_level}));
+}
+
 class Floor final : public Technique {
 public:
-    Floor(const Stage& stage, GlProgram program) : stage_(stage), program_(std::move(program)) {
+    Floor(const Stage& stage, GlProgram program, FloorFilter filter)
+        : stage_(stage), program_(std::move(program)), filter_(filter) {
         glUseProgram(program_.get());
         glUniform1i(glGetUniformLocation(program_.get(), "colour"), 0);
     }
 
-    [[nodiscard]] std::string name() const override { return "floor"; }
+    [[nodiscard]] std::string name() const override {
+        return filter_ == FloorFilter::Trilinear ? "floor (trilinear)" : "floor (one mip level)";
+    }
     void draw(const BenchPose& pose) override {
         const PeerView view = peer_view(stage_, pose);
-        begin_picture(stage_.framebuffer, stage_.width(), stage_.height());
+        begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
         glUseProgram(program_.get());
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, texture_.get());
         glBindVertexArray(no_attributes_.get());
         for (const PropFace* face : view.faces) {
+            std::array<glm::dvec4, 4> exact{};
             std::array<glm::vec4, 4> corners{};
             for (std::size_t k = 0; k < corners.size(); ++k) {
-                const glm::dvec4 corner = view.clip_from_prop * glm::dvec4(face->corners[k], 1.0);
-                corners[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
+                exact[k] = view.clip_from_prop * glm::dvec4(face->corners[k], 1.0);
+                corners[k] = glm::vec4(glm::dvec4(exact[k].x, exact[k].y, 0.0, exact[k].w));
             }
+            const std::size_t level = filter_ == FloorFilter::Trilinear
+                                          ? 0
+                                          : level_of(area_px(exact, stage_.width(), stage_.height()));
+            glBindTexture(GL_TEXTURE_2D, textures_[level].get());
             glUniform4fv(corners_, 4, glm::value_ptr(corners[0]));
             glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
         }
         glBindVertexArray(0);
+        end_codes();
     }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose&) override {
         return ImageFloat(stage_.width(), stage_.height(),
@@ -83,19 +135,20 @@ public:
 private:
     const Stage& stage_;
     GlProgram program_;
+    FloorFilter filter_;
     GLint corners_ = glGetUniformLocation(program_.get(), "corners");
-    GlTexture texture_ = make_texture();
+    std::vector<GlTexture> textures_ = make_textures(filter_);
     GlVertexArray no_attributes_ = GlVertexArray::generate();
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_floor(const Stage& stage) {
+Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter) {
     Result<GlProgram> program = make_program("", vertex, fragment);
     if (!program) {
         return tl::unexpected<Error>(program.error());
     }
-    return std::make_unique<Floor>(stage, std::move(*program));
+    return std::make_unique<Floor>(stage, std::move(*program), filter);
 }
 
 } // namespace frustumscreen

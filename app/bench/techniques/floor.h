@@ -2,7 +2,9 @@
 /// leaves most of a face dark may cost less.
 ///
 /// It draws the exhibit's prop and pixels: each face that the exhibit would light gets one 1024 x 1024
-/// trilinear texture in sRGB. The clear is the same, always a full redraw; the caller calls glFinish.
+/// texture, whose codes go to the picture as they are: nothing decodes or encodes sRGB. Colour alone is
+/// cleared, as the exhibit clears it. Which filter is faster depends on the machine: both are timed, and the
+/// faster is the unit. Always a full redraw; the caller calls glFinish.
 ///
 /// Threads  the one whose context is current; the stage must outlive the technique.
 /// Errors   at creation only: the driver refuses a shader or has no memory.
@@ -14,7 +16,12 @@
 
 namespace frustumscreen {
 
+enum class FloorFilter {
+    Trilinear,
+    OneLevel, ///< bilinear, from the mip level of which a texel is about a pixel, chosen for each face
+};
+
 /// Its hit points are all NaN: it shows no artifact.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Stage& stage);
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter);
 
 } // namespace frustumscreen

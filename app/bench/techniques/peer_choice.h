@@ -6,6 +6,7 @@
 /// lod           simplified meshes through the collineation
 /// two-pass-lod  simplified meshes by the two-pass method
 /// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
+/// relief-cast   layered relief through blocks on the processor: our own, on its way into the pack
 ///
 /// Threads  values; any.
 /// Errors   a name that is none of these.
@@ -26,9 +27,11 @@ struct PeerChoice {
     bool lod = true;
     bool two_pass_lod = true;
     bool relief = true;
+    bool relief_cast = true;
     std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods
     std::vector<std::size_t> lod_triangles = {10'000, 20'000, 40'000, 80'000};
     int relief_texels = 512; ///< a side of each relief image
+    std::vector<int> cast_texels = {256, 512};
 };
 
 /// `words`: none, all, or names with commas between them.

@@ -2,6 +2,7 @@
 
 #include "firmware_host/gl/gl_program.h"
 
+#include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
 #include <limits>
@@ -45,6 +46,22 @@ void begin_picture(GLuint framebuffer, int width, int height) {
     }
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+void begin_codes(GLuint framebuffer, int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, width, height);
+    for (const GLenum off : {GLenum{GL_SCISSOR_TEST}, GLenum{GL_STENCIL_TEST}, GLenum{GL_DEPTH_TEST},
+                             GLenum{GL_CULL_FACE}, GLenum{GL_BLEND}, GLenum{GL_FRAMEBUFFER_SRGB_EXT}}) {
+        glDisable(off);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void end_codes() {
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
 Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,

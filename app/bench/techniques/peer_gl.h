@@ -28,6 +28,10 @@ struct OffscreenTarget {
 
 /// Binds and clears a picture, with every test and mask as a new context has it.
 void begin_picture(GLuint framebuffer, int width, int height);
+/// As the exhibit begins its picture, for what writes codes as they are: colour alone is cleared.
+void begin_codes(GLuint framebuffer, int width, int height);
+/// The others write linear light.
+void end_codes();
 
 enum class Output { Colour, Point }; ///< Point: the hit's place in the prop's frame, alpha 1
 /// One program for each output; POINT is defined for points.

@@ -1,6 +1,8 @@
 #include "app/bench/techniques/ray_cast.h"
 
+#include "app/bench/techniques/memory_picture.h"
 #include "app/bench/truth/truth.h"
+#include "app/geometry/face_rays.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
@@ -47,34 +49,11 @@ struct PixelRect {
     int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
 };
 
-/// What is linear in a pixel's centre (u, v, 1).
-using PixelLinear = glm::dvec3;
-
 /// A face as the projector's pixels see it.
-struct FaceRays {
-    std::array<PixelLinear, 4> edges; ///< not positive inside the face
-    glm::dmat3 direction{1.0};        ///< of the eye's ray, from (u, v, 1); not unit
-    PixelRect pixels;                 ///< that may show the artifact
-};
-
-FaceRays rays_of(const PropFace& face, const TruthView& view) {
-    const Pinhole& pinhole = view.projector;
-    const glm::dvec3 projector = view.prop_from_projector.translation;
-    const glm::dvec3 corner = view.prop_from_projector.direction(pinhole.ray({0.0, 0.0}));
-    const glm::dmat3 light(view.prop_from_projector.direction(pinhole.ray({1.0, 0.0})) - corner,
-                           view.prop_from_projector.direction(pinhole.ray({0.0, 1.0})) - corner, corner);
+struct CastFace {
     FaceRays rays;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const glm::dvec3 from = face.corners[k] - projector;
-        const glm::dvec3 to = face.corners[(k + 1) % 4] - projector;
-        rays.edges[k] = glm::cross(from, to) * light;
-    }
-    // S = P + (d - n.P) / (n.L) L for the light's ray L; n.L < 0, so that -n.L (S - E) looks as S - E does.
-    const PixelLinear along = face.plane.normal * light;
-    rays.direction =
-        face.plane.distance(projector) * light - glm::outerProduct(projector - view.eye_m, along);
-    return rays;
-}
+    PixelRect pixels; ///< that may show the artifact
+};
 
 /// The pixels that the box may light through this face; all if a part of it is behind the eye.
 PixelRect pixels_of(const Box& box, const std::optional<glm::dmat4>& clip, int width, int height) {
@@ -103,10 +82,10 @@ PixelRect pixels_of(const Box& box, const std::optional<glm::dmat4>& clip, int w
 }
 
 /// The part of row `y` whose pixels' centres lie in the face.
-Span span_of(const FaceRays& rays, std::size_t face, int y) {
-    double begin = rays.pixels.left;
-    double end = rays.pixels.right;
-    for (const PixelLinear& edge : rays.edges) {
+Span span_of(const CastFace& cast, std::size_t face, int y) {
+    double begin = cast.pixels.left;
+    double end = cast.pixels.right;
+    for (const glm::dvec3& edge : cast.rays.edges) {
         const double rest = edge.y * (y + 0.5) + edge.z; // edge.x u + rest <= 0
         if (edge.x > 0.0) {
             end = std::fmin(end, std::floor(-rest / edge.x - 0.5) + 1.0);
@@ -116,26 +95,25 @@ Span span_of(const FaceRays& rays, std::size_t face, int y) {
             end = begin;
         }
     }
-    begin = std::fmin(begin, rays.pixels.right); // an edge along the row may be met anywhere
+    begin = std::fmin(begin, cast.pixels.right); // an edge along the row may be met anywhere
     return {face, y, static_cast<int>(begin), static_cast<int>(std::fmax(begin, end))};
 }
 
 class RayCast final : public Technique {
 public:
-    RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, OffscreenTarget target)
-        : stage_(stage), mesh_(std::move(mesh)), target_(std::move(target)),
-          colours_(stage.width(), stage.height(), glm::u8vec4(0)) {}
+    RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, MemoryPicture picture)
+        : stage_(stage), mesh_(std::move(mesh)), picture_(std::move(picture)) {}
 
     [[nodiscard]] std::string name() const override { return "ray cast"; }
     void draw(const BenchPose& pose) override {
         set_up(pose);
         cast([this](int x, int y, const glm::dvec3&, const RTCRayHit8& hits, int lane) {
-            colours_.at(x, y) = codes_.of(surface_colour(mesh_->mesh(), hits.hit.primID[lane],
-                                                         static_cast<double>(hits.hit.u[lane]),
-                                                         static_cast<double>(hits.hit.v[lane]))
-                                              .linear);
+            picture_.codes.at(x, y) = codes_.of(surface_colour(mesh_->mesh(), hits.hit.primID[lane],
+                                                               static_cast<double>(hits.hit.u[lane]),
+                                                               static_cast<double>(hits.hit.v[lane]))
+                                                    .linear);
         });
-        show();
+        picture_.show(stage_, lit_);
     }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
         set_up(pose);
@@ -153,21 +131,21 @@ private:
         const PeerView faces = peer_view(stage_, pose);
         faces_.clear();
         spans_.clear();
-        lit_ = {stage_.width(), stage_.height(), 0, 0};
+        lit_ = {};
         for (const PropFace* face : faces.faces) {
-            FaceRays rays = rays_of(*face, view_);
-            rays.pixels = pixels_of(
-                mesh_->box(), collineation(face->plane, view_.eye_m, faces.clip_from_prop, mesh_->box()),
-                stage_.width(), stage_.height());
-            for (int y = rays.pixels.top; y < rays.pixels.bottom; ++y) {
-                const Span span = span_of(rays, faces_.size(), y);
+            const CastFace cast{
+                face_rays(*face, view_.projector, view_.prop_from_projector, view_.eye_m),
+                pixels_of(mesh_->box(),
+                          collineation(face->plane, view_.eye_m, faces.clip_from_prop, mesh_->box()),
+                          stage_.width(), stage_.height())};
+            for (int y = cast.pixels.top; y < cast.pixels.bottom; ++y) {
+                const Span span = span_of(cast, faces_.size(), y);
                 if (span.begin < span.end) {
                     spans_.push_back(span);
-                    lit_ = {std::min(lit_.left, span.begin), std::min(lit_.top, y),
-                            std::max(lit_.right, span.end), std::max(lit_.bottom, y + 1)};
+                    lit_ = united(lit_, {span.begin, y, span.end - span.begin, 1});
                 }
             }
-            faces_.push_back(rays);
+            faces_.push_back(cast);
         }
     }
 
@@ -186,7 +164,7 @@ private:
         alignas(32) std::array<int, lanes> valid{};
         alignas(32) RTCRayHit8 packet; // NOLINT(cppcoreguidelines-pro-type-member-init): lanes below
         std::array<glm::dvec3, lanes> directions;
-        const glm::dmat3& direction = faces_[span.face].direction;
+        const glm::dmat3& direction = faces_[span.face].rays.direction;
         for (int lane = 0; lane < lanes; ++lane) {
             const auto k = static_cast<std::size_t>(lane);
             valid[k] = left + lane < span.end ? -1 : 0;
@@ -217,49 +195,24 @@ private:
         }
     }
 
-    /// Puts the lit part into the framebuffer, and makes memory black again for the next picture.
-    void show() {
-        glBindFramebuffer(GL_FRAMEBUFFER, stage_.framebuffer);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        glDisable(GL_SCISSOR_TEST);
-        glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-        glClear(GL_COLOR_BUFFER_BIT);
-        if (lit_.left >= lit_.right) {
-            return;
-        }
-        glBindTexture(GL_TEXTURE_2D, target_.colour.get());
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, stage_.width());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, lit_.left, lit_.top, lit_.right - lit_.left, lit_.bottom - lit_.top,
-                        GL_RGBA, GL_UNSIGNED_BYTE, &colours_.at(lit_.left, lit_.top));
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.framebuffer.get());
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, stage_.framebuffer);
-        glBlitFramebuffer(lit_.left, lit_.top, lit_.right, lit_.bottom, lit_.left, lit_.top, lit_.right,
-                          lit_.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        for (int y = lit_.top; y < lit_.bottom; ++y) {
-            std::fill_n(&colours_.at(lit_.left, y), lit_.right - lit_.left, glm::u8vec4(0));
-        }
-    }
-
     const Stage& stage_;
     std::shared_ptr<const TracedMesh> mesh_;
-    OffscreenTarget target_;
+    MemoryPicture picture_;
     CodeTable codes_;
-    Image8 colours_; ///< black between pictures
     TruthView view_;
-    std::vector<FaceRays> faces_;
+    std::vector<CastFace> faces_;
     std::vector<Span> spans_;
-    PixelRect lit_;
+    PixelRectangle lit_;
 };
 
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh) {
-    Result<OffscreenTarget> target = make_target(stage.width(), stage.height(), GL_SRGB8_ALPHA8);
-    if (!target) {
-        return tl::unexpected<Error>(target.error());
+    Result<MemoryPicture> picture = MemoryPicture::create(stage);
+    if (!picture) {
+        return tl::unexpected<Error>(picture.error());
     }
-    return std::make_unique<RayCast>(stage, std::move(mesh), std::move(*target));
+    return std::make_unique<RayCast>(stage, std::move(mesh), std::move(*picture));
 }
 
 } // namespace frustumscreen

@@ -3,6 +3,7 @@
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>

@@ -17,6 +17,7 @@ struct Arguments {
     BenchArtifact artifact;
     ErrorTimeOptions options;
     std::string peers = "all";
+    std::string limits = "all";
 };
 
 /// Every step of the run, so that the time left is that of all of them.
@@ -93,7 +94,10 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     }
     const Result<void> drawn = draw_all(arguments.place.out, {"error_time.csv"});
     const Result<void> figures_hold = require_true(figures, arguments.artifact.pack.string());
-    return figures_hold ? drawn : figures_hold;
+    if (!figures_hold || !drawn) {
+        return figures_hold ? drawn : figures_hold;
+    }
+    return arguments.limits == "all" ? require_limits(results) : Result<void>{};
 }
 
 } // namespace
@@ -107,13 +111,18 @@ BenchCommand error_time_command(CLI::App& app) {
     add_picture_options(*command, arguments->options.picture);
     add_pose_options(*command, arguments->options.poses, arguments->options.seed);
     command
-        ->add_option(
-            "--peers", arguments->peers,
-            "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, with commas between")
+        ->add_option("--peers", arguments->peers,
+                     "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
+                     "relief-cast, with commas between")
         ->check([](const std::string& words) {
             const Result<PeerChoice> choice = parse_peers(words);
             return choice ? std::string() : choice.error().message;
         })
+        ->capture_default_str();
+    command
+        ->add_option("--limits", arguments->limits,
+                     "all: exit with 1 when a limit of the table is missed; none: only measure")
+        ->check(CLI::IsMember({"all", "none"}))
         ->capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
                 arguments->options.peers = *parse_peers(arguments->peers); // checked above

@@ -1,0 +1,34 @@
+#include "app/bench/techniques/memory_picture.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+Result<MemoryPicture> MemoryPicture::create(const Stage& stage) {
+    Result<OffscreenTarget> target = make_target(stage.width(), stage.height(), GL_SRGB8_ALPHA8);
+    if (!target) {
+        return tl::unexpected<Error>(target.error());
+    }
+    return MemoryPicture(std::move(*target), stage.width(), stage.height());
+}
+
+void MemoryPicture::show(const Stage& stage, const PixelRectangle& lit) {
+    begin_codes(stage.framebuffer, stage.width(), stage.height());
+    if (!lit.empty()) {
+        glBindTexture(GL_TEXTURE_2D, target_.colour.get());
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, stage.width());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, lit.x, lit.y, lit.width, lit.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        &codes.at(lit.x, lit.y));
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.framebuffer.get());
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, stage.framebuffer);
+        glBlitFramebuffer(lit.x, lit.y, lit.x + lit.width, lit.y + lit.height, lit.x, lit.y,
+                          lit.x + lit.width, lit.y + lit.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        for (int y = lit.y; y < lit.y + lit.height; ++y) {
+            std::fill_n(&codes.at(lit.x, y), lit.width, glm::u8vec4(0));
+        }
+    }
+    end_codes();
+}
+
+} // namespace frustumscreen

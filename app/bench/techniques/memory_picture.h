@@ -1,0 +1,30 @@
+/// A picture that the processor makes, on its way into the stage's framebuffer.
+///
+/// Units    sRGB codes; pixels.
+/// Threads  the one whose context is current; `codes` may be written by several between two `show`.
+#pragma once
+
+#include "app/bench/techniques/peer_gl.h"
+#include "app/bench/techniques/technique.h"
+#include "app/image/image.h"
+#include "firmware_host/base/pixel_rectangle.h"
+
+namespace frustumscreen {
+
+class MemoryPicture {
+public:
+    /// Errors: the driver has no memory.
+    [[nodiscard]] static Result<MemoryPicture> create(const Stage& stage);
+
+    Image8 codes; ///< black between pictures
+
+    /// Clears the stage's framebuffer, puts the lit part there, and makes it black here again.
+    void show(const Stage& stage, const PixelRectangle& lit);
+
+private:
+    MemoryPicture(OffscreenTarget target, int width, int height)
+        : codes(width, height, glm::u8vec4(0)), target_(std::move(target)) {}
+    OffscreenTarget target_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,53 @@
+/// Layered relief as blocks, for casting: 8 x 8 cells of one connected layer each, as a plane with 8-bit residuals at the
+/// corners.
+///
+/// Frames   box (pack.h). Grid of a direction: u and v across it, w along it and outward, in texels:
+///          coordinate k of X is sign_k (X[axis[k]] - origin_box[k]) / texel_box, with sign 1 for u and v.
+/// Surface  inside the cells of `mask`, at local place (i, j) = (u - u0, v - v0), 0..8: w = w0 + w_u i + w_v j + residual, which
+///          is bilinear between the corners' codes: residual_low + residual_step * code. It is seen from outward alone.
+/// Threads  values; any.
+/// Source   layered depth images (Shade 1998) as relief textures (Oliveira 2000; Kim 2008); blocks: docs/relief.md.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr int block_cells = 8;
+inline constexpr int block_corners = block_cells + 1;
+
+struct ReliefGrid {
+    std::array<int, 3> axis{}; ///< of the box, for u, v, w
+    double sign = 1.0;         ///< of w
+    glm::dvec3 origin_box{0.0};
+};
+
+struct ReliefBlock {
+    float u0 = 0.0F, v0 = 0.0F;
+    float w0 = 0.0F, w_u = 0.0F, w_v = 0.0F;
+    float residual_low = 0.0F, residual_step = 0.0F;
+    glm::vec2 gradient_u{0.0F}; ///< least and largest of the residual's, over all cells
+    glm::vec2 gradient_v{0.0F};
+    std::array<std::uint8_t, 4> cells{}; ///< first column, one past the last, first row, one past the last
+    std::uint64_t mask = 0;              ///< bit 8 row + column: the cell is there
+
+    [[nodiscard]] float residual_high() const { return residual_low + 255.0F * residual_step; }
+};
+
+struct BlockRelief {
+    float texel_box = 0.0F;
+    std::vector<ReliefGrid> grids;          ///< one for each direction
+    std::vector<std::uint32_t> first_block; ///< of each direction; one more at the end
+    std::vector<ReliefBlock> blocks;
+    /// 64 a block: the codes of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), from the lowest byte on.
+    std::vector<std::uint32_t> corner_codes;
+    /// 81 a block, row by row: sRGB codes at the corners.
+    std::vector<glm::u8vec4> colours;
+};
+
+} // namespace frustumscreen

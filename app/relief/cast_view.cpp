@@ -1,0 +1,90 @@
+#include "app/relief/cast_view.h"
+
+#include "app/geometry/collineation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+glm::dvec3 corner_of_box(const glm::dvec3& size, unsigned k) {
+    return {(k & 1U) != 0 ? 0.5 * size.x : -0.5 * size.x, (k & 2U) != 0 ? 0.5 * size.y : -0.5 * size.y,
+            (k & 4U) != 0 ? size.z : 0.0};
+}
+
+/// Around the artifact's box, in the prop's frame.
+Box placed_box(const CastScene& scene) {
+    Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
+            glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec3 corner(scene.prop_from_box * glm::dvec4(corner_of_box(scene.box_size, k), 1.0));
+        box.low = glm::min(box.low, corner);
+        box.high = glm::max(box.high, corner);
+    }
+    return box;
+}
+
+/// The pixels around the box's corners; all, if a corner is not in front of the eye.
+PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, int width, int height) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec3 at = face.pixel_from_box * glm::dvec4(corner_of_box(size, k), 1.0);
+        if (!(at.z > 0.0)) {
+            return {0, 0, width, height};
+        }
+        low = glm::min(low, glm::dvec2(at) / at.z);
+        high = glm::max(high, glm::dvec2(at) / at.z);
+    }
+    const auto clamped = [](double value, int most) {
+        return static_cast<int>(std::clamp(value, 0.0, double(most)));
+    };
+    const int left = clamped(std::floor(low.x), width);
+    const int top = clamped(std::floor(low.y), height);
+    return {left, top, clamped(std::ceil(high.x), width) - left, clamped(std::ceil(high.y), height) - top};
+}
+
+/// Turned so that the inside is positive, and as long as one pixel is wide.
+glm::dvec3 inward_edge(const glm::dvec3& edge) {
+    return -edge / glm::length(glm::dvec2(edge));
+}
+
+} // namespace
+
+void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
+    const glm::dmat4 box_from_prop = glm::inverse(scene.prop_from_box);
+    const int width = scene.projector.width;
+    const int height = scene.projector.height;
+    const glm::dmat4 clip_from_prop =
+        scene.projector.clip_from_point() * scene.prop_from_projector.inverse().matrix();
+    // Rows (x + w) / 2 W, (y + w) / 2 H and w of clip coordinates.
+    const glm::mat<4, 3, double> pixel_from_clip(glm::dvec3(0.5 * width, 0.0, 0.0),
+                                                 glm::dvec3(0.0, 0.5 * height, 0.0), glm::dvec3(0.0),
+                                                 glm::dvec3(0.5 * width, 0.5 * height, 1.0));
+    const Box box = placed_box(scene);
+    view.eye_box = glm::dvec3(box_from_prop * glm::dvec4(scene.eye_m, 1.0));
+    view.faces.clear();
+    view.lit = {};
+    for (const PropFace& face : prop.faces) {
+        if (!(face.plane.distance(scene.prop_from_projector.translation) > 0.0)) {
+            continue;
+        }
+        const std::optional<glm::dmat4> clip = collineation(face.plane, scene.eye_m, clip_from_prop, box);
+        if (!clip) {
+            continue;
+        }
+        const FaceRays rays = face_rays(face, scene.projector, scene.prop_from_projector, scene.eye_m);
+        CastFace cast;
+        cast.direction = glm::dmat3(box_from_prop) * rays.direction;
+        std::transform(rays.edges.begin(), rays.edges.end(), cast.edges.begin(), inward_edge);
+        cast.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
+        cast.lit = pixels_around(cast, scene.box_size, width, height);
+        view.lit = united(view.lit, cast.lit);
+        view.faces.push_back(cast);
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,45 @@
+/// What a frame's casting starts from: the eye, the rays through each visible face, and where the box's points are lit.
+///
+/// Frames   box; pixels as in geometry/face_rays.h.
+/// Threads  pure; any.
+/// Errors   a face that the eye or the projector sees at less than `least_sine` is left out (geometry/collineation.h).
+#pragma once
+
+#include "app/geometry/face_rays.h"
+#include "firmware_host/base/pixel_rectangle.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace frustumscreen {
+
+struct CastFace {
+    glm::dmat3 direction{1.0};         ///< of the eye's ray, from (x, y, 1); box, not unit
+    std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
+    /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
+    glm::mat<4, 3, double> pixel_from_box{1.0};
+    PixelRectangle lit; ///< the pixels that may show the box on this face
+};
+
+struct CastView {
+    glm::dvec3 eye_box{0.0};
+    std::vector<CastFace> faces;
+    PixelRectangle lit; ///< around all of them
+};
+
+/// How the artifact stands in the prop, and who looks.
+struct CastScene {
+    glm::dmat4 prop_from_box{1.0}; ///< a rotation, one scale, a translation
+    glm::dvec3 box_size{1.0};
+    Pinhole projector;
+    RigidTransform prop_from_projector;
+    glm::dvec3 eye_m{0.0}; ///< prop
+};
+
+/// `view` keeps its memory from frame to frame.
+void set_up(CastView& view, const PropShape& prop, const CastScene& scene);
+
+} // namespace frustumscreen

@@ -1,0 +1,28 @@
+/// Bakes a surface into relief blocks: every front-facing crossing of the grid's lines in the directions of the prop's faces, linked
+/// into cells; the direction that sees a crossing best keeps it, others a rim around it.
+///
+/// Frame    box.
+/// Threads  uses every core; the same result with any number of them.
+/// Source   layered depth images (Shade 1998) in the directions of a prop's faces (Kim 2008), with their holes closed.
+#pragma once
+
+#include "app/relief/block_relief.h"
+#include "assets_baked/bake/relief_layers.h"
+#include "assets_baked/bake/source_scene.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+struct BlockInput {
+    const SourceScene& surface; ///< front sides alone are kept; what nobody sees should be left out before
+    glm::dvec3 box_size{1.0};
+    std::vector<ReliefDirection> directions;
+    int texels = 512; ///< along the box's longest edge
+    /// sRGB codes of the surface at a hit.
+    std::function<glm::u8vec4(const SurfaceHit&)> colour;
+};
+
+[[nodiscard]] BlockRelief bake_blocks(const BlockInput& input);
+
+} // namespace frustumscreen

@@ -1,0 +1,35 @@
+/// The cells of a crossed grid: for each place where the surface continues from crossing to crossing, four corners.
+///
+/// Frames   the direction's grid, texels.
+/// Threads  pure; any.
+#pragma once
+
+#include "assets_baked/bake/grid_crossings.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr std::uint32_t no_crossing = 0xFFFFFFFFU;
+
+/// Corners (0, 0), (1, 0), (0, 1), (1, 1) of the cell at (column, row). Where a corner's line does not cross the surface, its height
+/// continues the others'.
+struct LinkedCell {
+    std::array<std::uint32_t, 4> crossing{no_crossing, no_crossing, no_crossing,
+                                          no_crossing}; ///< of the grid's list
+    std::array<float, 4> w{};
+
+    [[nodiscard]] bool whole() const {
+        return crossing[0] != no_crossing && crossing[1] != no_crossing && crossing[2] != no_crossing &&
+               crossing[3] != no_crossing;
+    }
+};
+
+/// All surfaces over one cell, of which this direction owns a corner at least. A cell that lacks corners is there if the surface is met
+/// at its middle.
+[[nodiscard]] std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid,
+                                                 int column, int row);
+
+} // namespace frustumscreen

@@ -1,0 +1,140 @@
+#include "app/bench/truth/poses.h"
+#include "app/bench/truth/truth.h"
+#include "app/relief/cast_blocks.h"
+#include "assets_baked/bake/block_relief.h"
+#include "assets_baked/bake/box_frame.h"
+#include "tests/bench/near_stage.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+const std::vector<ReliefDirection> frustum_directions = {ReliefDirection::PlusX, ReliefDirection::MinusX,
+                                                         ReliefDirection::PlusY, ReliefDirection::MinusY,
+                                                         ReliefDirection::PlusZ};
+
+/// A mesh that stands in the prop's frame, as a relief and as the truth.
+struct Subject {
+    std::shared_ptr<SourceMesh> mesh = ring();
+    BoxFrame frame = make_box_frame(*mesh, {}).value();
+    std::vector<glm::dvec3> points = in_box(*mesh, frame);
+    SourceScene surface{*mesh, points, Sides::Both};
+    Truth truth = Truth::build(mesh, glm::dmat4(1.0)).value();
+
+    [[nodiscard]] BlockRelief relief(int texels) const {
+        return bake_blocks(
+            {surface, frame.box_size, frustum_directions, texels, [this](const SurfaceHit& hit) {
+                 const glm::vec4 linear = surface.colour(hit);
+                 glm::u8vec4 code(255);
+                 for (int k = 0; k < 3; ++k) {
+                     code[k] = srgb8_from_linear(static_cast<double>(linear[k]));
+                 }
+                 return code;
+             }});
+    }
+};
+
+struct Frame {
+    CastView view;
+    BlockItems items;
+    CastPicture picture;
+};
+
+void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const Settings& settings,
+          const PropShape& prop, const BenchPose& pose) {
+    const TruthView view = view_of(settings, pose);
+    set_up(frame.view, prop,
+           {glm::inverse(subject.frame.box_from_file), subject.frame.box_size, view.projector,
+            view.prop_from_projector, view.eye_m});
+    list_blocks(frame.items, relief, frame.view);
+    frame.picture.resize(view.projector.width, view.projector.height);
+    cast(frame.picture, relief, frame.view, frame.items, {0, frame.picture.rows});
+}
+
+struct Errors {
+    int truth = 0, missing = 0, extra = 0, far = 0;
+    double mean_mm = 0.0, colour_rmse = 0.0;
+};
+
+Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPicture& truth,
+                 const PropShape& prop, const BenchPose& pose, const Settings& settings) {
+    const TruthView view = view_of(settings, pose);
+    Errors errors;
+    int both = 0;
+    for (int y = 0; y < truth.hit.height; ++y) {
+        for (int x = 0; x < truth.hit.width; ++x) {
+            const std::size_t at = frame.picture.at(x, y);
+            const bool drawn = std::isfinite(frame.picture.t[at]);
+            const bool is_true = truth.hit.at(x, y) != 0;
+            errors.truth += is_true ? 1 : 0;
+            errors.missing += is_true && !drawn ? 1 : 0;
+            errors.extra += drawn && !is_true ? 1 : 0;
+            if (!drawn || !is_true) {
+                continue;
+            }
+            glm::dvec3 best(INFINITY);
+            for (const PropFace& face : prop.faces) {
+                if (face.plane.distance(view.eye_m) > 0.0 &&
+                    face.plane.distance(view.prop_from_projector.translation) > 0.0) {
+                    const FaceRays rays =
+                        face_rays(face, view.projector, view.prop_from_projector, view.eye_m);
+                    const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
+                    bool inside = true;
+                    for (const glm::dvec3& edge : rays.edges) {
+                        inside = inside && glm::dot(edge, pixel) <= 0.0;
+                    }
+                    if (inside) {
+                        best =
+                            view.eye_m + static_cast<double>(frame.picture.t[at]) * (rays.direction * pixel);
+                    }
+                }
+            }
+            const double mm = 1e3 * glm::distance(best, glm::dvec3(truth.point_m.at(x, y)));
+            errors.mean_mm += mm;
+            errors.far += mm > 1.0 ? 1 : 0;
+            const glm::u8vec4 code = colour_at(relief, frame.picture.block[at], frame.picture.place[at]);
+            const glm::dvec3 off = glm::dvec3(code) - glm::dvec3(truth.colour.at(x, y));
+            errors.colour_rmse += glm::dot(off, off) / 3.0;
+            ++both;
+        }
+    }
+    errors.mean_mm /= both;
+    errors.colour_rmse = std::sqrt(errors.colour_rmse / both);
+    return errors;
+}
+
+TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
+    const Subject subject;
+    const Settings settings = near_settings();
+    const PropShape prop = make_prop(settings.prop);
+    const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+    for (const int texels : {128, 256, 512}) {
+        const BlockRelief relief = subject.relief(texels);
+        Errors sum;
+        Frame frame;
+        for (const BenchPose& pose : poses) {
+            draw(frame, subject, relief, settings, prop, pose);
+            const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
+            const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
+            sum.truth += one.truth;
+            sum.missing += one.missing;
+            sum.extra += one.extra;
+            sum.far += one.far;
+            sum.mean_mm += one.mean_mm / static_cast<double>(poses.size());
+            sum.colour_rmse += one.colour_rmse / static_cast<double>(poses.size());
+        }
+        std::printf("%d texels: %zu blocks, %d pixels, missing %.3f %%, extra %.3f %%, far %.3f %%, %.5f mm, "
+                    "RMSE %.2f\n",
+                    texels, relief.blocks.size(), sum.truth, 100.0 * sum.missing / sum.truth,
+                    100.0 * sum.extra / sum.truth, 100.0 * sum.far / sum.truth, sum.mean_mm, sum.colour_rmse);
+        EXPECT_LT(sum.missing + sum.extra, sum.truth / 100);
+        EXPECT_LT(sum.mean_mm, 0.05);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
