@@ -57,6 +57,9 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box
 
 Governor::Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms)
     : rungs_(std::move(rungs)), model_(times), deadline_ms_(deadline_ms) {
+    for (const RungTime& time : times) {
+        triangles_.push_back(time.work.triangles);
+    }
     current_ = rungs_.size(); // none: no rung is favoured
     current_ = wanted();
 }
@@ -84,6 +87,18 @@ std::size_t Governor::wanted() const {
     return enough != none ? enough : (best != none ? best : quickest);
 }
 
+std::optional<std::size_t> Governor::doubted() const {
+    const std::size_t count = rungs_.size();
+    for (std::size_t step = 1; step <= count; ++step) {
+        const std::size_t k = (tried_ + count - step) % count;
+        if (k != current_ && rungs_[k].samples <= rungs_[current_].samples &&
+            triangles_[k] <= triangles_[current_]) {
+            return k;
+        }
+    }
+    return std::nullopt;
+}
+
 void Governor::change_to(std::size_t rung, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
@@ -98,23 +113,36 @@ void Governor::change_to(std::size_t rung, MonotonicTime now) {
     ++switches_;
 }
 
+Nanoseconds Governor::delay_of(Change change) const {
+    return change == Change::Relief ? relief_delay : (change == Change::Try ? try_patience_ : patience_);
+}
+
 void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     if (!model_.observe(current_, work, ms, now)) {
         ++ignored_;
         return;
     }
-    const std::size_t better = wanted();
-    const Change wanted =
-        better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
+    std::size_t better = wanted();
+    Change wanted = better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
+    if (wanted == Change::None && !fits(current_)) {
+        if (const std::optional<std::size_t> rung = doubted()) {
+            better = *rung;
+            wanted = Change::Try;
+        }
+    }
     if (wanted != wanted_) {
         wanted_ = wanted;
         wanted_since_ = now;
     }
-    const Nanoseconds delay = wanted == Change::Relief ? relief_delay : patience_;
     const bool settled = switches_ == 0 || now - changed_ >= dwell;
-    if (wanted != Change::None && settled && now - wanted_since_ >= delay) {
-        change_to(better, now);
+    if (wanted == Change::None || !settled || now - wanted_since_ < delay_of(wanted)) {
+        return;
     }
+    if (wanted == Change::Try) {
+        tried_ = better;
+        try_patience_ = std::min(2 * try_patience_, most_patience);
+    }
+    change_to(better, now);
 }
 
 void Governor::enter(MonotonicTime now, double load) {

@@ -17,6 +17,9 @@
 ///          quality when it takes less than 70 %; a rung that proves too slow soon after it was entered is
 ///          tried again after twice the time; nothing changes within `dwell` of a change. So at most one
 ///          change a `dwell`, and a rung that never fits is tried O(log t) times.
+/// Doubt    the times at the start may be wrong: a rung is drawn late, and said to be the quickest, while another
+///          has neither more triangles nor more samples. Such a one is tried, the least first, after a patience
+///          that doubles with each try. So the slowest is not kept for good.
 /// Source   Kim 2008, Eq. (1): the importance I = u P + v / |PA - PO| + w cos + x S of an object decides
 ///          whether it is drawn in images or in polygons. Here one object has many levels: u = 1, and P,
 ///          pixels for one texel, becomes pixels for one level's error, measured, not assumed; v, w, x = 0,
@@ -37,6 +40,7 @@
 #include "app/scene/frame_time_model.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -90,21 +94,27 @@ public:
     [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< values that are not times
 
 private:
+    enum class Change { None, Relief, Quality, Try };
+    [[nodiscard]] Nanoseconds delay_of(Change change) const;
     [[nodiscard]] std::size_t wanted() const;
     [[nodiscard]] bool fits(std::size_t rung) const;
     [[nodiscard]] double cost(std::size_t rung) const;
+    /// One that should be quicker than `current_`, whatever its time at the start was; none: `current_` has the least work.
+    [[nodiscard]] std::optional<std::size_t> doubted() const;
     void change_to(std::size_t rung, MonotonicTime now);
 
     std::vector<Rung> rungs_;
+    std::vector<double> triangles_; ///< of each rung at the start
     FrameTimeModel model_;
     double deadline_ms_;
     std::size_t current_ = 0;
     bool entered_for_quality_ = false;
     MonotonicTime changed_; ///< when `current_` was entered
-    enum class Change { None, Relief, Quality };
     Change wanted_ = Change::None;
     MonotonicTime wanted_since_;
     Nanoseconds patience_ = least_patience;
+    Nanoseconds try_patience_ = least_patience;
+    std::size_t tried_ = 0; ///< the rung that was doubted last
     std::uint64_t switches_ = 0;
     std::uint64_t ignored_ = 0;
 };

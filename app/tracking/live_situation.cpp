@@ -1,5 +1,6 @@
 #include "app/tracking/live_situation.h"
 
+#include "app/geometry/time_curves.h"
 #include "app/tracking/motion_filter.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr double longest_flip_s = 0.1;
-constexpr double flip_follows = 0.1; ///< share of each new flip time
 /// The lever is 0, because only the place of the head counts and not its turn.
 constexpr double head_lever_m = 0.0;
 
@@ -64,7 +64,9 @@ PoseEstimate LiveSituation::goal_of_eye(const PoseEstimate& head, bool known) {
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {
-    flip_s_ += flip_follows * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
+    const double share = last_ ? follow_share(std::max(to_seconds(now - *last_), 0.0), time_constant_s) : 1.0;
+    flip_s_ += share * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
+    last_ = last_ ? std::max(*last_, now) : now;
 }
 
 Nanoseconds LightDelay::from_now() const {

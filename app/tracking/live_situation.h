@@ -10,6 +10,8 @@
 #include "app/tracking/shown_pose.h"
 #include "app/tracking/situation.h"
 
+#include <optional>
+
 namespace frustumscreen {
 
 class LiveSituation {
@@ -38,18 +40,23 @@ private:
 };
 
 /// The time from `now`, at which a frame begins, until its picture is lit: the display's own latency plus a
-/// slow average of the measured time from the beginning of a frame to its flip.
+/// slow average of the measured time from the beginning of a frame to its flip, which follows by the exact
+/// solution over the time between two flips: a display of 30 Hz and one of 120 Hz end at the same.
 class LightDelay {
 public:
+    static constexpr double time_constant_s = 0.16;
+
     explicit LightDelay(Nanoseconds display_latency) : display_latency_(display_latency) {}
 
-    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms.
+    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms; the first counts in full.
+    /// A `now` that goes back changes nothing.
     void flipped(MonotonicTime now, MonotonicTime flipped);
     [[nodiscard]] Nanoseconds from_now() const;
 
 private:
     Nanoseconds display_latency_;
     double flip_s_ = 0.0;
+    std::optional<MonotonicTime> last_; ///< frame
 };
 
 } // namespace frustumscreen

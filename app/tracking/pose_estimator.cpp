@@ -71,6 +71,7 @@ Taken PoseEstimator::take(MonotonicTime time, const RigidTransform& measured) {
     if (step < Nanoseconds(0)) {
         return ++late_ >= options_.clock_set_back_by ? take_up(now) : Taken::Late;
     }
+    steps_ = {step, steps_[0]};
     if (step > options_.forgotten_after) {
         return take_up(now);
     }
@@ -90,6 +91,12 @@ RigidTransform PoseEstimator::predicted(double age_s) const {
     return filter_->ahead(std::fmin(age_s, full_s) - stand_s * std::expm1(-over_s / stand_s));
 }
 
+Nanoseconds PoseEstimator::stale_after() const {
+    const Nanoseconds usual = std::min(steps_[0], steps_[1]);
+    return std::clamp(5 * usual / 2, options_.stale_after,
+                      std::max(options_.stale_after, options_.stale_at_last));
+}
+
 PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     if (count_ == 0) {
         return {};
@@ -101,7 +108,7 @@ PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     } else if (options_.predicts) {
         std::tie(estimate.pose, estimate.status) = remembered_at(time);
     }
-    if (estimate.age > options_.stale_after) {
+    if (estimate.age > stale_after()) {
         estimate.status = PoseStatus::Stale;
     }
     return estimate;

@@ -43,8 +43,10 @@ struct PoseEstimatorOptions {
     bool predicts = true; ///< false: the latest smoothed pose, whatever time is asked for; for comparison
     /// Predicted in full for this long after the latest sample; then the motion comes to rest.
     Nanoseconds predicted_for = std::chrono::milliseconds(80);
-    Nanoseconds stand_within = std::chrono::milliseconds(30);     ///< time constant
-    Nanoseconds stale_after = std::chrono::milliseconds(1000);    ///< held until then
+    Nanoseconds stand_within = std::chrono::milliseconds(30); ///< time constant
+    Nanoseconds stale_after =
+        std::chrono::milliseconds(1000);                 ///< held until then, or for two and a half steps
+    Nanoseconds stale_at_last = std::chrono::seconds(5); ///< of a slow tracker
     Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< after a longer gap it begins anew
     /// Allowed distance from where the sample was expected: what a knock may do.
     double surprise_m = 0.015;
@@ -75,6 +77,7 @@ private:
 
     [[nodiscard]] const Moment& moment(std::size_t back) const; ///< 0 = the latest
     void remember(const Moment& moment);
+    [[nodiscard]] Nanoseconds stale_after() const;
     Taken take_up(const Moment& measured);
     [[nodiscard]] bool plausible(const RigidTransform& expected, const RigidTransform& measured,
                                  double dt_s) const;
@@ -88,6 +91,8 @@ private:
     std::array<Moment, remembered> history_{};
     std::size_t count_ = 0;
     std::size_t next_ = 0;
+    std::array<Nanoseconds, 2>
+        steps_{};     ///< between the latest samples; one gap alone does not make a slow tracker
     Moment doubtful_; ///< the latest outlier
     int outliers_ = 0;
     int late_ = 0;

@@ -253,6 +253,40 @@ TEST(Governor, AHiccupChangesNothing) {
     EXPECT_EQ(governor.switches(), 0U);
 }
 
+/// Every rung's time at the start is wrong by any factor from a quarter to four; the true ones grow with the work. The rung with the
+/// least work meets the deadline, so none may be late for long.
+TEST(Governor, IsNotLateForGoodAfterAWrongStart) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> u(-2.0, 2.0);
+    double late = 0.0;
+    for (int trial = 0; trial < 60; ++trial) {
+        SimulatedGpu gpu;
+        for (std::size_t k = 0; k < gpu.times.size(); ++k) {
+            gpu.lie[k] = std::exp2(u(random));
+            gpu.times[k].ms /= gpu.lie[k];
+        }
+        Governor governor = gpu.governor();
+        const auto load = [](double) { return 4.0; }; // 34, 26, 22; 22, 14, 10 ms
+        late = std::fmax(late, gpu.play(governor, 0.0, 120.0, load).late_share);
+        EXPECT_LT(gpu.play(governor, 120.0, 420.0, load).late_share, 0.05) << trial;
+    }
+    EXPECT_LT(late, 0.25);
+}
+
+/// Five frames at the start said that the slowest is the quickest.
+TEST(Governor, DoesNotKeepTheSlowestForTheQuickest) {
+    SimulatedGpu gpu;
+    for (std::size_t k = 1; k < gpu.times.size(); ++k) {
+        gpu.lie[k] = 0.1;
+        gpu.times[k].ms *= 10.0;
+    }
+    Governor governor = gpu.governor();
+    ASSERT_EQ(governor.index(), 0U);
+    const auto outcome = gpu.play(governor, 0.0, 8.0, [](double) { return 4.0; });
+    EXPECT_EQ(outcome.last, 5U);
+    EXPECT_LT(outcome.late_share, 0.5);
+}
+
 TEST(Governor, SurvivesAndCountsGarbageTimes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     SimulatedGpu gpu;

@@ -148,17 +148,39 @@ TEST(LiveSituation, WithoutAHeadTheEyeRests) {
 TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
     LightDelay delay(std::chrono::milliseconds(17));
     EXPECT_EQ(delay.from_now(), std::chrono::milliseconds(17));
-    const MonotonicTime now = from_microseconds(1'000'000);
-    for (int k = 0; k < 200; ++k) {
-        delay.flipped(now, now + std::chrono::milliseconds(8));
-    }
+    MonotonicTime now = from_microseconds(1'000'000);
+    const auto flips = [&](int frames, Nanoseconds after) {
+        for (int k = 0; k < frames; ++k) {
+            delay.flipped(now, now + after);
+            now += std::chrono::milliseconds(16);
+        }
+    };
+    flips(1, std::chrono::milliseconds(30));
+    EXPECT_NEAR(to_seconds(delay.from_now()), 0.047, 1e-9); // the first, in full
+    flips(200, std::chrono::milliseconds(8));
     EXPECT_NEAR(to_seconds(delay.from_now()), 0.025, 1e-6);
-    for (int k = 0; k < 200; ++k) {
-        delay.flipped(now, now - std::chrono::hours(1));
-    }
+    flips(200, -std::chrono::hours(1));
     EXPECT_NEAR(to_seconds(delay.from_now()), 0.017, 1e-6);
-    delay.flipped(now, now + std::chrono::hours(1));
+    flips(1, std::chrono::hours(1));
     EXPECT_LE(to_seconds(delay.from_now()), 0.017 + 0.0101);
+    const Nanoseconds before = delay.from_now();
+    delay.flipped(now - std::chrono::hours(1), now); // time that goes back
+    EXPECT_EQ(delay.from_now(), before);
+}
+
+TEST(LightDelay, DoesNotDependOnHowManyFramesAnIntervalHas) {
+    constexpr double interval_s = 0.24;
+    for (const int frames : {1, 3, 24, 240, 24'000}) {
+        LightDelay delay(Nanoseconds(0));
+        MonotonicTime now = from_microseconds(1'000'000);
+        delay.flipped(now, now + std::chrono::milliseconds(8));
+        for (int k = 0; k < frames; ++k) {
+            now += Nanoseconds(240'000'000 / frames);
+            delay.flipped(now, now + std::chrono::milliseconds(33));
+        }
+        const double exact_s = 0.033 - 0.025 * std::exp(-interval_s / LightDelay::time_constant_s);
+        EXPECT_NEAR(to_seconds(delay.from_now()), exact_s, 2e-9) << frames;
+    }
 }
 
 } // namespace

@@ -106,6 +106,29 @@ TEST(PoseEstimator, AnswersExactInterpolatedPredictedAndStale) {
     EXPECT_EQ(estimator.at(at_us(-1)).status, PoseStatus::Stale);
 }
 
+TEST(PoseEstimator, ATrackerOfOneSampleASecondIsSlowAndNotStale) {
+    PoseEstimator estimator = glide_estimator();
+    for (std::int64_t t_us = 0; t_us < 20'000'000; t_us += 1'000'000) {
+        estimator.take(at_us(t_us), at_x(0.1));
+        for (std::int64_t later_us = 100'000; t_us > 1'000'000 && later_us <= 1'100'000;
+             later_us += 100'000) {
+            EXPECT_EQ(estimator.at(at_us(t_us + later_us)).status, PoseStatus::Predicted) << t_us + later_us;
+        }
+    }
+    EXPECT_EQ(estimator.at(at_us(19'000'000 + 2'600'000)).status, PoseStatus::Stale);
+    // A slower one waits no longer than five seconds, and one gap alone makes no tracker slow.
+    for (std::int64_t t_us = 20'000'000; t_us < 60'000'000; t_us += 8'000'000) {
+        estimator.take(at_us(t_us), at_x(0.1));
+    }
+    EXPECT_EQ(estimator.at(at_us(52'000'000 + 4'900'000)).status, PoseStatus::Predicted);
+    EXPECT_EQ(estimator.at(at_us(52'000'000 + 5'100'000)).status, PoseStatus::Stale);
+    estimator.take(at_us(60'000'000), at_x(0.1));
+    estimator.take(at_us(60'010'000), at_x(0.1));
+    EXPECT_EQ(estimator.at(at_us(60'010'000 + 1'100'000)).status, PoseStatus::Stale);
+    estimator.take(at_us(63'010'000), at_x(0.1));
+    EXPECT_EQ(estimator.at(at_us(63'010'000 + 1'100'000)).status, PoseStatus::Stale);
+}
+
 TEST(PoseEstimator, ForgetsTheOldestSamplesAndSaysSo) {
     PoseEstimator estimator = glide_estimator();
     const auto count = static_cast<std::int64_t>(PoseEstimator::remembered) + 10;
