@@ -122,6 +122,12 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
         ++ignored_;
         return;
     }
+    if (now - changed_ >= dwell && current_ == tried_) {
+        // The try was right: the next one may come as soon.
+        try_patience_ =
+            model_.expected_ms(current_) < worth_saving * tried_at_ms_ ? least_patience : try_patience_;
+        tried_at_ms_ = 0.0;
+    }
     std::size_t better = wanted();
     Change wanted = better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
     if (wanted == Change::None && !fits(current_)) {
@@ -140,6 +146,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     }
     if (wanted == Change::Try) {
         tried_ = better;
+        tried_at_ms_ = model_.expected_ms(current_);
         try_patience_ = std::min(2 * try_patience_, most_patience);
     }
     change_to(better, now);

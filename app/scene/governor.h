@@ -19,7 +19,7 @@
 ///          change a `dwell`, and a rung that never fits is tried O(log t) times.
 /// Doubt    the times at the start may be wrong: a rung is drawn late, and said to be the quickest, while another
 ///          has neither more triangles nor more samples. Such a one is tried, the least first, after a patience
-///          that doubles with each try. So the slowest is not kept for good.
+///          that doubles with each try in vain. So the slowest is not kept for good.
 /// Source   Kim 2008, Eq. (1): the importance I = u P + v / |PA - PO| + w cos + x S of an object decides
 ///          whether it is drawn in images or in polygons. Here one object has many levels: u = 1, and P,
 ///          pixels for one texel, becomes pixels for one level's error, measured, not assumed; v, w, x = 0,
@@ -114,7 +114,8 @@ private:
     MonotonicTime wanted_since_;
     Nanoseconds patience_ = least_patience;
     Nanoseconds try_patience_ = least_patience;
-    std::size_t tried_ = 0; ///< the rung that was doubted last
+    std::size_t tried_ = 0;    ///< the rung that was doubted last
+    double tried_at_ms_ = 0.0; ///< what the one before it took; 0: the try is judged
     std::uint64_t switches_ = 0;
     std::uint64_t ignored_ = 0;
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace frustumscreen {
 
@@ -135,6 +136,34 @@ StabilityResult jumping_loads(const StabilityOptions&) {
              {"changes a second", 1.0, most_per_s}}};
 }
 
+/// Times at the start that are wrong by up to 8 times either way, at a load where the quickest rung alone meets the deadline.
+StabilityResult wrong_starts(const StabilityOptions&) {
+    constexpr double load = 5.0; // 42, 32, 28; 28, 18, 12 ms
+    constexpr int frames = 20'000;
+    const Gpu truth;
+    std::mt19937 random(1);
+    double worst_share = 0.0;
+    double most_changes = 0.0;
+    for (int trial = 0; trial < 100; ++trial) {
+        Gpu wrong;
+        for (RungTime& time : wrong.times) {
+            time.ms *= std::exp2(
+                6.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 3.0);
+        }
+        Governor governor = wrong.governor();
+        double late = 0.0;
+        for (int k = 0; k < frames; ++k) {
+            const RungTime& rung = truth.times[governor.index()];
+            late += rung.ms * load > deadline_ms ? 1.0 : 0.0;
+            governor.observe(MonotonicTime(k * step_of(1.0 / 60.0)), rung.work, rung.ms * load);
+        }
+        worst_share = std::fmax(worst_share, late / frames);
+        most_changes = std::fmax(most_changes, static_cast<double>(governor.switches()));
+    }
+    return {{{"share of late frames in 333 s, worst of 100 starts", 0.2, worst_share},
+             {"changes, the most", 40.0, most_changes}}};
+}
+
 /// Time that stands still, goes back or leaps; frame times that are not times.
 StabilityResult odd_steps(const StabilityOptions&) {
     const Gpu gpu;
@@ -195,6 +224,7 @@ std::vector<StabilityCase> governor_cases() {
     return {{theme, "relief, steps 1 us to 10 s", FloatingPoint::Strict, relief},
             {theme, "constant loads 0.1 to 200, steps 1 ms to 10 s", FloatingPoint::Strict, constant_loads},
             {theme, "loads that jump every 1 ms to 1000 s", FloatingPoint::Strict, jumping_loads},
+            {theme, "starts that measured wrongly", FloatingPoint::Strict, wrong_starts},
             {theme, "time that stands still, goes back, leaps; garbage", FloatingPoint::Free, odd_steps},
             {theme, "deadlines of 1e-9 to 1e9 ms", FloatingPoint::Strict, deadlines}};
 }

@@ -17,6 +17,7 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> time_cases();
 [[nodiscard]] std::vector<StabilityCase> smoother_cases();
 [[nodiscard]] std::vector<StabilityCase> fade_cases();
+[[nodiscard]] std::vector<StabilityCase> estimator_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 
 /// Parts of program_step_errors.

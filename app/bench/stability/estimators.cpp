@@ -1,0 +1,197 @@
+// The estimate of a pose over rates, outliers and months of uptime, and the display's delay: what is fed by a device's clock.
+
+#include "app/bench/stability/sweep.h"
+#include "app/bench/stability/themes.h"
+#include "app/tracking/live_situation.h"
+#include "app/tracking/motion_filter.h"
+#include "app/tracking/pose_estimator.h"
+#include "app/tracking/pose_math.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double lever_m = 0.06;                         ///< half a prop
+constexpr std::array rates_hz{1000, 240, 60, 30, 10, 5}; ///< slower trackers begin anew with each sample
+
+PoseEstimator exhibit_estimator() {
+    return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
+}
+
+Nanoseconds seconds(double value) {
+    return Nanoseconds(std::llround(value * 1e9));
+}
+
+/// 0.25 m/s and a turn of 1 rad/s: a hand that slides the prop.
+RigidTransform sliding(double t_s) {
+    const double angle = 0.5 * t_s;
+    return {glm::dquat(std::cos(angle), 0.0, 0.0, std::sin(angle)), {0.15 * t_s, -0.2 * t_s, 0.0}};
+}
+
+class Noise {
+public:
+    [[nodiscard]] RigidTransform on(const RigidTransform& pose) {
+        const PoseNoise noise;
+        const auto vector = [this](double sigma) {
+            return sigma * glm::dvec3(n_(random_), n_(random_), n_(random_));
+        };
+        const glm::dvec3 turn = vector(noise.turn_rad);
+        return {glm::normalize(rotation_of(turn) * pose.rotation), pose.translation + vector(noise.place_m)};
+    }
+
+private:
+    std::mt19937_64 random_{3};
+    std::normal_distribution<double> n_;
+};
+
+double off_mm(const RigidTransform& a, const RigidTransform& b) {
+    return 1e3 * slip_m(step_between(a, b), lever_m);
+}
+
+/// Without noise: a steady slide, asked for 40 ms ahead once a second of it is known.
+StabilityResult steady_slide(const StabilityOptions&) {
+    constexpr double ahead_s = 0.04;
+    double worst = 0.0;
+    for (const int rate : rates_hz) {
+        PoseEstimator estimator = exhibit_estimator();
+        for (int k = 0; k < 3 * rate; ++k) {
+            const double t = static_cast<double>(k) / rate;
+            estimator.take(MonotonicTime(seconds(t)), sliding(t));
+            if (t > 1.0) {
+                const PoseEstimate said = estimator.at(MonotonicTime(seconds(t + ahead_s)));
+                worst = std::fmax(worst, off_mm(said.pose, sliding(t + ahead_s)));
+            }
+        }
+    }
+    return {{{"5 Hz to 1 kHz, 40 ms ahead of a slide of 250 mm/s, mm", 5.0, worst}}};
+}
+
+/// A prop at rest under the tracker's noise: what is said has less of it than what comes in.
+StabilityResult rest_under_noise(const StabilityOptions&) {
+    double more = 0.0;
+    for (const int rate : rates_hz) {
+        PoseEstimator estimator = exhibit_estimator();
+        Noise noise;
+        double in = 0.0;
+        double out = 0.0;
+        for (int k = 0; k < 5000; ++k) {
+            const MonotonicTime now(seconds(static_cast<double>(k) / rate));
+            const RigidTransform measured = noise.on({});
+            estimator.take(now, measured);
+            in += std::pow(off_mm(measured, {}), 2);
+            out += std::pow(off_mm(estimator.at(now + std::chrono::milliseconds(40)).pose, {}), 2);
+        }
+        more = std::fmax(more, std::sqrt(out / in));
+    }
+    return {{{"5 Hz to 1 kHz, 40 ms ahead: RMS said / RMS measured", 0.5, more}}};
+}
+
+/// Every tenth sample is somewhere else. It must leave the answer where the other nine put it.
+StabilityResult outliers(const StabilityOptions&) {
+    double worst = 0.0;
+    double taken = 0.0;
+    for (const int rate : {1000, 240, 60}) {
+        for (const double away_m : {0.1, 1.0, 1e3, 1e12}) {
+            PoseEstimator estimator = exhibit_estimator();
+            for (int k = 0; k < 5 * rate; ++k) {
+                const MonotonicTime now(seconds(static_cast<double>(k) / rate));
+                const bool wrong = k % 10 == 9;
+                const Taken result =
+                    estimator.take(now, {glm::dquat(1.0, 0.0, 0.0, 0.0), {wrong ? away_m : 0.0, 0.0, 0.0}});
+                taken += wrong && result != Taken::Outlier ? 1.0 : 0.0;
+                worst = std::fmax(worst, off_mm(estimator.at(now + std::chrono::milliseconds(40)).pose, {}));
+            }
+        }
+    }
+    return {{{"each tenth sample 0.1 m to 1e12 m away: taken", 0.0, taken},
+             {"what they move the answer by, mm", 0.0, worst}}};
+}
+
+/// The same samples at the start and after years without a break: only differences of times count.
+StabilityResult uptime(const StabilityOptions&) {
+    constexpr std::array years{0.0, 0.5, 10.0, 100.0};
+    double different = 0.0;
+    std::vector<RigidTransform> first;
+    for (const double year : years) {
+        const MonotonicTime start(seconds(year * 365.25 * 86'400.0));
+        PoseEstimator estimator = exhibit_estimator();
+        Noise noise;
+        for (std::size_t k = 0; k < 600; ++k) {
+            const auto t = Nanoseconds(16'666'667 * static_cast<std::int64_t>(k));
+            estimator.take(start + t, noise.on(sliding(to_seconds(t))));
+            const RigidTransform said = estimator.at(start + t + std::chrono::milliseconds(25)).pose;
+            if (first.size() <= k) {
+                first.push_back(said);
+            }
+            different +=
+                said.translation == first[k].translation && said.rotation == first[k].rotation ? 0.0 : 1.0;
+        }
+    }
+    return {{{"0 to 100 years after the start: answers that differ in a bit", 0.0, different}}};
+}
+
+/// Slow trackers at rest, asked at 60 Hz: what is known of a prop that stands there.
+StabilityResult slow_trackers(const StabilityOptions&) {
+    double stale = 0.0;
+    double held_s = 0.0;
+    for (const double step_s : {0.1, 0.5, 1.0, 1.9}) {
+        PoseEstimator estimator = exhibit_estimator();
+        MonotonicTime now{};
+        for (int k = 0; k < 40; ++k) {
+            now = MonotonicTime(seconds(k * step_s));
+            estimator.take(now, {});
+            for (double t = 0.0; k > 2 && t < step_s + 0.05; t += 1.0 / 60.0) {
+                stale += estimator.at(now + seconds(t)).status == PoseStatus::Stale ? 1.0 : 0.0;
+            }
+        }
+        double t = 0.0;
+        while (t < 60.0 && estimator.at(now + seconds(t)).status != PoseStatus::Stale) {
+            t += 0.01;
+        }
+        held_s = std::fmax(held_s, t);
+    }
+    return {{{"0.5 to 10 Hz: frames without a pose, though the tracker tells of it", 0.0, stale},
+             {"held after the last sample, s", 5.0, held_s}}};
+}
+
+/// Frames of 1 us to 10 s: the delay follows a jump of the flips by the closed form.
+StabilityResult light_delay(const StabilityOptions&) {
+    constexpr double from_s = 0.008;
+    constexpr double to_s = 0.033;
+    double off_s = 0.0;
+    for (const double step_s : sweep(1e-6, 10.0, 4)) {
+        LightDelay delay(Nanoseconds(0));
+        const Nanoseconds step = seconds(step_s);
+        MonotonicTime now{};
+        delay.flipped(now, now + seconds(from_s));
+        for (int k = 1; k <= 1000; ++k) {
+            now += step;
+            delay.flipped(now, now + seconds(to_s));
+            const long double gone = to_seconds(k * step);
+            const auto exact = static_cast<double>(
+                to_s +
+                (from_s - to_s) * std::exp(-gone / static_cast<long double>(LightDelay::time_constant_s)));
+            off_s = std::fmax(off_s, std::abs(to_seconds(delay.from_now()) - exact));
+        }
+    }
+    return {{{"flips that jump, steps 1 us to 10 s: off the exact response, s", 1e-9, off_s}}};
+}
+
+} // namespace
+
+std::vector<StabilityCase> estimator_cases() {
+    const std::string theme = "estimate of a pose";
+    return {{theme, "a steady slide", FloatingPoint::Strict, steady_slide},
+            {theme, "rest under noise", FloatingPoint::Strict, rest_under_noise},
+            {theme, "outliers", FloatingPoint::Strict, outliers},
+            {theme, "months of uptime", FloatingPoint::Strict, uptime},
+            {theme, "slow trackers", FloatingPoint::Strict, slow_trackers},
+            {"display's delay", "flips that jump", FloatingPoint::Strict, light_delay}};
+}
+
+} // namespace frustumscreen
