@@ -112,6 +112,62 @@ TEST(Picture, CullingTakesNothingAway) {
     EXPECT_LT(drawn * 10, possible * 6) << "culling leaves out less than 40 % of the triangles";
 }
 
+/// Where the light of a white artifact has its centre of mass.
+struct Mass {
+    double light = 0.0;
+    glm::dvec2 moment{0.0};
+    void add(const glm::dvec2& at, double weight) {
+        light += weight;
+        moment += weight * at;
+    }
+    [[nodiscard]] glm::dvec2 centre() const { return moment / light; }
+};
+
+/// 16 rays a pixel, 4 x 4.
+Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
+    Mass mass;
+    for (int y = 0; y < stage.projector.height; ++y) {
+        for (int x = 0; x < stage.projector.width; ++x) {
+            for (int k = 0; k < 16; ++k) {
+                const glm::dvec2 at = glm::dvec2(x, y) + (glm::dvec2(k & 3, k >> 2) + 0.5) / 4.0;
+                mass.add(at, cast.through_pixel(stage, at).found ? 1.0 / 16.0 : 0.0);
+            }
+        }
+    }
+    return mass;
+}
+
+Mass shown_mass(const Image8& picture) {
+    Mass mass;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            mass.add({x + 0.5, y + 0.5}, linear_from_srgb(picture.at(x, y).g / 255.0));
+        }
+    }
+    return mass;
+}
+
+TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
+    Pack white = rings(16, 8);
+    std::fill(white.textures[0].texels.begin(), white.textures[0].texels.end(), glm::u8vec4(255));
+    Stage stage(96, 60);
+    std::mt19937 random(5);
+    for (int pose = 0; pose < 2; ++pose) {
+        const ReferenceCast cast(white, metres_per_box(white, stage.prop));
+        const Mass truth = cast_mass(cast, stage);
+        ASSERT_GT(truth.light, 50.0);
+        for (const int samples : {4, 16}) {
+            Rig rig(96, 60, samples, white);
+            plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            rig.draw(Redraw::Everything);
+            const Mass shown = shown_mass(rig.picture());
+            EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << samples << ' ' << pose;
+            EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.05) << samples << ' ' << pose;
+        }
+        stage.shuffle(random);
+    }
+}
+
 TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     Rig sharp(256, 160, 1);
     Stage stage(256, 160);

@@ -1,5 +1,6 @@
 #include "app/bench/measures/measure.h"
 
+#include "app/bench/measures/picture_shift.h"
 #include "firmware_host/base/quantile.h"
 
 #include <algorithm>
@@ -81,6 +82,10 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
         100.0 * mismatched / static_cast<double>(std::max<std::int64_t>(error.truth_pixels, 1));
     error.outline_shift_px =
         mismatched / static_cast<double>(std::max<std::int64_t>(error.outline_pixels, 1));
+    if (truth.colour16.width > 0) {
+        error.picture_shift_px =
+            glm::length(picture_shift(truth.colour16, drawn.colour).value_or(glm::dvec2(0.0)));
+    }
     error.one_ray = one_ray.error();
     error.sixteen_rays = sixteen_rays.error();
     return error;
@@ -88,7 +93,8 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
 
 ErrorSummary summarise(std::span<const PictureError> errors) {
     constexpr std::array figures = {&PictureError::geometric_mean_mm, &PictureError::geometric_p95_mm,
-                                    &PictureError::silhouette_percent, &PictureError::outline_shift_px};
+                                    &PictureError::silhouette_percent, &PictureError::outline_shift_px,
+                                    &PictureError::picture_shift_px};
     constexpr std::array counts = {&PictureError::truth_pixels, &PictureError::outline_pixels,
                                    &PictureError::mismatched_pixels};
     constexpr std::array colours = {&PictureError::one_ray, &PictureError::sixteen_rays};

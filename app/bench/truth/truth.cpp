@@ -59,6 +59,18 @@ bool enters(const Box& box, const glm::dvec3& origin, const glm::dvec3& directio
     return enter <= leave;
 }
 
+/// Whether the artifact is hit at the pixel or at one of the eight around it.
+bool hit_around(const Image<std::uint8_t>& hit, int x, int y) {
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, hit.height - 1); ++row) {
+        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, hit.width - 1); ++column) {
+            if (hit.at(column, row) != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 glm::u8vec4 code_of(const glm::vec3& linear) {
     return {srgb8_from_linear(linear.r), srgb8_from_linear(linear.g), srgb8_from_linear(linear.b), 255};
 }
@@ -114,9 +126,6 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
                          {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
                          {width, height, black},
                          {}};
-    if (sixteen_rays) {
-        picture.colour16 = Image8(width, height, black);
-    }
     /// What the projector's ray through (u, v) must show: false if it does not light the prop.
     enum class Seen { Nothing, Prop, Artifact };
     const glm::dvec3 projector = view.prop_from_projector.translation;
@@ -134,18 +143,30 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
         return first_hit(view.eye_m, on_face - view.eye_m, hit) ? Seen::Artifact : Seen::Prop;
     };
     const PixelArea area = pixels_of_prop(prop, view);
-    const auto cast_row = [&](int y) {
+    const auto for_each_row = [&area](const auto& row) {
+        parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,
+                     [&](std::size_t begin, std::size_t) { row(area.top + static_cast<int>(begin)); });
+    };
+    for_each_row([&](int y) {
         Hit hit;
         for (int x = area.left; x < area.right; ++x) {
             const Seen seen = look(x + 0.5, y + 0.5, hit);
             picture.prop.at(x, y) = seen != Seen::Nothing ? 1 : 0;
-            if (seen != Seen::Artifact) {
-                continue;
+            if (seen == Seen::Artifact) {
+                picture.hit.at(x, y) = 1;
+                picture.point_m.at(x, y) = glm::vec3(hit.point_m);
+                picture.colour.at(x, y) = code_of(hit.colour.linear);
             }
-            picture.hit.at(x, y) = 1;
-            picture.point_m.at(x, y) = glm::vec3(hit.point_m);
-            picture.colour.at(x, y) = code_of(hit.colour.linear);
-            if (!sixteen_rays) {
+        }
+    });
+    if (!sixteen_rays) {
+        return picture;
+    }
+    picture.colour16 = Image8(width, height, black);
+    for_each_row([&](int y) {
+        Hit hit;
+        for (int x = area.left; x < area.right; ++x) {
+            if (!hit_around(picture.hit, x, y)) {
                 continue;
             }
             glm::vec3 sum(0.0F);
@@ -158,9 +179,7 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
             }
             picture.colour16.at(x, y) = code_of(sum / 16.0F);
         }
-    };
-    parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,
-                 [&](std::size_t begin, std::size_t) { cast_row(area.top + static_cast<int>(begin)); });
+    });
     return picture;
 }
 

@@ -40,7 +40,8 @@ struct TruthPicture {
     Image<std::uint8_t> hit;  ///< 1: the artifact is seen there
     ImageFloat point_m;       ///< where, prop frame; NaN = no hit
     Image8 colour;            ///< one ray through the centre; sRGB codes
-    Image8 colour16; ///< 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit`
+    /// 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit` and at the eight pixels around
+    Image8 colour16;
 };
 
 class Truth {
