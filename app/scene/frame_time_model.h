@@ -72,6 +72,9 @@ public:
     /// The time of the next frames, if their work is that of the latest ones.
     [[nodiscard]] double expected_ms(std::size_t rung) const;
 
+    /// As it was measured at the start.
+    [[nodiscard]] const RungTime& start(std::size_t rung) const { return rungs_[rung].start; }
+
     /// Common to all artifacts of one GPU: pass it on when another is shown.
     [[nodiscard]] double load() const;
     void set_load(double load);

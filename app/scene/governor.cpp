@@ -57,9 +57,6 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box
 
 Governor::Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms)
     : rungs_(std::move(rungs)), model_(times), deadline_ms_(deadline_ms) {
-    for (const RungTime& time : times) {
-        triangles_.push_back(time.work.triangles);
-    }
     current_ = rungs_.size(); // none: no rung is favoured
     current_ = wanted();
 }
@@ -89,10 +86,11 @@ std::size_t Governor::wanted() const {
 
 std::optional<std::size_t> Governor::doubted() const {
     const std::size_t count = rungs_.size();
+    const auto triangles = [this](std::size_t rung) { return model_.start(rung).work.triangles; };
     for (std::size_t step = 1; step <= count; ++step) {
         const std::size_t k = (tried_ + count - step) % count;
         if (k != current_ && rungs_[k].samples <= rungs_[current_].samples &&
-            triangles_[k] <= triangles_[current_]) {
+            triangles(k) <= triangles(current_)) {
             return k;
         }
     }
@@ -123,9 +121,9 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
         return;
     }
     if (now - changed_ >= dwell && current_ == tried_) {
-        // The try was right: the next one may come as soon.
-        try_patience_ =
-            model_.expected_ms(current_) < worth_saving * tried_at_ms_ ? least_patience : try_patience_;
+        if (model_.expected_ms(current_) < worth_saving * tried_at_ms_) {
+            try_patience_ = least_patience; // the try was right: the next one may come as soon
+        }
         tried_at_ms_ = 0.0;
     }
     std::size_t better = wanted();

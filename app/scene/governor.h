@@ -104,7 +104,6 @@ private:
     void change_to(std::size_t rung, MonotonicTime now);
 
     std::vector<Rung> rungs_;
-    std::vector<double> triangles_; ///< of each rung at the start
     FrameTimeModel model_;
     double deadline_ms_;
     std::size_t current_ = 0;

@@ -88,8 +88,8 @@ public:
     /// What a renderer for it must be able to do.
     [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
-    /// Draws every rung two to seven times for the view, fewer where a frame takes long, twice over, and starts the governor with the
-    /// lesser medians.
+    /// Draws every rung two to seven times for the view, fewer where a frame takes long, twice over where it does not, and starts the
+    /// governor with the lesser medians.
     /// `target` then holds some picture, which must not be presented.
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 

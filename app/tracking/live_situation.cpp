@@ -64,7 +64,7 @@ PoseEstimate LiveSituation::goal_of_eye(const PoseEstimate& head, bool known) {
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {
-    const double share = last_ ? follow_share(std::max(to_seconds(now - *last_), 0.0), time_constant_s) : 1.0;
+    const double share = last_ ? follow_share(to_seconds(now - *last_), time_constant_s) : 1.0;
     flip_s_ += share * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
     last_ = last_ ? std::max(*last_, now) : now;
 }

@@ -93,8 +93,7 @@ RigidTransform PoseEstimator::predicted(double age_s) const {
 
 Nanoseconds PoseEstimator::stale_after() const {
     const Nanoseconds usual = std::min(steps_[0], steps_[1]);
-    return std::clamp(5 * usual / 2, options_.stale_after,
-                      std::max(options_.stale_after, options_.stale_at_last));
+    return std::max(options_.stale_after, std::min(5 * usual / 2, options_.stale_at_last));
 }
 
 PoseEstimate PoseEstimator::at(MonotonicTime time) const {

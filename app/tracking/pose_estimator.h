@@ -44,9 +44,9 @@ struct PoseEstimatorOptions {
     /// Predicted in full for this long after the latest sample; then the motion comes to rest.
     Nanoseconds predicted_for = std::chrono::milliseconds(80);
     Nanoseconds stand_within = std::chrono::milliseconds(30); ///< time constant
-    Nanoseconds stale_after =
-        std::chrono::milliseconds(1000);                 ///< held until then, or for two and a half steps
-    Nanoseconds stale_at_last = std::chrono::seconds(5); ///< of a slow tracker
+    /// Held until then; of a slow tracker for two and a half of its steps, to `stale_at_last`.
+    Nanoseconds stale_after = std::chrono::milliseconds(1000);
+    Nanoseconds stale_at_last = std::chrono::seconds(5);
     Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< after a longer gap it begins anew
     /// Allowed distance from where the sample was expected: what a knock may do.
     double surprise_m = 0.015;
@@ -91,8 +91,8 @@ private:
     std::array<Moment, remembered> history_{};
     std::size_t count_ = 0;
     std::size_t next_ = 0;
-    std::array<Nanoseconds, 2>
-        steps_{};     ///< between the latest samples; one gap alone does not make a slow tracker
+    /// Between the latest samples; one gap alone does not make a slow tracker.
+    std::array<Nanoseconds, 2> steps_{};
     Moment doubtful_; ///< the latest outlier
     int outliers_ = 0;
     int late_ = 0;

@@ -10,8 +10,6 @@
 #include "assets_baked/bake/relief_layers.h"
 #include "assets_baked/bake/source_scene.h"
 
-#include <functional>
-
 namespace frustumscreen {
 
 struct BlockInput {
@@ -19,8 +17,6 @@ struct BlockInput {
     glm::dvec3 box_size{1.0};
     std::vector<ReliefDirection> directions;
     int texels = 512; ///< along the box's longest edge
-    /// sRGB codes of the surface at a hit.
-    std::function<glm::u8vec4(const SurfaceHit&)> colour;
 };
 
 [[nodiscard]] BlockRelief bake_blocks(const BlockInput& input);

@@ -132,6 +132,15 @@ std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
     return points;
 }
 
+std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const glm::dmat4& box_from_file) {
+    std::vector<glm::dvec3> points;
+    points.reserve(mesh.positions.size());
+    for (const glm::dvec3& position : mesh.positions) {
+        points.emplace_back(box_from_file * glm::dvec4(position, 1.0));
+    }
+    return points;
+}
+
 std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points) {
     std::vector<std::size_t> sources;
     for (int axis = 0; axis < 2; ++axis) {

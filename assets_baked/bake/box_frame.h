@@ -48,6 +48,8 @@ struct BoxFrame {
 /// Positions in the box frame, one for each of the mesh's positions: rounded relative to the box's size,
 /// while box_from_file rounds relative to the artifact's distance from its origin.
 [[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame);
+/// The same for a pack's source, of which the matrix alone is kept.
+[[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const glm::dmat4& box_from_file);
 
 /// The points that limit the scale inside any prop that is symmetric in X and Y and has a convex outline:
 /// vertices of the convex hulls of the (x, z) and (y, z) profiles.

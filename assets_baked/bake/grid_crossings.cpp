@@ -1,5 +1,6 @@
 #include "assets_baked/bake/grid_crossings.h"
 
+#include "app/image/image.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
@@ -38,6 +39,12 @@ std::vector<glm::vec3> normals_of(const std::vector<ReliefDirection>& directions
     return normals;
 }
 
+glm::u8vec4 codes_of(const glm::vec4& linear) {
+    return {srgb8_from_linear(static_cast<double>(linear.r)),
+            srgb8_from_linear(static_cast<double>(linear.g)),
+            srgb8_from_linear(static_cast<double>(linear.b)), 255};
+}
+
 class Lines {
 public:
     Lines(const BlockInput& input, const GridCrossings& grid, const glm::vec3& outward)
@@ -71,7 +78,7 @@ private:
         return {static_cast<float>(top_ - static_cast<double>(hit.distance) / texel_box_),
                 static_cast<float>(-static_cast<double>(hit.normal[grid.axis[0]]) / cosine),
                 static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine),
-                cosine >= best - shared_cosine, input_.colour(hit)};
+                cosine >= best - shared_cosine, codes_of(input_.surface.colour(hit))};
     }
 
     const BlockInput& input_;

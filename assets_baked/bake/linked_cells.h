@@ -6,6 +6,7 @@
 
 #include "assets_baked/bake/grid_crossings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,8 +23,7 @@ struct LinkedCell {
     std::array<float, 4> w{};
 
     [[nodiscard]] bool whole() const {
-        return crossing[0] != no_crossing && crossing[1] != no_crossing && crossing[2] != no_crossing &&
-               crossing[3] != no_crossing;
+        return std::find(crossing.begin(), crossing.end(), no_crossing) == crossing.end();
     }
 };
 

@@ -1,5 +1,6 @@
 #include "app/bench/measures/figures.h"
 
+#include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
 
 #include <fmt/format.h>
@@ -23,11 +24,7 @@ bool agree(float said, float measured) {
 } // namespace
 
 std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh) {
-    std::vector<glm::dvec3> points;
-    points.reserve(mesh.positions.size());
-    for (const glm::dvec3& position : mesh.positions) {
-        points.emplace_back(pack.box_from_file * glm::dvec4(position, 1.0));
-    }
+    const std::vector<glm::dvec3> points = in_box(mesh, pack.box_from_file);
     const SourceScene source(mesh, points);
     const SourceSamples samples =
         sample_source(source, surface_of(pack.levels.back(), pack.box_size), seen_reach_box);

@@ -30,8 +30,8 @@ struct PictureError {
     double geometric_p95_mm = 0.0;
     double silhouette_percent = 0.0; ///< mismatched / truth pixels
     double outline_shift_px = 0.0;   ///< mismatched / outline pixels
-    double picture_shift_px =
-        0.0; ///< of the shown picture against 16 rays (picture_shift.h); zero where the truth has none
+    /// Of the shown picture against 16 rays (picture_shift.h); zero where the truth has none.
+    double picture_shift_px = 0.0;
     ColourError one_ray;
     ColourError sixteen_rays; ///< zero where the truth has none
 };

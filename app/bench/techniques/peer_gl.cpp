@@ -35,27 +35,30 @@ Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format)
     return target;
 }
 
-void begin_picture(GLuint framebuffer, int width, int height) {
+namespace {
+
+void begin(GLuint framebuffer, int width, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width, height);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthMask(GL_TRUE);
-    glStencilMask(0xFF);
     for (const GLenum off : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) {
         glDisable(off);
     }
+}
+
+} // namespace
+
+void begin_picture(GLuint framebuffer, int width, int height) {
+    begin(framebuffer, width, height);
+    glDepthMask(GL_TRUE);
+    glStencilMask(0xFF);
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
 void begin_codes(GLuint framebuffer, int width, int height) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, width, height);
-    for (const GLenum off : {GLenum{GL_SCISSOR_TEST}, GLenum{GL_STENCIL_TEST}, GLenum{GL_DEPTH_TEST},
-                             GLenum{GL_CULL_FACE}, GLenum{GL_BLEND}, GLenum{GL_FRAMEBUFFER_SRGB_EXT}}) {
-        glDisable(off);
-    }
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    begin(framebuffer, width, height);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
 }

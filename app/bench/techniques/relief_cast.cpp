@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/relief/cast_blocks.h"
 #include "assets_baked/bake/block_relief.h"
+#include "assets_baked/bake/box_frame.h"
 #include "firmware_host/base/parallel.h"
 
 #include <fmt/format.h>
@@ -105,24 +106,12 @@ Result<std::unique_ptr<Technique>> make_relief_cast(const Stage& stage, BlocksIn
 
 BlocksInBox blocks_of_source(const SourceMesh& mesh, const PackDescription& pack, const PropShape& prop,
                              int texels) {
-    std::vector<glm::dvec3> points;
-    points.reserve(mesh.positions.size());
-    for (const glm::dvec3& position : mesh.positions) {
-        points.emplace_back(pack.box_from_file * glm::dvec4(position, 1.0));
-    }
+    const std::vector<glm::dvec3> points = in_box(mesh, pack.box_from_file);
     const SourceScene surface(mesh, points);
-    const auto colour = [&surface](const SurfaceHit& hit) {
-        const glm::vec4 linear = surface.colour(hit);
-        glm::u8vec4 code(255);
-        for (int k = 0; k < 3; ++k) {
-            code[k] = srgb8_from_linear(static_cast<double>(linear[k]));
-        }
-        return code;
-    };
     const std::vector<ReliefDirection> directions = {ReliefDirection::PlusX, ReliefDirection::MinusX,
                                                      ReliefDirection::PlusY, ReliefDirection::MinusY,
                                                      ReliefDirection::PlusZ};
-    return {bake_blocks({surface, pack.box_size, directions, texels, colour}), pack.box_size,
+    return {bake_blocks({surface, pack.box_size, directions, texels}), pack.box_size,
             place(pack, prop).prop_from_artifact * glm::inverse(pack.box_from_file)};
 }
 
