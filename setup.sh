@@ -2,11 +2,11 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]...
+#   ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]...
 #
 # No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
 # tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
-# image: image_build/build, with these
+# bundle: image_build/bundle; image: image_build/build, with these
 set -euo pipefail
 
 packages=(
@@ -43,6 +43,7 @@ for part; do
                 minisign                          # signatures
                 tzdata                            # time zones
                 rauc openssl                      # updates
+                dpkg-dev file                     # the Debian packages
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
@@ -63,6 +64,7 @@ for part; do
             )
             ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
+        bundle) packages+=(rauc openssl squashfs-tools) ;; # image_build/bundle
         packages) packages+=(dpkg-dev file python3) ;; # file: CPack finds programs by it; python3: pages of the manual
         hil)
             packages+=(
@@ -71,22 +73,24 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|packages|image]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]..." >&2
             exit 2
             ;;
     esac
 done
 
-missing=()
-installed=$'\n'$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)$'\n'
-for package in "${packages[@]}"; do
-    if [[ $installed != *$'\n'"installed $package"$'\n'* ]]; then
-        missing+=("$package")
-    fi
-done
-if ((${#missing[@]} == 0)); then
-    exit 0
-fi
+find_missing() {
+    local installed package
+    missing=()
+    installed=$'\n'$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)$'\n'
+    for package in "${packages[@]}"; do
+        if [[ $installed != *$'\n'"installed $package"$'\n'* ]]; then
+            missing+=("$package")
+        fi
+    done
+    ((${#missing[@]} > 0))
+}
+find_missing || exit 0
 
 if ! grep -qs '^VERSION_ID="12"' /etc/os-release; then
     echo "setup.sh: this is not Debian 12; install these packages' like yourself: ${missing[*]}" >&2
@@ -100,6 +104,11 @@ if ((EUID != 0)); then
     fi
     as_root=(sudo)
 fi
+# Two at a time would find APT's lists locked. What another has installed meanwhile is not missing any more.
+exec 9<"${BASH_SOURCE[0]}"
+flock 9
+find_missing || exit 0
 echo "Installing Debian packages: ${missing[*]}"
-"${as_root[@]}" apt-get -qq update
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install --yes --no-install-recommends "${missing[@]}" >/dev/null
+"${as_root[@]}" apt-get -qq update 9>&-
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600 install --yes --no-install-recommends \
+    "${missing[@]}" >/dev/null 9>&-
