@@ -11,20 +11,33 @@ import argparse
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 import plain_pack
 from hostile_cases import CASES, WHOLE
 
 MOST_MIB = 64.0
-MOST_WORK_S = 2.0
+MOST_WORK_S = 2.0  # where the yardstick takes YARDSTICK_S, as it did where docs/sticks.md was measured
+YARDSTICK_S = 0.25
 MOST_CLOCK_S = 60.0
+
+
 class Wrong(Exception):
     pass
+
+
+def slowness():
+    """How many times longer than there a fixed piece of work takes now: a busy machine slows whatever runs on it."""
+    noise = random.Random(1).randbytes(12 << 20)
+    begun = time.process_time()
+    zlib.compress(noise, 9)
+    return max(1.0, (time.process_time() - begun) / YARDSTICK_S)
 
 
 def measure():
@@ -75,7 +88,8 @@ def check(kiosk, case, stick):
     row = (case.__name__, len(report["packs"]), mib, work_s, clock_s, said.split("\n")[0])
     if status not in (0, 1):
         raise Wrong(f"it ended with {status}: {said[-500:]}")
-    if mib > MOST_MIB or (work_s > MOST_WORK_S and case not in WHOLE) or clock_s > MOST_CLOCK_S:
+    too_much = work_s > MOST_WORK_S and case not in WHOLE and work_s > MOST_WORK_S * slowness()
+    if mib > MOST_MIB or too_much or clock_s > MOST_CLOCK_S:
         raise Wrong(f"it took {mib:.0f} MiB, {work_s:.1f} s of the processor, {clock_s:.1f} s")
     if any(letter < " " and letter != "\n" or letter == "\u202e" for letter in said):
         raise Wrong(f"what it says cannot be printed: {said}")
