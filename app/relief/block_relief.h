@@ -34,7 +34,9 @@ struct ReliefBlock {
     glm::vec2 gradient_u{0.0F}; ///< least and largest of the residual's, over all cells
     glm::vec2 gradient_v{0.0F};
     std::array<std::uint8_t, 4> cells{}; ///< first column, one past the last, first row, one past the last
-    std::uint64_t mask = 0;              ///< bit 8 row + column: the cell is there
+    std::uint64_t mask = 0;              ///< bit 8 row + column: the cell is there, whole or in part
+    std::uint64_t cut = 0;               ///< of these: the surface ends in it, and `covers` says where it is
+    std::uint32_t first_cover = 0;       ///< of the block's cut cells, in the order of their bits
 
     [[nodiscard]] float residual_high() const { return residual_low + 255.0F * residual_step; }
 };
@@ -46,6 +48,8 @@ struct BlockRelief {
     std::vector<ReliefBlock> blocks;
     /// 64 a block: the codes of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), from the lowest byte on.
     std::vector<std::uint32_t> corner_codes;
+    /// One a cut cell: bit 8 row + column of its 8 x 8 parts is set where the surface is.
+    std::vector<std::uint64_t> covers;
     /// 81 a block, row by row: sRGB codes at the corners.
     std::vector<glm::u8vec4> colours;
 };

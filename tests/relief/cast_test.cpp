@@ -1,10 +1,4 @@
-#include "app/bench/truth/poses.h"
-#include "app/bench/truth/truth.h"
-#include "app/relief/cast_blocks.h"
-#include "assets_baked/bake/block_relief.h"
-#include "assets_baked/bake/box_frame.h"
-#include "tests/bench/near_stage.h"
-#include "tests/bench/ring.h"
+#include "tests/relief/subject.h"
 
 #include <gtest/gtest.h>
 
@@ -12,23 +6,6 @@
 
 namespace frustumscreen {
 namespace {
-
-const std::vector<ReliefDirection> frustum_directions = {ReliefDirection::PlusX, ReliefDirection::MinusX,
-                                                         ReliefDirection::PlusY, ReliefDirection::MinusY,
-                                                         ReliefDirection::PlusZ};
-
-/// A mesh that stands in the prop's frame, as a relief and as the truth.
-struct Subject {
-    std::shared_ptr<SourceMesh> mesh = ring();
-    BoxFrame frame = make_box_frame(*mesh, {}).value();
-    std::vector<glm::dvec3> points = in_box(*mesh, frame);
-    SourceScene surface{*mesh, points, Sides::Both};
-    Truth truth = Truth::build(mesh, glm::dmat4(1.0)).value();
-
-    [[nodiscard]] BlockRelief relief(int texels) const {
-        return bake_blocks({surface, frame.box_size, frustum_directions, texels});
-    }
-};
 
 struct Frame {
     CastView view;
@@ -38,12 +15,9 @@ struct Frame {
 
 void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const Settings& settings,
           const PropShape& prop, const BenchPose& pose) {
-    const TruthView view = view_of(settings, pose);
-    set_up(frame.view, prop,
-           {glm::inverse(subject.frame.box_from_file), subject.frame.box_size, view.projector,
-            view.prop_from_projector, view.eye_m});
+    subject.show(frame.view, settings, prop, pose);
     list_blocks(frame.items, relief, frame.view);
-    frame.picture.resize(view.projector.width, view.projector.height);
+    frame.picture.resize(settings.projector.pinhole.width, settings.projector.pinhole.height);
     cast(frame.picture, relief, frame.view, frame.items, {0, frame.picture.rows});
 }
 

@@ -1,4 +1,4 @@
-/// Layered relief cast through blocks on every core, one ray a pixel: what relief textures cost without triangles.
+/// Layered relief cast through blocks on every core, by the exhibit's own painter: what relief textures cost without triangles.
 ///
 /// Colour   of the surface, unlit; sRGB codes, bilinear between the relief's texels.
 /// Threads  the one whose context is current; the stage must outlive the technique.
@@ -21,7 +21,8 @@ struct BlocksInBox {
 };
 
 /// Errors: the driver has no memory.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_relief_cast(const Stage& stage, BlocksInBox blocks);
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_relief_cast(const Stage& stage, BlocksInBox blocks,
+                                                                  int samples);
 
 /// The source's front sides in the directions of a frustum's faces. `texels` along the longest edge.
 [[nodiscard]] BlocksInBox blocks_of_source(const SourceMesh& mesh, const PackDescription& pack,

@@ -1,0 +1,51 @@
+/// Threads that share a frame's work with the one that draws it.
+///
+/// Threads  `threads` - 1 of its own, from construction to destruction; they sleep between two `share`. One caller at a time.
+/// Memory   `share` allocates nothing.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace frustumscreen {
+
+class FrameWorkers {
+public:
+    explicit FrameWorkers(int threads);
+    ~FrameWorkers();
+    FrameWorkers(const FrameWorkers&) = delete;
+    FrameWorkers& operator=(const FrameWorkers&) = delete;
+
+    [[nodiscard]] int threads() const { return static_cast<int>(threads_.size()) + 1; }
+
+    /// Calls body(k) once for each k of [0, count), on all threads in any order; returns when all are done. `body` throws nothing.
+    template <typename Body> void share(int count, const Body& body) {
+        share(count, {&body, [](const void* of, int k) { (*static_cast<const Body*>(of))(k); }});
+    }
+
+private:
+    /// A body without its type, so that handing it over needs no memory.
+    struct Work {
+        const void* body = nullptr;
+        void (*call)(const void* body, int k) = nullptr;
+    };
+    void share(int count, Work work);
+    void take(const Work& work, int count);
+    void work_until_closed();
+
+    std::atomic<int> next_{0};
+    std::mutex mutex_; ///< of all that follows
+    std::condition_variable begun_, done_;
+    Work work_;
+    int count_ = 0;
+    std::uint64_t round_ = 0;
+    std::size_t busy_ = 0;
+    bool closed_ = false;
+    std::vector<std::thread> threads_; ///< last: they use the others
+};
+
+} // namespace frustumscreen

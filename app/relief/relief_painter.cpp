@@ -1,0 +1,102 @@
+#include "app/relief/relief_painter.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int rows_of_band = 8; ///< of tiles: small enough that threads end together
+
+/// The view's lit part, widened to whole tiles and cut to the picture.
+PixelRectangle tiles_around(const PixelRectangle& lit, int width, int height) {
+    if (lit.empty()) {
+        return {};
+    }
+    const int x = lit.x / tile_width * tile_width;
+    const int y = lit.y / tile_height * tile_height;
+    const int right = (lit.x + lit.width + tile_width - 1) / tile_width * tile_width;
+    const int bottom = (lit.y + lit.height + tile_height - 1) / tile_height * tile_height;
+    return intersected({x, y, right - x, bottom - y}, {0, 0, width, height});
+}
+
+/// The face that a pixel lights: the one whose nearest edge is farthest away.
+const CastFace& face_at(const CastView& view, const glm::dvec3& pixel) {
+    const auto depth = [&pixel](const CastFace& face) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const glm::dvec3& edge : face.edges) {
+            least = std::min(least, glm::dot(edge, pixel));
+        }
+        return least;
+    };
+    return *std::max_element(view.faces.begin(), view.faces.end(),
+                             [&](const CastFace& a, const CastFace& b) { return depth(a) < depth(b); });
+}
+
+} // namespace
+
+ReliefPainter::ReliefPainter(int threads) : workers_(threads) {}
+
+void ReliefPainter::cast_picture(const BlockRelief& relief, const CastView& view, int width, int height) {
+    if (cast_.columns != (width + tile_width - 1) / tile_width ||
+        cast_.rows != (height + tile_height - 1) / tile_height) {
+        cast_.resize(width, height);
+    }
+    list_blocks(items_, relief, view);
+    first_row_ = view.lit.y / tile_height;
+    end_row_ = std::min((view.lit.y + view.lit.height + tile_height - 1) / tile_height, cast_.rows);
+}
+
+PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& view, int samples,
+                                    const PictureSpan<glm::u8vec4>& picture) {
+    assert(samples >= 1);
+    (void)samples;
+    const PixelRectangle lit = tiles_around(view.lit, picture.width, picture.height);
+    if (lit.empty()) {
+        return {};
+    }
+    cast_picture(relief, view, picture.width, picture.height);
+    workers_.share((end_row_ - first_row_ + rows_of_band - 1) / rows_of_band, [&](int k) {
+        const int first = first_row_ + k * rows_of_band;
+        const TileBand band{first, std::min(first + rows_of_band, end_row_)};
+        cast(cast_, relief, view, items_, band);
+        const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
+        for (int y = band.first * tile_height; y < bottom; ++y) {
+            for (int x = lit.x; x < lit.x + lit.width; ++x) {
+                const std::size_t at = cast_.at(x, y);
+                picture.at(x, y) = cast_.t[at] < std::numeric_limits<float>::infinity()
+                                       ? colour_at(relief, cast_.block[at], cast_.place[at])
+                                       : glm::u8vec4(0);
+            }
+        }
+    });
+    return lit;
+}
+
+void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
+                               const PictureSpan<glm::vec3>& points) {
+    for (int y = 0; y < points.height; ++y) {
+        std::fill_n(&points.at(0, y), points.width, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    }
+    const PixelRectangle lit = tiles_around(view.lit, points.width, points.height);
+    if (lit.empty()) {
+        return;
+    }
+    cast_picture(relief, view, points.width, points.height);
+    cast(cast_, relief, view, items_, {first_row_, end_row_});
+    for (int y = lit.y; y < lit.y + lit.height; ++y) {
+        for (int x = lit.x; x < lit.x + lit.width; ++x) {
+            const std::size_t at = cast_.at(x, y);
+            if (std::isfinite(cast_.t[at])) {
+                const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
+                points.at(x, y) = glm::vec3(view.eye_box + static_cast<double>(cast_.t[at]) *
+                                                               (face_at(view, pixel).direction * pixel));
+            }
+        }
+    }
+}
+
+} // namespace frustumscreen
