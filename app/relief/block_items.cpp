@@ -1,5 +1,7 @@
 #include "app/relief/block_items.h"
 
+#include "app/relief/lanes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -86,32 +88,52 @@ Path path_of(const ReliefBlock& block, const Facing& facing) {
 
 struct Bounds {
     float left, right, top, bottom;
+    bool in_front; ///< all of the block; else the others say nothing
+    bool outside;  ///< of an edge of the face
 };
 
-/// Of the eight corners of the block's slab, in pixels; all of them lie in front of the eye.
-Bounds bounds_of(const ReliefBlock& block, const GridView& grid) {
+/// Of the eight corners of the block's slab, in pixels.
+Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face) {
     const float i0 = block.cells[0];
     const float i1 = block.cells[1];
     const float j0 = block.cells[2];
     const float j1 = block.cells[3];
-    Bounds bounds{INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (unsigned k = 0; k < 8; ++k) {
-        const float i = (k & 1U) != 0 ? i1 : i0;
-        const float j = (k & 2U) != 0 ? j1 : j0;
-        const float r = (k & 4U) != 0 ? block.residual_high() : block.residual_low;
-        const glm::vec4 at(block.u0 + i, block.v0 + j, block.w0 + block.w_u * i + block.w_v * j + r, 1.0F);
-        const float nearness = 1.0F / glm::dot(grid.pixel[2], at);
-        const float x = glm::dot(grid.pixel[0], at) * nearness;
-        const float y = glm::dot(grid.pixel[1], at) * nearness;
-        bounds = {std::min(bounds.left, x), std::max(bounds.right, x), std::min(bounds.top, y),
-                  std::max(bounds.bottom, y)};
+    const float r0 = block.residual_low;
+    const float r1 = block.residual_high();
+    const Floats i = {i0, i1, i0, i1, i0, i1, i0, i1};
+    const Floats j = {j0, j0, j1, j1, j0, j0, j1, j1};
+    const Floats r = {r0, r0, r0, r0, r1, r1, r1, r1};
+    const Floats u = block.u0 + i;
+    const Floats v = block.v0 + j;
+    const Floats w = block.w0 + block.w_u * i + block.w_v * j + r;
+    const auto row = [&](std::size_t k) {
+        const glm::vec4& of = grid.pixel[k];
+        return of.x * u + of.y * v + of.z * w + of.w;
+    };
+    const Floats xw = row(0);
+    const Floats yw = row(1);
+    const Floats nearness = row(2);
+    if (least_of(nearness) > 0.0F) {
+        const Floats x = xw / nearness;
+        const Floats y = yw / nearness;
+        return {least_of(x), most_of(x), least_of(y), most_of(y), true, false};
     }
-    return bounds;
+    // An edge and the eye span a plane of the box's frame, on whose sides the corners are also where they have no pixel.
+    bool outside = false;
+    for (const glm::dvec3& edge : face.edges) {
+        const Floats inside = static_cast<float>(edge.x) * xw + static_cast<float>(edge.y) * yw +
+                              static_cast<float>(edge.z) * nearness;
+        outside = outside || most_of(inside) < 0.0F;
+    }
+    return {0.0F, 0.0F, 0.0F, 0.0F, false, outside};
 }
 
 enum class Place { Outside, Across, Inside };
 
 Place place_of(const Bounds& bounds, const CastFace& face) {
+    if (!bounds.in_front) {
+        return bounds.outside ? Place::Outside : Place::Across;
+    }
     Place place = Place::Inside;
     for (const glm::dvec3& edge : face.edges) {
         const auto x = static_cast<float>(edge.x);
@@ -129,23 +151,36 @@ Place place_of(const Bounds& bounds, const CastFace& face) {
     return place;
 }
 
-/// The tiles that hold a pixel's centre within the bounds; false: none does.
-bool set_tiles(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
-    constexpr float slack = 0.01F; // pixels: of 32-bit rounding
-    const int left =
-        std::max(static_cast<int>(std::floor(std::max(bounds.left - slack, -1.0F) + 0.5F)), lit.x);
-    const int top = std::max(static_cast<int>(std::floor(std::max(bounds.top - slack, -1.0F) + 0.5F)), lit.y);
-    const int right = std::min(static_cast<int>(std::floor(std::min(bounds.right + slack, 65e3F) + 0.5F)),
-                               lit.x + lit.width);
-    const int bottom = std::min(static_cast<int>(std::floor(std::min(bounds.bottom + slack, 65e3F) + 0.5F)),
-                                lit.y + lit.height);
+/// The tiles that hold some of the pixels [left, right) x [top, bottom).
+TileRectangle tiles_of(int left, int right, int top, int bottom) {
     if (left >= right || top >= bottom) {
+        return {};
+    }
+    return {static_cast<std::uint16_t>(left / tile_width),
+            static_cast<std::uint16_t>((right + tile_width - 1) / tile_width),
+            static_cast<std::uint16_t>(top / tile_height),
+            static_cast<std::uint16_t>((bottom + tile_height - 1) / tile_height)};
+}
+
+/// False: none of the face's pixels.
+bool set_tiles(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
+    const int right = lit.x + lit.width;
+    const int bottom = lit.y + lit.height;
+    if (!bounds.in_front) {
+        item.centres = item.area = tiles_of(lit.x, right, lit.y, bottom);
+        return !lit.empty();
+    }
+    constexpr float slack = 0.01F; // pixels: of 32-bit rounding
+    const auto first = [](float at) { return static_cast<int>(std::floor(std::max(at - slack, -1.0F))); };
+    const auto end = [](float at) { return static_cast<int>(std::floor(std::min(at + slack, 65e3F))) + 1; };
+    item.area = tiles_of(std::max(first(bounds.left), lit.x), std::min(end(bounds.right), right),
+                         std::max(first(bounds.top), lit.y), std::min(end(bounds.bottom), bottom));
+    if (item.area.first_column == item.area.end_column) {
         return false;
     }
-    item.first_column = static_cast<std::uint16_t>(left / tile_width);
-    item.end_column = static_cast<std::uint16_t>((right + tile_width - 1) / tile_width);
-    item.first_row = static_cast<std::uint16_t>(top / tile_height);
-    item.end_row = static_cast<std::uint16_t>((bottom + tile_height - 1) / tile_height);
+    item.centres =
+        tiles_of(std::max(first(bounds.left + 0.5F), lit.x), std::min(end(bounds.right - 0.5F), right),
+                 std::max(first(bounds.top + 0.5F), lit.y), std::min(end(bounds.bottom - 0.5F), bottom));
     return true;
 }
 
@@ -209,10 +244,8 @@ void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& v
             }
             const Path path = path_of(block, facing);
             BlockItem item{k,
-                           0,
-                           0,
-                           0,
-                           0,
+                           {},
+                           {},
                            0,
                            static_cast<std::uint8_t>(d),
                            path.search,
@@ -220,7 +253,7 @@ void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& v
                            bin_of(block, eye, range),
                            path.reach};
             for (std::size_t f = 0; f < view.faces.size(); ++f) {
-                const Bounds bounds = bounds_of(block, items.grids[f][d]);
+                const Bounds bounds = bounds_of(block, items.grids[f][d], view.faces[f]);
                 const Place place = place_of(bounds, view.faces[f]);
                 item.face = static_cast<std::uint8_t>(f);
                 item.inside = place == Place::Inside;

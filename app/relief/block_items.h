@@ -33,9 +33,16 @@ enum class Search : std::uint8_t {
     March ///< some cells may face away: from the front of the block's slab to its back
 };
 
+/// Columns and rows of tiles, the last ones excluded.
+struct TileRectangle {
+    std::uint16_t first_column = 0, end_column = 0, first_row = 0, end_row = 0;
+};
+
 struct BlockItem {
     std::uint32_t block = 0;
-    std::uint16_t first_column = 0, end_column = 0, first_row = 0, end_row = 0; ///< tiles
+    TileRectangle
+        centres; ///< may have a pixel's centre in the block; empty where the block lies between centres
+    TileRectangle area; ///< may have any part of it
     std::uint8_t face = 0, direction = 0;
     Search search = Search::Newton1;
     bool inside = false; ///< no edge of the face comes near

@@ -1,5 +1,7 @@
 #include "app/relief/cast_blocks.h"
 
+#include "app/relief/lanes.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -9,36 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int lanes = tile_width * tile_height;
-using Floats = float __attribute__((vector_size(4 * lanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
-
-/// Everything below is inlined into one function for each instruction set.
-#define FRUSTUMSCREEN_INLINE [[gnu::always_inline]] inline
-
-FRUSTUMSCREEN_INLINE Floats all(float value) {
-    return Floats{} + value;
-}
-FRUSTUMSCREEN_INLINE Floats least(Floats a, Floats b) {
-    return a < b ? a : b;
-}
-FRUSTUMSCREEN_INLINE Floats most(Floats a, Floats b) {
-    return a > b ? a : b;
-}
-FRUSTUMSCREEN_INLINE bool any(Ints mask) {
-    std::array<std::uint64_t, lanes / 2> words;
-    std::memcpy(words.data(), &mask, sizeof mask);
-    return (words[0] | words[1] | words[2] | words[3]) != 0;
-}
-FRUSTUMSCREEN_INLINE Floats load(const float* from) {
-    Floats value;
-    std::memcpy(&value, from, sizeof value);
-    return value;
-}
-template <typename Vector, typename Word> FRUSTUMSCREEN_INLINE void store(Word* to, Vector value) {
-    static_assert(sizeof(Vector) == lanes * sizeof(Word));
-    std::memcpy(to, &value, sizeof value);
-}
+static_assert(lanes == tile_width * tile_height);
 
 /// The eight rays of a tile from one block's corner, in its grid: the eye at (u, v), the height of the eye above the block's plane,
 /// and what each ray adds to them.
@@ -156,28 +129,12 @@ FRUSTUMSCREEN_INLINE Meeting by_march(const Surface& surface, const Rays& rays, 
     return meeting;
 }
 
-/// What the block's extent leaves of the rays.
-struct Slab {
-    float u_low, u_high, v_low, v_high, low, high;
-};
-
 FRUSTUMSCREEN_INLINE void narrow(Floats& begin, Floats& end, Floats rate, float low, float high) {
     const Floats a = low / rate;
     const Floats b = high / rate;
     begin = most(begin, least(a, b));
     end = least(end, most(a, b));
 }
-
-/// A tile's rays in the grid, of the pixel of its first lane.
-struct TileRays {
-    Floats x, y;
-    const GridView& grid;
-
-    FRUSTUMSCREEN_INLINE Floats along(std::size_t k) const {
-        const glm::vec3& ray = grid.ray[k];
-        return ray.x * x + ray.y * y + ray.z;
-    }
-};
 
 FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
     Ints inside = Ints{} - 1;
@@ -189,90 +146,142 @@ FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
     return inside;
 }
 
-FRUSTUMSCREEN_INLINE void cast_item(CastPicture& picture, const BlockRelief& relief, const CastView& view,
-                                    const BlockItems& items, const BlockItem& item, TileBand band) {
+/// What eight rays have met so far.
+struct Hits {
+    float* t;
+    std::uint32_t* block;
+    std::uint32_t* place;
+};
+
+/// An item, ready for any eight rays.
+struct ReadyItem {
+    const BlockItem& item;
+    const ReliefBlock& block;
+    const GridView& grid;
+    const CastFace& face;
+    Surface surface;
+    Rays eye; ///< without what the rays add
+};
+
+FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& view, const BlockItems& items,
+                                     const BlockItem& item) {
     const ReliefBlock& block = relief.blocks[item.block];
     const GridView& grid = items.grids[item.face][item.direction];
-    const Surface surface{&relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
-                          Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask)),
-                          Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask >> 32U)),
-                          all(block.residual_low),
-                          all(block.residual_step),
-                          block.mask == ~std::uint64_t{0}};
-    Rays rays{};
-    rays.u = grid.eye.x - block.u0;
-    rays.v = grid.eye.y - block.v0;
-    rays.height = grid.eye.z - block.w0 - block.w_u * rays.u - block.w_v * rays.v;
-    const Slab cells{block.cells[0] - rays.u,
-                     block.cells[1] - rays.u,
-                     block.cells[2] - rays.v,
-                     block.cells[3] - rays.v,
-                     0.0F,
-                     0.0F};
-    constexpr float slack = 0.04F; // cells
+    Rays eye{};
+    eye.u = grid.eye.x - block.u0;
+    eye.v = grid.eye.y - block.v0;
+    eye.height = grid.eye.z - block.w0 - block.w_u * eye.u - block.w_v * eye.v;
+    return {item,
+            block,
+            grid,
+            view.faces[item.face],
+            {&relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
+             Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask)),
+             Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask >> 32U)),
+             all(block.residual_low), all(block.residual_step), block.mask == ~std::uint64_t{0}},
+            eye};
+}
+
+FRUSTUMSCREEN_INLINE Rays rays_of(const ReadyItem& ready, Floats x, Floats y) {
+    const auto along = [&](std::size_t k) {
+        const glm::vec3& ray = ready.grid.ray[k];
+        return ray.x * x + ray.y * y + ray.z;
+    };
+    Rays rays = ready.eye;
+    rays.du = along(0);
+    rays.dv = along(1);
+    rays.fall = along(2) - ready.block.w_u * rays.du - ready.block.w_v * rays.dv;
+    return rays;
+}
+
+/// Where the rays through (x, y) meet the item's block nearer than `before`, if they do.
+FRUSTUMSCREEN_INLINE Meeting meeting_of(const ReadyItem& ready, const Rays& rays, Floats x, Floats y,
+                                        Floats before) {
+    const ReliefBlock& block = ready.block;
+    const float u_low = block.cells[0] - rays.u;
+    const float u_high = block.cells[1] - rays.u;
+    const float v_low = block.cells[2] - rays.v;
+    const float v_high = block.cells[3] - rays.v;
+    Meeting meeting{};
+    Floats end{};
+    if (ready.item.search != Search::March) {
+        meeting.t = -rays.height / rays.fall;
+        const Floats u = meeting.t * rays.du;
+        const Floats v = meeting.t * rays.dv;
+        const float reach = ready.item.reach;
+        meeting.met =
+            (u >= u_low - reach) & (u <= u_high + reach) & (v >= v_low - reach) & (v <= v_high + reach);
+    } else {
+        constexpr float slack = 0.04F; // cells
+        end = before;
+        narrow(meeting.t, end, rays.du, u_low - slack, u_high + slack);
+        narrow(meeting.t, end, rays.dv, v_low - slack, v_high + slack);
+        narrow(meeting.t, end, rays.fall, block.residual_low - slack - rays.height,
+               block.residual_high() + slack - rays.height);
+        meeting.met = meeting.t < end;
+    }
+    if (!ready.item.inside) {
+        meeting.met &= in_face(ready.face, x, y);
+    }
+    if (!any(meeting.met)) {
+        return meeting;
+    }
+    meeting = ready.item.search == Search::March ? by_march(ready.surface, rays, meeting.t, end, meeting.met)
+                                                 : by_newton(ready.surface, rays, meeting.t, meeting.met,
+                                                             1 + static_cast<int>(ready.item.search));
+    meeting.met &= (meeting.t < before) & (meeting.t > 0.0F);
+    return meeting;
+}
+
+FRUSTUMSCREEN_INLINE void cast_eight(const ReadyItem& ready, Floats x, Floats y, const Hits& hits) {
+    const Floats before = load(hits.t);
+    const Rays rays = rays_of(ready, x, y);
+    const Meeting meeting = meeting_of(ready, rays, x, y, before);
+    if (!any(meeting.met)) {
+        return;
+    }
+    store(hits.t, meeting.met ? meeting.t : before);
+    const Local place = place_on(rays, meeting.t);
+    constexpr auto scale = static_cast<float>(places_per_cell);
+    const Ints u = __builtin_convertvector(least(most(place.u, Floats{}), all(block_cells)) * scale, Ints);
+    const Ints v = __builtin_convertvector(least(most(place.v, Floats{}), all(block_cells)) * scale, Ints);
+    const Ints packed = u | (v << 16);
+    for (int lane = 0; lane < lanes; ++lane) {
+        if (meeting.met[lane] != 0) {
+            hits.block[lane] = ready.item.block;
+            hits.place[lane] = static_cast<std::uint32_t>(packed[lane]);
+        }
+    }
+}
+
+FRUSTUMSCREEN_INLINE void cast_item(CastPicture& picture, const ReadyItem& ready, TileBand band) {
     const Floats lane_x = {0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
     const Floats lane_y = {0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
-    const int first_row = std::max<int>(item.first_row, band.first);
-    const int end_row = std::min<int>(item.end_row, band.end);
-    for (int row = first_row; row < end_row; ++row) {
+    const TileRectangle& tiles = ready.item.centres;
+    const int end_row = std::min<int>(tiles.end_row, band.end);
+    for (int row = std::max<int>(tiles.first_row, band.first); row < end_row; ++row) {
         std::size_t at =
-            (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns) + item.first_column) *
+            (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns) + tiles.first_column) *
             lanes;
         const Floats y = lane_y + static_cast<float>(row * tile_height);
-        for (int column = item.first_column; column < item.end_column; ++column, at += lanes) {
+        for (int column = tiles.first_column; column < tiles.end_column; ++column, at += lanes) {
             const Floats x = lane_x + static_cast<float>(column * tile_width);
-            const TileRays tile{x, y, grid};
-            rays.du = tile.along(0);
-            rays.dv = tile.along(1);
-            rays.fall = tile.along(2) - block.w_u * rays.du - block.w_v * rays.dv;
-            const Floats before = load(&picture.t[at]);
-            Floats t;
-            Floats end{};
-            Ints live;
-            if (item.search != Search::March) {
-                t = -rays.height / rays.fall;
-                const Floats u = t * rays.du;
-                const Floats v = t * rays.dv;
-                live = (u >= cells.u_low - item.reach) & (u <= cells.u_high + item.reach) &
-                       (v >= cells.v_low - item.reach) & (v <= cells.v_high + item.reach);
-            } else {
-                t = Floats{};
-                end = before;
-                narrow(t, end, rays.du, cells.u_low - slack, cells.u_high + slack);
-                narrow(t, end, rays.dv, cells.v_low - slack, cells.v_high + slack);
-                narrow(t, end, rays.fall, block.residual_low - slack - rays.height,
-                       block.residual_high() + slack - rays.height);
-                live = t < end;
-            }
-            if (!item.inside) {
-                live &= in_face(view.faces[item.face], x, y);
-            }
-            if (!any(live)) {
-                continue;
-            }
-            const Meeting meeting =
-                item.search == Search::March
-                    ? by_march(surface, rays, t, end, live)
-                    : by_newton(surface, rays, t, live, 1 + static_cast<int>(item.search));
-            const Ints nearer = meeting.met & (meeting.t < before) & (meeting.t > 0.0F);
-            if (!any(nearer)) {
-                continue;
-            }
-            store(&picture.t[at], nearer ? meeting.t : before);
-            const Local place = place_on(rays, meeting.t);
-            constexpr auto scale = static_cast<float>(CastPicture::places_per_cell);
-            const Ints u =
-                __builtin_convertvector(least(most(place.u, Floats{}), all(block_cells)) * scale, Ints);
-            const Ints v =
-                __builtin_convertvector(least(most(place.v, Floats{}), all(block_cells)) * scale, Ints);
-            const Ints packed = u | (v << 16);
-            for (int lane = 0; lane < lanes; ++lane) {
-                if (nearer[lane] != 0) {
-                    picture.block[at + static_cast<std::size_t>(lane)] = item.block;
-                    picture.place[at + static_cast<std::size_t>(lane)] =
-                        static_cast<std::uint32_t>(packed[lane]);
-                }
-            }
+            cast_eight(ready, x, y, {&picture.t[at], &picture.block[at], &picture.place[at]});
+        }
+    }
+}
+
+FRUSTUMSCREEN_INLINE void cast_item(CastRays& rays, const ReadyItem& ready) {
+    const TileRectangle& tiles = ready.item.area;
+    const int first_column = std::max<int>(tiles.first_column, rays.first_column);
+    const int end_column = std::min<int>(tiles.end_column, rays.first_column + rays.columns);
+    const int end_row = std::min<int>(tiles.end_row, rays.band.end);
+    for (int row = std::max<int>(tiles.first_row, rays.band.first); row < end_row; ++row) {
+        const std::size_t at = rays.tile(first_column, row);
+        const std::size_t end = rays.first[at + static_cast<std::size_t>(end_column - first_column)];
+        for (std::size_t k = rays.first[at] * lanes; k < end * lanes; k += lanes) {
+            cast_eight(ready, load(&rays.x[k]), load(&rays.y[k]),
+                       {&rays.t[k], &rays.block[k], &rays.place[k]});
         }
     }
 }
@@ -280,22 +289,40 @@ FRUSTUMSCREEN_INLINE void cast_item(CastPicture& picture, const BlockRelief& rel
 FRUSTUMSCREEN_INLINE void cast_all(CastPicture& picture, const BlockRelief& relief, const CastView& view,
                                    const BlockItems& items, TileBand band) {
     for (const BlockItem& item : items.sorted) {
-        if (item.first_row < band.end && item.end_row > band.first) {
-            cast_item(picture, relief, view, items, item, band);
+        if (item.centres.first_row < band.end && item.centres.end_row > band.first) {
+            cast_item(picture, ready(relief, view, items, item), band);
+        }
+    }
+}
+
+FRUSTUMSCREEN_INLINE void cast_all(CastRays& rays, const BlockRelief& relief, const CastView& view,
+                                   const BlockItems& items) {
+    for (const BlockItem& item : items.sorted) {
+        if (item.area.first_row < rays.band.end && item.area.end_row > rays.band.first) {
+            cast_item(rays, ready(relief, view, items, item));
         }
     }
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void cast_with_avx2(CastPicture& picture, const BlockRelief& relief,
-                                            const CastView& view, const BlockItems& items, TileBand band) {
-    cast_all(picture, relief, view, items, band);
+template <typename... Arguments> [[gnu::target("avx2")]] void cast_with_avx2(Arguments&... arguments) {
+    cast_all(arguments...);
 }
 #endif
 
-void cast_plainly(CastPicture& picture, const BlockRelief& relief, const CastView& view,
-                  const BlockItems& items, TileBand band) {
-    cast_all(picture, relief, view, items, band);
+template <typename... Arguments> void cast_plainly(Arguments&... arguments) {
+    cast_all(arguments...);
+}
+
+/// By the widest instructions that the processor has.
+template <typename... Arguments> void cast_by_best(Arguments&... arguments) {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) {
+        cast_with_avx2(arguments...);
+        return;
+    }
+#endif
+    cast_plainly(arguments...);
 }
 
 } // namespace
@@ -318,17 +345,27 @@ void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view,
         std::fill_n(&picture.t[(begin + static_cast<std::size_t>(left)) * lanes],
                     static_cast<std::size_t>(right - left) * lanes, std::numeric_limits<float>::infinity());
     }
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
-        cast_with_avx2(picture, relief, view, items, band);
-        return;
-    }
-#endif
-    cast_plainly(picture, relief, view, items, band);
+    cast_by_best(picture, relief, view, items, band);
+}
+
+void CastRays::begin(TileBand rows, int first_tile_column, int tile_columns) {
+    band = rows;
+    first_column = first_tile_column;
+    columns = tile_columns;
+    first.clear();
+    x.clear();
+    y.clear();
+}
+
+void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items) {
+    rays.t.assign(rays.x.size(), std::numeric_limits<float>::infinity());
+    rays.block.resize(rays.x.size());
+    rays.place.resize(rays.x.size());
+    cast_by_best(rays, relief, view, items);
 }
 
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {
-    constexpr std::uint32_t unit = CastPicture::places_per_cell;
+    constexpr std::uint32_t unit = places_per_cell;
     constexpr std::uint32_t end = block_cells * unit - 1;
     const std::uint32_t u = std::min(place & 0xFFFFU, end);
     const std::uint32_t v = std::min(place >> 16U, end);

@@ -14,13 +14,13 @@
 
 namespace frustumscreen {
 
+inline constexpr std::uint32_t places_per_cell = 4096;
+
 struct CastPicture {
     int columns = 0, rows = 0; ///< of tiles
     std::vector<float> t;
     std::vector<std::uint32_t> block;
     std::vector<std::uint32_t> place; ///< column in the lower half, row in the upper
-
-    static constexpr std::uint32_t places_per_cell = 4096;
 
     void resize(int width, int height);
     [[nodiscard]] std::size_t at(int x, int y) const {
@@ -36,9 +36,29 @@ struct TileBand {
     int first = 0, end = 0;
 };
 
+/// Rays through any places of a band's tiles, by eights: those of a tile one after another, the last eight filled up with copies.
+struct CastRays {
+    TileBand band;
+    int first_column = 0, columns = 0; ///< of tiles
+    std::vector<std::uint32_t> first;  ///< eights before each tile, row by row; one more at the end
+    std::vector<float> x, y;           ///< pixels
+    std::vector<float> t;              ///< as in CastPicture, as the next two
+    std::vector<std::uint32_t> block, place;
+
+    /// No ray yet; keeps its memory.
+    void begin(TileBand rows, int first_tile_column, int tile_columns);
+    [[nodiscard]] std::size_t tile(int column, int row) const {
+        return static_cast<std::size_t>(row - band.first) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column - first_column);
+    }
+};
+
 /// Clears the band of the view's lit part, then casts into it.
 void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view, const BlockItems& items,
           TileBand band);
+
+/// Clears what the rays have met, then casts them.
+void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items);
 
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);

@@ -27,6 +27,15 @@ Box placed_box(const CastScene& scene) {
     return box;
 }
 
+PixelRectangle pixels_between(const glm::dvec2& low, const glm::dvec2& high, int width, int height) {
+    const auto clamped = [](double value, int most) {
+        return static_cast<int>(std::clamp(value, 0.0, double(most)));
+    };
+    const int left = clamped(std::floor(low.x), width);
+    const int top = clamped(std::floor(low.y), height);
+    return {left, top, clamped(std::ceil(high.x), width) - left, clamped(std::ceil(high.y), height) - top};
+}
+
 /// The pixels around the box's corners; all, if a corner is not in front of the eye.
 PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, int width, int height) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -39,12 +48,23 @@ PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, int w
         low = glm::min(low, glm::dvec2(at) / at.z);
         high = glm::max(high, glm::dvec2(at) / at.z);
     }
-    const auto clamped = [](double value, int most) {
-        return static_cast<int>(std::clamp(value, 0.0, double(most)));
-    };
-    const int left = clamped(std::floor(low.x), width);
-    const int top = clamped(std::floor(low.y), height);
-    return {left, top, clamped(std::ceil(high.x), width) - left, clamped(std::ceil(high.y), height) - top};
+    return pixels_between(low, high, width, height);
+}
+
+/// The pixels around what the projector lights of a face; all, if a corner is not in front of it.
+PixelRectangle pixels_of(const PropFace& face, const CastScene& scene) {
+    const RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec3& corner : face.corners) {
+        const std::optional<glm::dvec2> pixel = scene.projector.pixel(projector_from_prop.point(corner));
+        if (!pixel) {
+            return {0, 0, scene.projector.width, scene.projector.height};
+        }
+        low = glm::min(low, *pixel);
+        high = glm::max(high, *pixel);
+    }
+    return pixels_between(low, high, scene.projector.width, scene.projector.height);
 }
 
 /// Turned so that the inside is positive, and as long as one pixel is wide.
@@ -81,9 +101,11 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
         cast.direction = glm::dmat3(box_from_prop) * rays.direction;
         std::transform(rays.edges.begin(), rays.edges.end(), cast.edges.begin(), inward_edge);
         cast.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
-        cast.lit = pixels_around(cast, scene.box_size, width, height);
-        view.lit = united(view.lit, cast.lit);
-        view.faces.push_back(cast);
+        cast.lit = intersected(pixels_around(cast, scene.box_size, width, height), pixels_of(face, scene));
+        if (!cast.lit.empty()) {
+            view.lit = united(view.lit, cast.lit);
+            view.faces.push_back(cast);
+        }
     }
 }
 
