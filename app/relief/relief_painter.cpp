@@ -50,27 +50,58 @@ void ReliefPainter::cast_picture(const BlockRelief& relief, const CastView& view
     end_row_ = std::min((view.lit.y + view.lit.height + tile_height - 1) / tile_height, cast_.rows);
 }
 
+int ReliefPainter::bands() const {
+    return (end_row_ - first_row_ + rows_of_band - 1) / rows_of_band;
+}
+
+TileBand ReliefPainter::band(int k) const {
+    const int first = first_row_ + k * rows_of_band;
+    return {first, std::min(first + rows_of_band, end_row_)};
+}
+
+void ReliefPainter::shade(const BlockRelief& relief, const TileBand& band) {
+    const PixelRectangle& lit = codes_.lit();
+    const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
+    for (int y = band.first * tile_height; y < bottom; ++y) {
+        glm::u8vec4* const row = codes_.row(y);
+        for (int x = 0; x < lit.width; ++x) {
+            const std::size_t at = cast_.at(lit.x + x, y);
+            if (cast_.t[at] < std::numeric_limits<float>::infinity()) {
+                row[x] = colour_at(relief, cast_.block[at], cast_.place[at]);
+            }
+        }
+    }
+}
+
+void ReliefPainter::copy(const TileBand& band, const PictureSpan<glm::u8vec4>& picture) {
+    const PixelRectangle& lit = codes_.lit();
+    const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
+    for (int y = band.first * tile_height; y < bottom; ++y) {
+        std::copy_n(codes_.row(y), lit.width, &picture.at(lit.x, y));
+    }
+}
+
 PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& view, int samples,
                                     const PictureSpan<glm::u8vec4>& picture) {
-    assert(samples >= 1);
-    (void)samples;
+    assert(samples == 1 || samples == 2 || samples == 4 || samples == 8 || samples == 16);
     const PixelRectangle lit = tiles_around(view.lit, picture.width, picture.height);
     if (lit.empty()) {
         return {};
     }
     cast_picture(relief, view, picture.width, picture.height);
-    workers_.share((end_row_ - first_row_ + rows_of_band - 1) / rows_of_band, [&](int k) {
-        const int first = first_row_ + k * rows_of_band;
-        const TileBand band{first, std::min(first + rows_of_band, end_row_)};
-        cast(cast_, relief, view, items_, band);
-        const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
-        for (int y = band.first * tile_height; y < bottom; ++y) {
-            for (int x = lit.x; x < lit.x + lit.width; ++x) {
-                const std::size_t at = cast_.at(x, y);
-                picture.at(x, y) = cast_.t[at] < std::numeric_limits<float>::infinity()
-                                       ? colour_at(relief, cast_.block[at], cast_.place[at])
-                                       : glm::u8vec4(0);
-            }
+    codes_.begin(lit);
+    workers_.share(bands(), [&](int k) {
+        cast(cast_, relief, view, items_, band(k));
+        shade(relief, band(k));
+    });
+    fine_.resize(std::max(fine_.size(), static_cast<std::size_t>(bands())));
+    workers_.share(bands(), [&](int k) {
+        copy(band(k), picture);
+        if (samples > 1) {
+            FineBand& fine = fine_[static_cast<std::size_t>(k)];
+            fine.gather(codes_, band(k), samples);
+            cast(fine.rays(), relief, view, items_);
+            fine.resolve(relief, light_, samples, picture);
         }
     });
     return lit;

@@ -8,20 +8,13 @@
 #pragma once
 
 #include "app/relief/cast_blocks.h"
+#include "app/relief/fine_samples.h"
 #include "app/relief/frame_workers.h"
+#include "app/relief/picture_span.h"
 
-#include <cstddef>
+#include <vector>
 
 namespace frustumscreen {
-
-/// Texels of someone else's memory, row 0 at the top.
-template <typename Texel> struct PictureSpan {
-    Texel* first = nullptr;
-    int width = 0, height = 0;
-    std::ptrdiff_t stride = 0; ///< texels from row to row
-
-    [[nodiscard]] Texel& at(int x, int y) const { return first[y * stride + x]; }
-};
 
 class ReliefPainter {
 public:
@@ -37,11 +30,18 @@ public:
 
 private:
     void cast_picture(const BlockRelief& relief, const CastView& view, int width, int height);
+    [[nodiscard]] int bands() const;
+    [[nodiscard]] TileBand band(int k) const;
+    void shade(const BlockRelief& relief, const TileBand& band);
+    void copy(const TileBand& band, const PictureSpan<glm::u8vec4>& picture);
 
     BlockItems items_;
     CastPicture cast_;
     int first_row_ = 0, end_row_ = 0; ///< of tiles, that the view lights
-    FrameWorkers workers_;            ///< last: its threads use the others
+    LitCodes codes_;
+    SampleLight light_;
+    std::vector<FineBand> fine_; ///< one for each band
+    FrameWorkers workers_;       ///< last: its threads use the others
 };
 
 } // namespace frustumscreen

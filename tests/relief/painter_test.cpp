@@ -103,5 +103,77 @@ TEST(Painter, HitPointsAreTheRayCastsOwn) {
     }
 }
 
+/// Against 16 rays a pixel, over the artifact and the pixels around it; codes.
+double rmse(const Image8& picture, const TruthPicture& truth) {
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t k = 0; k < picture.texels.size(); ++k) {
+        if (truth.colour16.texels[k].a != 0 || truth.hit.texels[k] != 0) {
+            const glm::dvec3 off = glm::dvec3(picture.texels[k]) - glm::dvec3(truth.colour16.texels[k]);
+            sum += glm::dot(off, off) / 3.0;
+            ++count;
+        }
+    }
+    return std::sqrt(sum / count);
+}
+
+TEST(Painter, MoreSamplesComeNearerToSixteenRays) {
+    const Painting painting;
+    ReliefPainter painter(2);
+    for (const BenchPose& pose : painting.poses) {
+        const TruthPicture truth =
+            painting.subject.truth.cast(painting.prop, view_of(painting.settings, pose), true);
+        double before = INFINITY;
+        for (const int samples : {1, 2, 4, 8}) {
+            Image8 picture = painting.blank({});
+            painter.paint(painting.relief, painting.view(pose), samples, span_of(picture));
+            const double now = rmse(picture, truth);
+            EXPECT_LT(now, before) << samples;
+            before = now;
+        }
+    }
+}
+
+TEST(Painter, SamplesChangeOutlinesAndLeaveWhatIsEven) {
+    const Painting painting;
+    ReliefPainter painter(2);
+    const CastView view = painting.view(painting.poses[0]);
+    Image8 one = painting.blank({});
+    Image8 many = one;
+    painter.paint(painting.relief, view, 1, span_of(one));
+    painter.paint(painting.relief, view, 16, span_of(many));
+    int outlines = 0;
+    for (int y = 1; y + 1 < one.height; ++y) {
+        for (int x = 1; x + 1 < one.width; ++x) {
+            bool even = true;
+            for (const glm::ivec2 step :
+                 {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+                even = even && one.at(x + step.x, y + step.y) == one.at(x, y);
+            }
+            if (even) {
+                ASSERT_EQ(many.at(x, y), one.at(x, y)) << x << " " << y;
+            }
+            outlines += many.at(x, y) != one.at(x, y) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(outlines, 100);
+}
+
+TEST(SampleLight, TheMeanOfEqualCodesIsThatCode) {
+    const SampleLight light;
+    for (int code = 0; code < 256; ++code) {
+        const glm::u8vec4 texel(static_cast<std::uint8_t>(code), 0, 255, 255);
+        for (const unsigned count : {1U, 2U, 16U}) {
+            EXPECT_EQ(light.mean(light.light(texel) * count, count), texel) << code;
+        }
+    }
+}
+
+TEST(SampleLight, HalfOfWhiteIsCode188) {
+    const SampleLight light;
+    const glm::u8vec4 mean = light.mean(light.light(glm::u8vec4(255)), 2);
+    EXPECT_EQ(mean, glm::u8vec4(188, 188, 188, 255)); // 0.5 linear, IEC 61966-2-1
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -159,7 +159,7 @@ Result<void> TechniqueSet::add_relief_casts(const SourceMesh& mesh, const Pack& 
     for (const int size : texels) {
         BlocksInBox blocks = blocks_of_source(mesh, pack, stage_.prop, size);
         const std::size_t count = blocks.relief.blocks.size();
-        if (Result<void> added = add(make_relief_cast(stage_, std::move(blocks), 1),
+        if (Result<void> added = add(make_relief_cast(stage_, std::move(blocks), pack.samples),
                                      described(TechniqueKind::ReliefCast, -1, count));
             !added) {
             return added;
