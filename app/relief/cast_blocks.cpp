@@ -242,7 +242,7 @@ FRUSTUMSCREEN_INLINE void cast_eight(const ReadyItem& ready, Floats x, Floats y,
     }
     store(hits.t, meeting.met ? meeting.t : before);
     const Local place = place_on(rays, meeting.t);
-    constexpr auto scale = static_cast<float>(places_per_cell);
+    constexpr auto scale = static_cast<float>(CastPicture::places_per_cell);
     const Ints u = __builtin_convertvector(least(most(place.u, Floats{}), all(block_cells)) * scale, Ints);
     const Ints v = __builtin_convertvector(least(most(place.v, Floats{}), all(block_cells)) * scale, Ints);
     const Ints packed = u | (v << 16);
@@ -365,7 +365,7 @@ void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const
 }
 
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {
-    constexpr std::uint32_t unit = places_per_cell;
+    constexpr std::uint32_t unit = CastPicture::places_per_cell;
     constexpr std::uint32_t end = block_cells * unit - 1;
     const std::uint32_t u = std::min(place & 0xFFFFU, end);
     const std::uint32_t v = std::min(place >> 16U, end);

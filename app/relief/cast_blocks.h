@@ -14,13 +14,13 @@
 
 namespace frustumscreen {
 
-inline constexpr std::uint32_t places_per_cell = 4096;
-
 struct CastPicture {
     int columns = 0, rows = 0; ///< of tiles
     std::vector<float> t;
     std::vector<std::uint32_t> block;
     std::vector<std::uint32_t> place; ///< column in the lower half, row in the upper
+
+    static constexpr std::uint32_t places_per_cell = 4096;
 
     void resize(int width, int height);
     [[nodiscard]] std::size_t at(int x, int y) const {
