@@ -17,6 +17,8 @@ NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an 
 KEYS = os.environ.get("FRUSTUMSCREEN_IMAGE_KEYS", "")  # update.key, whose certificate the image has
 REPORT = "/run/frustumscreen-import/report.json"
 BOOT = "mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"
+# Sectors; the kernel counts them for each partition (Documentation/admin-guide/iostats.rst).
+WRITTEN_TO_B = "awk '{ print $7 }' $(dirname $(grep -lx PARTNAME=frustumscreen-b /sys/class/block/*/uevent))/stat"
 UPDATE_S = 600.0
 RESTART_S = 300.0
 TRY_S = 600.0
@@ -120,8 +122,8 @@ class Update(ImageTest):
     def test_refused(self):
         """One plain sentence each, and the version that runs goes on."""
         make = self.updates.make
-        self.was_good()
         self.start()
+        self.wait_until_good()  # which renames its kernel image, once
         for name, bundle, refusal, words in (
                 ("wrong-key", lambda: make(key="other"), "wrong_key", "not signed with the key"),
                 ("cut-off", self.updates.truncated, "not_a_pack", "cut off or damaged"),
@@ -131,6 +133,7 @@ class Update(ImageTest):
                 told = self.refusal(name, bundle())
                 self.assertEqual(told[0], refusal, told)
                 self.assertIn(words, told[1])
+        self.assertEqual(self.pc.check(WRITTEN_TO_B).strip(), "0", "something was written into the other slot")
         self.assertIsNotNone(self.pc.wait_until_lit())
         self.assertEqual(self.version(), "0.1.0")
         self.assertFalse(self.pc.resets_within(20.0), "the machine starts again, with nothing new")
