@@ -10,9 +10,6 @@ namespace frustumscreen::pack_format {
 
 namespace {
 
-constexpr float most_error_box = 10.0F; ///< the box is 1 long: more is no measurement
-constexpr float most_colour_rmse = 255.0F;
-
 bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -42,8 +42,13 @@ inline constexpr std::size_t most_textures = 64;
 inline constexpr std::uint32_t most_vertices = 1U << 24; ///< of one level
 inline constexpr std::uint32_t most_indices = 3U << 24;  ///< of one level
 inline constexpr std::uint32_t most_clusters = 1U << 22; ///< of one level
-inline constexpr std::size_t most_charts = 65535;        ///< their numbers are 16 bits
-inline constexpr int most_side_texels = 16384; ///< of a texture or the relief; what OpenGL ES drivers take
+inline constexpr float most_error_box = 10.0F;           ///< the box is 1 long: more is no measurement
+inline constexpr float most_colour_rmse = 255.0F;
+inline constexpr std::size_t most_reliefs = 8;            ///< of the section relief_blocks
+inline constexpr std::uint32_t most_relief_texels = 4096; ///< along the box's longest edge
+inline constexpr std::uint32_t most_relief_blocks = 1U << 19;
+inline constexpr std::size_t most_charts = 65535; ///< their numbers are 16 bits
+inline constexpr int most_side_texels = 16384;    ///< of a texture or the relief; what OpenGL ES drivers take
 inline constexpr std::int64_t most_texels = 1 << 26; ///< of one picture
 inline constexpr std::int64_t most_texels_together = 1 << 28;
 

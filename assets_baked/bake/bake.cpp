@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
+#include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/relief.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
@@ -154,6 +155,15 @@ public:
         }
         atlas = std::move(relief->atlas);
         return made;
+    }
+
+    /// For casting, beside the levels.
+    [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
+        options_.progress("relief to be cast", 0.9);
+        return bake_reliefs({meshes.levels.front(), meshes.texture, frame_.box_size,
+                             directions_of(options_.prop.shape), source_, samples_, options_.prop.zone,
+                             options_.unlit},
+                            options_.size);
     }
 
 private:
@@ -356,6 +366,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
     ReliefAtlas atlas;
     TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
+    put_reliefs(pack, bakery.reliefs(meshes));
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;

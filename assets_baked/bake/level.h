@@ -11,6 +11,8 @@
 #include "assets_baked/bake/source_scene.h"
 #include "assets_baked/bake/visibility.h"
 
+#include <functional>
+
 namespace frustumscreen {
 
 /// Level with vertices, indices and clusters; texture and error are left to the caller.
@@ -65,6 +67,13 @@ struct SeenError {
 };
 [[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                                    const SourceScene& source, const ViewingZone& zone);
+/// The first hit of a ray on a surface of which not every place is drawn.
+using TraceSurface = std::function<SurfaceHit(const glm::vec3& eye, const glm::vec3& direction)>;
+/// Distances both ways, as measure_shape, of what rays from eyes of the zone meet: from the source's hits to the surface, and from
+/// what `trace` meets to the source. What no eye sees does not count. Colour is left at 0.
+[[nodiscard]] LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
+                                        const SourceScene& source, const glm::dvec3& box_size,
+                                        const ViewingZone& zone);
 /// Whether a visitor would take the level for the source, and no part of it is lost.
 [[nodiscard]] bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box);
 

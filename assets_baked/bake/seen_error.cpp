@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace frustumscreen {
 
 namespace {
 
 constexpr int side = 320; ///< rays
+constexpr int eyes = 10;
+constexpr double eye_distance_box = 6.0;
 
 struct Tally {
     double distance = 0.0;
@@ -42,6 +46,20 @@ private:
     glm::vec3 eye_, forward_, right_, up_;
     float extent_;
 };
+
+/// Of eye number `k` of the zone, spread over its height and all around.
+EyeRays rays_of_eye(int k, const glm::dvec3& box_size, const ViewingZone& zone) {
+    constexpr double golden_angle = 2.399963229728653;
+    const double lowest_deg = zone.lowest_elevation_deg + 9.0; // hardly anybody stands at the edge
+    constexpr double highest_deg = 80.0;
+    const double elevation =
+        (lowest_deg + (highest_deg - lowest_deg) * k / (eyes - 1)) * std::numbers::pi / 180.0;
+    const glm::dvec3 away(std::cos(elevation) * std::cos(k * golden_angle),
+                          std::cos(elevation) * std::sin(k * golden_angle), std::sin(elevation));
+    const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
+    return {centre + glm::vec3(away * eye_distance_box), centre,
+            static_cast<float>(glm::length(box_size) / 2.0)};
+}
 
 /// Hits with a 4-neighbour that misses.
 std::size_t outline_of(const Image<std::uint8_t>& hits) {
@@ -88,22 +106,11 @@ Tally compare(const EyeRays& rays, const SourceScene& level, const SourceScene& 
 
 SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
                      const SourceScene& source, const ViewingZone& zone) {
-    constexpr int eyes = 10;
-    constexpr double golden_angle = 2.399963229728653;
-    constexpr double eye_distance_box = 6.0;
-    const double lowest_deg = zone.lowest_elevation_deg + 9.0; // hardly anybody stands at the edge
-    constexpr double highest_deg = 80.0;
     const SourceMesh level_mesh = textured_source(level, texture, box_size);
     const SourceScene level_scene(level_mesh, level_mesh.positions, Sides::Front);
-    const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F);
-    const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
     SeenError sum;
     for (int k = 0; k < eyes; ++k) {
-        const double elevation =
-            (lowest_deg + (highest_deg - lowest_deg) * k / (eyes - 1)) * std::numbers::pi / 180.0;
-        const glm::dvec3 away(std::cos(elevation) * std::cos(k * golden_angle),
-                              std::cos(elevation) * std::sin(k * golden_angle), std::sin(elevation));
-        const EyeRays rays(centre + glm::vec3(away * eye_distance_box), centre, radius);
+        const EyeRays rays = rays_of_eye(k, box_size, zone);
         const Tally tally = compare(rays, level_scene, source);
         if (tally.both > 0) {
             sum.mean_box += tally.distance / static_cast<double>(tally.both) / eyes;
@@ -115,6 +122,42 @@ SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::d
         }
     }
     return sum;
+}
+
+LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace, const SourceScene& source,
+                          const glm::dvec3& box_size, const ViewingZone& zone) {
+    constexpr int rays_a_side = 112;
+    constexpr float reach = 0.2F;
+    const auto distance_to = [](const SourceScene& scene, const glm::vec3& point) {
+        const SurfaceHit hit = scene.nearest(point, reach);
+        return hit.hit ? hit.distance : reach;
+    };
+    std::vector<std::vector<float>> rows(std::size_t{eyes} * rays_a_side);
+    parallel_for(rows.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const EyeRays rays = rays_of_eye(static_cast<int>(k) / rays_a_side, box_size, zone);
+            for (int x = 0; x < rays_a_side; ++x) {
+                const glm::vec3 direction = rays.direction(x, static_cast<int>(k) % rays_a_side, rays_a_side);
+                if (const SurfaceHit hit = source.trace(rays.eye(), direction); hit.hit) {
+                    rows[k].push_back(distance_to(surface, hit.point));
+                }
+                if (const SurfaceHit hit = trace(rays.eye(), direction); hit.hit) {
+                    rows[k].push_back(distance_to(source, hit.point));
+                }
+            }
+        }
+    });
+    std::vector<float> distances;
+    for (const std::vector<float>& row : rows) {
+        distances.insert(distances.end(), row.begin(), row.end());
+    }
+    if (distances.empty()) {
+        return {};
+    }
+    std::sort(distances.begin(), distances.end());
+    const double sum = std::accumulate(distances.begin(), distances.end(), 0.0);
+    return {static_cast<float>(sum / static_cast<double>(distances.size())),
+            distances[distances.size() * 95 / 100], distances.back(), 0.0F};
 }
 
 bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box) {

@@ -2,6 +2,7 @@
 // the same pack. pack_mutator.cpp puts the hashes right, so that the fuzzer gets past them.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -80,6 +81,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     }
     fuzz::require(!set_and_spoken || list_sounds(**pack).has_value(),
                   "sounds that are checked can be listed");
+    if (const Result<void> reliefs = check_reliefs(**pack); !reliefs) {
+        fuzz::require_one_line(reliefs.error().message);
+    }
     const auto written = write_pack(**pack);
     fuzz::require(written.has_value(), "what was read can be written",
                   written ? std::string() : written.error().message);

@@ -1,4 +1,5 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
+#include "app/pack/block_part.h"
 #include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
 #include "app/pack/zip_archive.h"
@@ -172,6 +173,15 @@ void glyph_runs(const Seeds& seeds) {
     seeds.add("glyph_runs", "none", as_text(encode_glyph_runs({12, 2, 0, 0, {}, {}})));
 }
 
+void relief_blocks(const Seeds& seeds) {
+    const Bytes small = pack_format::encode_blocks(samples::block_relief(32));
+    seeds.add("relief_blocks", "hill", as_text(small));
+    seeds.add("relief_blocks", "cut", as_text(small).substr(0, 500));
+    Bytes not_finite = small;
+    std::fill(not_finite.begin() + 100, not_finite.begin() + 116, std::byte{0xff});
+    seeds.add("relief_blocks", "not_finite", as_text(not_finite));
+}
+
 void words_files(const Seeds& seeds) {
     const Bytes file = fuzz::small_words_file();
     seeds.add("words_file", "two", as_text(file));
@@ -274,6 +284,7 @@ int main(int count, char** arguments) {
     signatures(seeds);
     folders(seeds);
     glyph_runs(seeds);
+    relief_blocks(seeds);
     words_files(seeds);
     pictures(seeds);
     meshes(seeds);

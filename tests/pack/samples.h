@@ -4,6 +4,7 @@
 
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/sha256.h"
 #include "app/pack/zip_archive.h"
@@ -189,6 +190,59 @@ inline Pack pack_with_words() {
     put_set_texts(pack, std::vector{set_language("en", TextDirection::LeftToRight),
                                     set_language("pt-BR", TextDirection::RightToLeft), without_letters,
                                     SetLanguage{"de", {}, {}}});
+    return pack;
+}
+
+/// Blocks of a hill in two directions, of `texels`: one whole, one with cells left out, one of a single cell.
+inline BlockRelief block_relief(int texels) {
+    BlockRelief relief;
+    relief.texel_box = static_cast<float>(1.0 / texels);
+    relief.grids = {{{1, 2, 0}, -1.0, {-0.5, -0.25 - 0.5 / texels, -0.5 / texels}},
+                    {{0, 1, 2}, 1.0, {-0.5 - 0.5 / texels, -0.25 - 0.5 / texels, 0.0}}};
+    relief.first_block = {0, 1, 3};
+    const auto add = [&](int u0, int v0, float w0, std::uint64_t mask, std::array<std::uint8_t, 4> cells) {
+        ReliefBlock block;
+        block.u0 = static_cast<float>(u0);
+        block.v0 = static_cast<float>(v0);
+        block.w0 = w0;
+        block.w_u = 0.25F;
+        block.w_v = -0.125F;
+        block.residual_low = -0.5F;
+        block.residual_step = 0.0039F;
+        block.gradient_u = {-0.2F, 0.3F};
+        block.gradient_v = {-0.25F, 0.1F};
+        block.mask = mask;
+        block.cells = cells;
+        block.cut = mask & 0x0000'0004'0008'0000U;
+        block.first_cover = static_cast<std::uint32_t>(relief.covers.size());
+        for (std::uint64_t left = block.cut; left != 0; left &= left - 1) {
+            relief.covers.push_back(0x0103'070F'1F3F'7FFFU + relief.covers.size());
+        }
+        const auto code = [&](std::uint32_t i, std::uint32_t j) {
+            return (40 + 12 * i + 7 * j + static_cast<std::uint32_t>(u0)) & 255U;
+        };
+        for (std::uint32_t j = 0; j < 8; ++j) {
+            for (std::uint32_t i = 0; i < 8; ++i) {
+                relief.corner_codes.push_back(code(i, j) | code(i + 1, j) << 8U | code(i, j + 1) << 16U |
+                                              code(i + 1, j + 1) << 24U);
+            }
+        }
+        for (std::uint32_t k = 0; k < 81; ++k) {
+            relief.colours.emplace_back(200 - k, 3 * k, k * k & 255U, 255);
+        }
+        relief.blocks.push_back(block);
+    };
+    add(0, 8, 20.5F, 0x0000'0000'0008'0000U, {3, 4, 2, 3});
+    add(8, 0, 12.0F, ~std::uint64_t{0}, {0, 8, 0, 8});
+    add(16, 8, 9.0F, 0x0000'003C'7E00'0000U, {1, 7, 3, 5});
+    return relief;
+}
+
+/// Two reliefs beside the levels.
+inline Pack pack_with_reliefs() {
+    Pack pack = samples::pack();
+    put_reliefs(pack, std::vector<MeasuredRelief>{{block_relief(32), {0.01F, 0.02F, 0.03F, 4.5F}},
+                                                  {block_relief(64), {0.001F, 0.002F, 0.25F, 0.0F}}});
     return pack;
 }
 

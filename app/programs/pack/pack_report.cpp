@@ -1,5 +1,6 @@
 #include "app/programs/pack/pack_report.h"
 
+#include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
 #include "firmware_host/base/printable.h"
@@ -67,6 +68,26 @@ Json levels_json(const Pack& pack, double mm) {
                             {"colour_rmse", level.error.colour_rmse}}}});
     }
     return levels;
+}
+
+/// What is there to be cast beside the levels; a section that is not sound has none (`verify` says why).
+std::vector<ReliefOutline> known_reliefs(const Pack& pack) {
+    return reliefs_of(pack).value_or(std::vector<ReliefOutline>());
+}
+
+Json reliefs_json(const Pack& pack, double mm) {
+    Json reliefs = Json::array();
+    for (const ReliefOutline& relief : known_reliefs(pack)) {
+        reliefs.push_back({{"texels", relief.texels},
+                           {"blocks", relief.blocks},
+                           {"bytes", relief.bytes},
+                           {"error",
+                            {{"mean_mm", relief.error.mean_box * mm},
+                             {"p95_mm", relief.error.p95_box * mm},
+                             {"max_mm", relief.error.max_box * mm},
+                             {"colour_rmse", relief.error.colour_rmse}}}});
+    }
+    return reliefs;
 }
 
 Json parts_json(const std::vector<PackPart>& parts) {
@@ -178,6 +199,20 @@ std::string levels_text(const Pack& pack, double mm) {
     return text;
 }
 
+std::string reliefs_text(const Pack& pack, double mm) {
+    const std::vector<ReliefOutline> reliefs = known_reliefs(pack);
+    std::string text = reliefs.empty()
+                           ? ""
+                           : fmt::format("  {:<17}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}\n", "relief texels",
+                                         "blocks", "bytes", "mean mm", "p95 mm", "max mm", "colour");
+    for (const ReliefOutline& relief : reliefs) {
+        text += fmt::format("  {:<17}{:>10}{:>10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}\n", relief.texels,
+                            relief.blocks, in_units(relief.bytes), relief.error.mean_box * mm,
+                            relief.error.p95_box * mm, relief.error.max_box * mm, relief.error.colour_rmse);
+    }
+    return text;
+}
+
 std::string matrix_text(const glm::dmat4& matrix) {
     std::string text;
     for (int row = 0; row < 4; ++row) {
@@ -198,7 +233,7 @@ std::string title_line(const OpenedPack& opened) {
 }
 
 bool is_passed_over(const PackSection& section) {
-    return section.name != "texts" && section.name != "sounds";
+    return section.name != "texts" && section.name != "sounds" && section.name != "relief_blocks";
 }
 
 std::string sections_text(const Pack& pack) {
@@ -298,6 +333,7 @@ Json list_json(const OpenedPack& opened, const PropSettings& prop) {
             {"title", pack.title},
             {"languages", pack.languages},
             {"levels", levels_json(pack, mm_per_box(pack, prop))},
+            {"reliefs", reliefs_json(pack, mm_per_box(pack, prop))},
             {"default_level", pack.default_level},
             {"parts", parts_json(opened.parts)}};
 }
@@ -311,7 +347,8 @@ Json explain_json(const OpenedPack& opened, const PropSettings& prop) {
 
 std::string list_text(const OpenedPack& opened, const PropSettings& prop) {
     const Pack& pack = *opened.pack;
-    std::string text = title_line(opened) + levels_text(pack, mm_per_box(pack, prop));
+    const double mm = mm_per_box(pack, prop);
+    std::string text = title_line(opened) + levels_text(pack, mm) + reliefs_text(pack, mm);
     for (const PackPart& part : opened.parts) {
         text += fmt::format("  {:<24}{:>12}{:>12} stored\n", part.name, in_units(part.bytes),
                             in_units(part.stored_bytes));

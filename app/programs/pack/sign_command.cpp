@@ -7,6 +7,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/pack/pack_reader.h"
+#include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/secret_key.h"
 #include "app/pack/sign_pack.h"
@@ -100,8 +101,9 @@ Result<Signable> read_sound(OpenFile file) {
         return tl::unexpected<Error>(before.error());
     }
     const Result<VerifiedPack> pack = read_pack(*reader);
-    const Result<void> sound =
-        pack.and_then([](const VerifiedPack& read) { return check_set_and_spoken(*read); });
+    const Result<void> sound = pack.and_then([](const VerifiedPack& read) {
+        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
+    });
     return sound ? Result<Signable>(Signable{*std::move(manifest), *std::move(before)})
                  : tl::unexpected<Error>(sound.error());
 }

@@ -3,6 +3,7 @@
 #include "app/pack/key_folder.h"
 #include "app/pack/limits.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
 #include "app/programs/common/guarded_main.h"
@@ -72,8 +73,9 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
         return at(file, claim.error());
     }
     Result<VerifiedPack> pack = read_pack(reader->first);
-    const Result<void> good =
-        pack.and_then([](const VerifiedPack& read) { return check_set_and_spoken(*read); });
+    const Result<void> good = pack.and_then([](const VerifiedPack& read) {
+        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
+    });
     if (!good) {
         return at(file, good.error());
     }

@@ -1,0 +1,20 @@
+/// One relief of a pack as the bytes of its part. FORMAT.md has them.
+///
+/// Errors   `decode_blocks` takes outside bytes: one line, without the part's name (the caller knows it). Every count is checked
+///          before memory is allocated for it, every number is finite and in its range.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/relief/block_relief.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/result.h"
+
+#include <span>
+
+namespace frustumscreen::pack_format {
+
+/// `relief` as `bake_blocks` makes it: opaque colours, the axes of pack.h.
+[[nodiscard]] Bytes encode_blocks(const BlockRelief& relief);
+[[nodiscard]] Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes);
+
+} // namespace frustumscreen::pack_format

@@ -1,0 +1,61 @@
+// Relief blocks: refused in one line, or written again they are the same bytes, and casting them stays inside their memory.
+#include "app/pack/block_part.h"
+#include "app/relief/cast_blocks.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <algorithm>
+
+using namespace frustumscreen;
+
+namespace {
+
+/// Few, so that an input takes no time.
+constexpr std::size_t most_cast_blocks = 64;
+
+/// From above, at an angle, as near as the limits of a block allow it to matter.
+CastView view_of_box() {
+    CastScene scene;
+    scene.prop_from_box = glm::dmat4(0.1);
+    scene.prop_from_box[3][3] = 1.0;
+    scene.projector = {32, 24, 60.0, 60.0, 16.0, 12.0};
+    scene.prop_from_projector = {{0.0, 1.0, 0.0, 0.0}, {0.02, 0.0, 0.5}}; // looking down
+    scene.eye_m = {0.1, -0.3, 0.4};
+    CastView view;
+    set_up(view, make_frustum(FrustumSize{}), scene);
+    return view;
+}
+
+void require_cast(const BlockRelief& relief) {
+    const CastView view = view_of_box();
+    fuzz::require(!view.faces.empty(), "the box is seen");
+    BlockItems items;
+    list_blocks(items, relief, view);
+    CastPicture picture;
+    picture.resize(32, 24);
+    cast(picture, relief, view, items, {0, picture.rows});
+    for (std::size_t k = 0; k < picture.t.size(); ++k) {
+        if (std::isfinite(picture.t[k])) {
+            fuzz::require(picture.block[k] < relief.blocks.size(), "a pixel shows a block that is there");
+            fuzz::require(colour_at(relief, picture.block[k], picture.place[k]).a == 255,
+                          "what is shown is opaque");
+        }
+    }
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto bytes = fuzz::bytes_of(data, size);
+    const auto relief = pack_format::decode_blocks(bytes);
+    if (!relief) {
+        fuzz::require_one_line(relief.error().message);
+        return 0;
+    }
+    const Bytes written = pack_format::encode_blocks(*relief);
+    fuzz::require(std::equal(written.begin(), written.end(), bytes.begin(), bytes.end()),
+                  "what was read is written again byte for byte");
+    if (relief->blocks.size() <= most_cast_blocks) {
+        require_cast(*relief);
+    }
+    return 0;
+}
