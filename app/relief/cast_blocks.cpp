@@ -1,10 +1,9 @@
 #include "app/relief/cast_blocks.h"
 
+#include "app/relief/block_surface.h"
 #include "app/relief/lanes.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <limits>
 
 namespace frustumscreen {
@@ -12,129 +11,6 @@ namespace frustumscreen {
 namespace {
 
 static_assert(lanes == tile_width * tile_height);
-
-/// The eight rays of a tile from one block's corner, in its grid: the eye at (u, v), the height of the eye above the block's plane,
-/// and what each ray adds to them.
-struct Rays {
-    Floats du, dv;
-    Floats fall; ///< what the height above the plane changes by along the ray
-    float u, v, height;
-};
-
-/// A block, ready for its tiles.
-struct Surface {
-    const std::uint32_t* codes;
-    Ints mask_low, mask_high;
-    Floats low, step;
-    bool full;
-};
-
-struct Local {
-    Floats u, v;
-};
-
-FRUSTUMSCREEN_INLINE Local place_on(const Rays& rays, Floats t) {
-    return {rays.u + t * rays.du, rays.v + t * rays.dv};
-}
-
-constexpr float last_cell = block_cells - 0.0005F;
-
-/// The residual at a place, and what it changes by along the ray.
-struct Residual {
-    Floats value, along;
-};
-
-FRUSTUMSCREEN_INLINE Residual residual_at(const Surface& surface, const Rays& rays, Local at) {
-    const Floats u = least(most(at.u, Floats{}), all(last_cell));
-    const Floats v = least(most(at.v, Floats{}), all(last_cell));
-    const Ints column = __builtin_convertvector(u, Ints);
-    const Ints row = __builtin_convertvector(v, Ints);
-    const Floats fu = u - __builtin_convertvector(column, Floats);
-    const Floats fv = v - __builtin_convertvector(row, Floats);
-    const Ints cell = row * block_cells + column;
-    Ints codes;
-    for (int lane = 0; lane < lanes; ++lane) {
-        codes[lane] = static_cast<std::int32_t>(surface.codes[cell[lane]]);
-    }
-    const Floats a = __builtin_convertvector(codes & 255, Floats);
-    const Floats b = __builtin_convertvector((codes >> 8) & 255, Floats);
-    const Floats c = __builtin_convertvector((codes >> 16) & 255, Floats);
-    const Floats d = __builtin_convertvector((codes >> 24) & 255, Floats);
-    const Floats low_slope = b - a;
-    const Floats high_slope = d - c;
-    const Floats low = a + fu * low_slope;
-    const Floats rise = c + fu * high_slope - low;
-    return {surface.low + surface.step * (low + fv * rise),
-            surface.step * ((low_slope + fv * (high_slope - low_slope)) * rays.du + rise * rays.dv)};
-}
-
-/// Whether the place is in a cell that is there. A hit on a seam may land a little beside both.
-FRUSTUMSCREEN_INLINE Ints in_cells(const Surface& surface, Local at) {
-    constexpr float seam = 0.04F; // cells
-    const Ints within =
-        (at.u >= -seam) & (at.u <= block_cells + seam) & (at.v >= -seam) & (at.v <= block_cells + seam);
-    if (surface.full) {
-        return within;
-    }
-    const Ints column = __builtin_convertvector(least(most(at.u, Floats{}), all(last_cell)), Ints);
-    const Ints row = __builtin_convertvector(least(most(at.v, Floats{}), all(last_cell)), Ints);
-    const Ints word = row > 3 ? surface.mask_high : surface.mask_low;
-    const Ints bit = (word >> ((row & 3) * block_cells + column)) & 1;
-    return within & (bit != 0);
-}
-
-struct Meeting {
-    Floats t;
-    Ints met;
-};
-
-/// From where the rays meet the block's plane.
-FRUSTUMSCREEN_INLINE Meeting by_newton(const Surface& surface, const Rays& rays, Floats t, Ints live,
-                                       int steps) {
-    for (int k = 0; k < steps; ++k) {
-        const Residual residual = residual_at(surface, rays, place_on(rays, t));
-        t -= (rays.height + t * rays.fall - residual.value) / (rays.fall - residual.along);
-    }
-    return {t, live & in_cells(surface, place_on(rays, t))};
-}
-
-/// In steps of about a cell from `t` to `end`; the first crossing inwards in a cell that is there.
-FRUSTUMSCREEN_INLINE Meeting by_march(const Surface& surface, const Rays& rays, Floats t, Floats end,
-                                      Ints live) {
-    const Floats across = (end - t) * most(most(rays.du, -rays.du), most(rays.dv, -rays.dv));
-    float longest = 0.0F;
-    for (int lane = 0; lane < lanes; ++lane) {
-        longest = live[lane] != 0 ? std::max(longest, across[lane]) : longest;
-    }
-    constexpr int most_steps = 24;
-    const int steps = std::min(most_steps, 1 + static_cast<int>(1.1F * longest));
-    const Floats step = (end - t) / static_cast<float>(steps);
-    Meeting meeting{t, Ints{}};
-    Floats above = rays.height + t * rays.fall - residual_at(surface, rays, place_on(rays, t)).value;
-    for (int k = 0; k < steps && any(live); ++k) {
-        const Floats next = t + step;
-        const Floats then =
-            rays.height + next * rays.fall - residual_at(surface, rays, place_on(rays, next)).value;
-        Ints crosses = live & (above >= 0.0F) & (then < 0.0F);
-        if (any(crosses)) {
-            const Floats at = t + step * (above / (above - then));
-            crosses &= in_cells(surface, place_on(rays, at));
-            meeting.t = crosses ? at : meeting.t;
-            meeting.met |= crosses;
-            live &= ~crosses;
-        }
-        t = next;
-        above = then;
-    }
-    return meeting;
-}
-
-FRUSTUMSCREEN_INLINE void narrow(Floats& begin, Floats& end, Floats rate, float low, float high) {
-    const Floats a = low / rate;
-    const Floats b = high / rate;
-    begin = most(begin, least(a, b));
-    end = least(end, most(a, b));
-}
 
 FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
     Ints inside = Ints{} - 1;
@@ -178,7 +54,9 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& 
             {&relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
              Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask)),
              Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask >> 32U)),
-             all(block.residual_low), all(block.residual_step), block.mask == ~std::uint64_t{0}},
+             all(block.residual_low), all(block.residual_step),
+             block.mask == ~std::uint64_t{0} && block.cut == 0, block.cut,
+             relief.covers.data() + block.first_cover},
             eye};
 }
 
@@ -314,10 +192,9 @@ template <typename... Arguments> void cast_plainly(Arguments&... arguments) {
     cast_all(arguments...);
 }
 
-/// By the widest instructions that the processor has.
-template <typename... Arguments> void cast_by_best(Arguments&... arguments) {
+template <typename... Arguments> void cast_by(Instructions instructions, Arguments&... arguments) {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
+    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
         cast_with_avx2(arguments...);
         return;
     }
@@ -337,7 +214,7 @@ void CastPicture::resize(int width, int height) {
 }
 
 void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          TileBand band) {
+          TileBand band, Instructions instructions) {
     const int left = view.lit.x / tile_width;
     const int right = std::min((view.lit.x + view.lit.width + tile_width - 1) / tile_width, picture.columns);
     for (int row = band.first; row < band.end && left < right; ++row) {
@@ -345,7 +222,7 @@ void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view,
         std::fill_n(&picture.t[(begin + static_cast<std::size_t>(left)) * lanes],
                     static_cast<std::size_t>(right - left) * lanes, std::numeric_limits<float>::infinity());
     }
-    cast_by_best(picture, relief, view, items, band);
+    cast_by(instructions, picture, relief, view, items, band);
 }
 
 void CastRays::begin(TileBand rows, int first_tile_column, int tile_columns) {
@@ -357,11 +234,12 @@ void CastRays::begin(TileBand rows, int first_tile_column, int tile_columns) {
     y.clear();
 }
 
-void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items) {
+void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items,
+          Instructions instructions) {
     rays.t.assign(rays.x.size(), std::numeric_limits<float>::infinity());
     rays.block.resize(rays.x.size());
     rays.place.resize(rays.x.size());
-    cast_by_best(rays, relief, view, items);
+    cast_by(instructions, rays, relief, view, items);
 }
 
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {

@@ -31,6 +31,9 @@ struct CastPicture {
     }
 };
 
+/// The widest that the processor has, or what any of our processors has.
+enum class Instructions { Best, Plain };
+
 /// Rows of tiles [first, end).
 struct TileBand {
     int first = 0, end = 0;
@@ -55,10 +58,11 @@ struct CastRays {
 
 /// Clears the band of the view's lit part, then casts into it.
 void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          TileBand band);
+          TileBand band, Instructions instructions = Instructions::Best);
 
 /// Clears what the rays have met, then casts them.
-void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items);
+void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items,
+          Instructions instructions = Instructions::Best);
 
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);

@@ -25,6 +25,9 @@ struct OpenBlock {
     std::uint64_t mask = 0;
     std::array<std::uint32_t, corners_of_block> crossing{};
     std::array<float, corners_of_block> w{};
+    std::array<glm::u8vec4, corners_of_block> guess{}; ///< colours where there is no crossing; alpha 0: none
+    std::array<std::uint64_t, std::size_t{block_cells} * block_cells>
+        cover{}; ///< of each cell; 0 where it is not there
 
     OpenBlock() {
         crossing.fill(no_crossing);
@@ -57,18 +60,20 @@ struct OpenBlock {
 
     void add(const LinkedCell& cell, int column, int row) {
         mask |= std::uint64_t{1} << (row * block_cells + column);
+        cover[static_cast<std::size_t>(row * block_cells + column)] = cell.cover;
         for (int k = 0; k < 4; ++k) {
             const std::size_t at = corner_at(column + (k & 1), row + (k >> 1));
             const auto corner = static_cast<std::size_t>(k);
             if (crossing[at] == no_crossing && (std::isnan(w[at]) || cell.crossing[corner] != no_crossing)) {
                 crossing[at] = cell.crossing[corner];
                 w[at] = cell.w[corner];
+                guess[at] = cell.colour;
             }
         }
     }
 
-    /// Joins the other if no cell or corner contradicts and some corner is shared.
-    bool join(const OpenBlock& other) {
+    /// Joins the other if no cell or corner contradicts, and they touch, or lie at about one height.
+    bool join(const OpenBlock& other, bool apart) {
         constexpr float the_same = 0.02F; // texels
         if ((mask & other.mask) != 0) {
             return false;
@@ -82,19 +87,45 @@ struct OpenBlock {
                 touch = true;
             }
         }
-        if (!touch) {
+        if (!touch && !(apart && lies_with(other))) {
             return false;
         }
         for (std::size_t k = 0; k < corners_of_block; ++k) {
             if (std::isnan(w[k])) {
                 w[k] = other.w[k];
                 crossing[k] = other.crossing[k];
+                guess[k] = other.guess[k];
             }
         }
         mask |= other.mask;
+        for (std::size_t k = 0; k < cover.size(); ++k) {
+            cover[k] |= other.cover[k];
+        }
         return true;
     }
+
+private:
+    [[nodiscard]] glm::vec2 heights() const; ///< lowest, highest
+    /// A block of both is hardly deeper than one of either: what it costs to cast it grows with its depth.
+    [[nodiscard]] bool lies_with(const OpenBlock& other) const;
 };
+
+glm::vec2 OpenBlock::heights() const {
+    glm::vec2 range(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
+    for (const float height : w) {
+        if (!std::isnan(height)) {
+            range = {std::min(range.x, height), std::max(range.y, height)};
+        }
+    }
+    return range;
+}
+
+bool OpenBlock::lies_with(const OpenBlock& other) const {
+    constexpr float deepest = 4.0F; // texels
+    const glm::vec2 a = heights();
+    const glm::vec2 b = other.heights();
+    return std::max(a.y, b.y) - std::min(a.x, b.x) < deepest;
+}
 
 /// All layers of one block's place.
 std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings& grid, int column0,
@@ -115,13 +146,15 @@ std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings&
             }
         }
     }
-    for (std::size_t a = 0; a < blocks.size(); ++a) {
-        for (std::size_t b = a + 1; b < blocks.size();) {
-            if (blocks[a].join(blocks[b])) {
-                blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
-                b = a + 1; // what did not touch before may now
-            } else {
-                ++b;
+    for (const bool apart : {false, true}) {
+        for (std::size_t a = 0; a < blocks.size(); ++a) {
+            for (std::size_t b = a + 1; b < blocks.size();) {
+                if (blocks[a].join(blocks[b], apart)) {
+                    blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
+                    b = a + 1; // what did not touch before may now
+                } else {
+                    ++b;
+                }
             }
         }
     }
@@ -184,23 +217,28 @@ void fill_gaps(std::array<Value, corners_of_block>& values, Known known) {
 struct DirectionBlocks {
     std::vector<ReliefBlock> blocks;
     std::vector<std::uint32_t> corner_codes;
+    std::vector<std::uint64_t> covers;
     std::vector<glm::u8vec4> colours;
 
     void append(const DirectionBlocks& other) {
+        const auto before = static_cast<std::uint32_t>(covers.size());
+        const auto first = static_cast<std::ptrdiff_t>(blocks.size());
+        covers.insert(covers.end(), other.covers.begin(), other.covers.end());
         blocks.insert(blocks.end(), other.blocks.begin(), other.blocks.end());
         corner_codes.insert(corner_codes.end(), other.corner_codes.begin(), other.corner_codes.end());
         colours.insert(colours.end(), other.colours.begin(), other.colours.end());
+        std::for_each(blocks.begin() + first, blocks.end(),
+                      [before](ReliefBlock& block) { block.first_cover += before; });
     }
 };
 
 void add_colours(DirectionBlocks& into, const OpenBlock& open, const GridCrossings& grid) {
     std::array<glm::vec4, corners_of_block> colours{};
     for (std::size_t k = 0; k < corners_of_block; ++k) {
-        if (open.crossing[k] != no_crossing) {
-            colours[k] = glm::vec4(grid.crossings[open.crossing[k]].colour);
-        }
+        colours[k] = glm::vec4(open.crossing[k] != no_crossing ? grid.crossings[open.crossing[k]].colour
+                                                               : open.guess[k]);
     }
-    fill_gaps(colours, [&](std::size_t k) { return open.crossing[k] != no_crossing; });
+    fill_gaps(colours, [&](std::size_t k) { return colours[k].a > 0.0F; });
     for (const glm::vec4& colour : colours) {
         into.colours.emplace_back(glm::u8vec4(colour + 0.5F));
     }
@@ -229,6 +267,16 @@ void set_cells(ReliefBlock& block, const std::array<float, corners_of_block>& re
             block.cells = {
                 std::min(block.cells[0], u), std::max(block.cells[1], static_cast<std::uint8_t>(u + 1)),
                 std::min(block.cells[2], v), std::max(block.cells[3], static_cast<std::uint8_t>(v + 1))};
+        }
+    }
+}
+
+void add_cuts(DirectionBlocks& into, ReliefBlock& block, const OpenBlock& open) {
+    block.first_cover = static_cast<std::uint32_t>(into.covers.size());
+    for (std::size_t k = 0; k < open.cover.size(); ++k) {
+        if (open.cover[k] != 0 && open.cover[k] != ~std::uint64_t{0}) {
+            block.cut |= std::uint64_t{1} << k;
+            into.covers.push_back(open.cover[k]);
         }
     }
 }
@@ -262,6 +310,7 @@ void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings
     block.residual_low = low;
     block.residual_step = std::max(least_step, (high - low) / 255.0F);
     set_cells(block, residual);
+    add_cuts(into, block, open);
     const auto code = [&](int column, int row) {
         const float steps = (residual[corner_at(column, row)] - low) / block.residual_step;
         return static_cast<std::uint32_t>(std::clamp(std::lround(steps), 0L, 255L));
@@ -310,6 +359,7 @@ BlockRelief bake_blocks(const BlockInput& input) {
     relief.first_block.push_back(static_cast<std::uint32_t>(all.blocks.size()));
     relief.blocks = std::move(all.blocks);
     relief.corner_codes = std::move(all.corner_codes);
+    relief.covers = std::move(all.covers);
     relief.colours = std::move(all.colours);
     return relief;
 }

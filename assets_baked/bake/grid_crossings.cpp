@@ -1,6 +1,7 @@
 #include "assets_baked/bake/grid_crossings.h"
 
 #include "app/image/image.h"
+#include "assets_baked/bake/sheet_ends.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
@@ -45,51 +46,91 @@ glm::u8vec4 codes_of(const glm::vec4& linear) {
             srgb8_from_linear(static_cast<double>(linear.b)), 255};
 }
 
-class Lines {
-public:
-    Lines(const BlockInput& input, const GridCrossings& grid, const glm::vec3& outward)
-        : input_(input), grid_(grid), outward_(outward), normals_(normals_of(input.directions)),
-          texel_box_(1.0 / input.texels), top_(input.box_size[grid.grid.axis[2]] / texel_box_ + 4.0) {}
+glm::dvec3 box_from_grid(const ReliefGrid& grid, const glm::dvec3& at, double texel_box) {
+    glm::dvec3 point(grid.origin_box);
+    point[grid.axis[0]] += at.x * texel_box;
+    point[grid.axis[1]] += at.y * texel_box;
+    point[grid.axis[2]] += grid.sign * at.z * texel_box;
+    return point;
+}
 
-    void cross(int column, int row, std::vector<Crossing>& found) const {
-        const glm::vec3 origin(grid_.box_from_grid(column, row, top_, texel_box_));
-        const auto texel = static_cast<float>(texel_box_);
-        float after = 0.0F;
-        for (;;) {
-            const SurfaceHit hit = input_.surface.trace(origin, -outward_, after);
-            if (!hit.hit) {
-                return;
-            }
-            after = hit.distance + least_distance * texel;
-            const double cosine = static_cast<double>(glm::dot(hit.normal, outward_));
-            if (cosine > least_cosine) {
-                found.push_back(crossing(hit, cosine));
-            }
+/// Follows the line at (u, v) from the range's highest place to its lowest, and says what it crosses from the front: the hit, its
+/// height and the cosine between its normal and the line.
+template <typename Visit>
+void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+                 const glm::dvec2& range, const Visit& visit) {
+    const double texel_box = 1.0 / input.texels;
+    const glm::vec3 origin(box_from_grid(grid, {at, range.y}, texel_box));
+    glm::vec3 outward(0.0F);
+    outward[grid.axis[2]] = static_cast<float>(grid.sign);
+    const auto end = static_cast<float>((range.y - range.x) * texel_box);
+    float after = 0.0F;
+    for (;;) {
+        const SurfaceHit hit = input.surface.trace(origin, -outward, after, end);
+        if (!hit.hit) {
+            return;
+        }
+        after = hit.distance + least_distance * static_cast<float>(texel_box);
+        const double cosine = static_cast<double>(glm::dot(hit.normal, outward));
+        if (cosine > least_cosine) {
+            visit(hit, range.y - static_cast<double>(hit.distance) / texel_box, cosine);
         }
     }
+}
 
-private:
-    [[nodiscard]] Crossing crossing(const SurfaceHit& hit, double cosine) const {
-        double best = 0.0;
-        for (const glm::vec3& normal : normals_) {
-            best = std::max(best, static_cast<double>(glm::dot(hit.normal, normal)));
-        }
-        const ReliefGrid& grid = grid_.grid;
-        return {static_cast<float>(top_ - static_cast<double>(hit.distance) / texel_box_),
-                static_cast<float>(-static_cast<double>(hit.normal[grid.axis[0]]) / cosine),
-                static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine),
-                cosine >= best - shared_cosine, codes_of(input_.surface.colour(hit))};
+LineCrossing crossing_of(const ReliefGrid& grid, const SurfaceHit& hit, double w, double cosine) {
+    return {static_cast<float>(w),
+            static_cast<float>(-static_cast<double>(hit.normal[grid.axis[0]]) / cosine),
+            static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine)};
+}
+
+/// No direction of `normals` sees the hit clearly better.
+bool is_own(const std::vector<glm::vec3>& normals, const SurfaceHit& hit, double cosine) {
+    double best = 0.0;
+    for (const glm::vec3& normal : normals) {
+        best = std::max(best, static_cast<double>(glm::dot(hit.normal, normal)));
     }
-
-    const BlockInput& input_;
-    const GridCrossings& grid_;
-    glm::vec3 outward_;
-    std::vector<glm::vec3> normals_;
-    double texel_box_;
-    double top_; ///< texels above the box's bottom, beyond all of it
-};
+    return cosine >= best - shared_cosine;
+}
 
 } // namespace
+
+void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+                const glm::dvec2& range, std::vector<LineCrossing>& found) {
+    found.clear();
+    follow_line(input, grid, at, range, [&](const SurfaceHit& hit, double w, double cosine) {
+        found.push_back(crossing_of(grid, hit, w, cosine));
+    });
+}
+
+std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
+                                      const SurfaceHit& hit) {
+    const double cosine = grid.sign * static_cast<double>(hit.normal[grid.axis[2]]);
+    if (!(cosine > least_cosine)) {
+        return std::nullopt;
+    }
+    const double w = grid_from_box(grid, hit.point, 1.0 / input.texels).z;
+    return Crossing{crossing_of(grid, hit, w, cosine), is_own(normals_of(input.directions), hit, cosine),
+                    codes_of(input.surface.colour(hit))};
+}
+
+glm::dvec3 grid_from_box(const ReliefGrid& grid, const glm::dvec3& point, double texel_box) {
+    glm::dvec3 at;
+    for (int k = 0; k < 3; ++k) {
+        const int axis = grid.axis[static_cast<std::size_t>(k)];
+        at[k] = (k == 2 ? grid.sign : 1.0) * (point[axis] - grid.origin_box[axis]) / texel_box;
+    }
+    return at;
+}
+
+std::span<const SheetEnd> GridCrossings::ends_in(int column, int row) const {
+    const std::pair<int, int> cell(row, column);
+    const auto first = std::lower_bound(ends.begin(), ends.end(), cell,
+                                        [](const SheetEnd& end, const auto& of) { return end.cell() < of; });
+    const auto last = std::upper_bound(first, ends.end(), cell,
+                                       [](const auto& of, const SheetEnd& end) { return of < end.cell(); });
+    return {first, last};
+}
 
 GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
     const DirectionFrame frame = frame_of(direction);
@@ -98,13 +139,19 @@ GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
     grid.grid = grid_of(frame, input.box_size, texel_box);
     grid.columns = lines_for(input.box_size[frame.axis_u], texel_box);
     grid.rows = lines_for(input.box_size[frame.axis_v], texel_box);
-    const Lines lines(input, grid, frame.normal());
+    const std::vector<glm::vec3> normals = normals_of(input.directions);
+    const double top = input.box_size[frame.axis_n] / texel_box + 4.0; // beyond all of the box
     std::vector<std::vector<Crossing>> rows(static_cast<std::size_t>(grid.rows));
     grid.first.assign(static_cast<std::size_t>(grid.columns) * rows.size() + 1, 0);
     parallel_for(rows.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
             for (int column = 0; column < grid.columns; ++column) {
-                lines.cross(column, static_cast<int>(row), rows[row]);
+                follow_line(input, grid.grid, {column, row}, {-4.0, top},
+                            [&](const SurfaceHit& hit, double w, double cosine) {
+                                rows[row].push_back({crossing_of(grid.grid, hit, w, cosine),
+                                                     is_own(normals, hit, cosine),
+                                                     codes_of(input.surface.colour(hit))});
+                            });
                 grid.first[grid.line(column, static_cast<int>(row)) + 1] =
                     static_cast<std::uint32_t>(rows[row].size());
             }
@@ -119,6 +166,7 @@ GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
         grid.crossings.insert(grid.crossings.end(), found.begin(), found.end());
         before = static_cast<std::uint32_t>(grid.crossings.size());
     }
+    grid.ends = sheet_ends(input, grid.grid);
     return grid;
 }
 

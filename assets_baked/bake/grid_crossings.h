@@ -6,17 +6,41 @@
 
 #include "assets_baked/bake/block_relief.h"
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen {
 
-struct Crossing {
-    float w = 0.0F;                       ///< texels
+/// Where a line crosses the surface from its front, and is not too flat to it; texels.
+struct LineCrossing {
+    float w = 0.0F;
     float slope_u = 0.0F, slope_v = 0.0F; ///< what w changes by from texel to texel
-    bool own = false;                     ///< no direction sees it clearly better
+};
+
+/// Whether slopes along one way, on either side of an edge between, belong to two faces: one bilinear surface across both may cut more
+/// than a quarter of a texel off the edge. (At half of it a bust of 70,000 triangles has a third more blocks.)
+[[nodiscard]] inline bool is_crease(float slope, float other) {
+    const float mean = 0.5F * (slope + other);
+    return std::abs(slope - other) > std::sqrt(1.0F + mean * mean);
+}
+
+struct Crossing : LineCrossing {
+    bool own = false; ///< no direction sees it clearly better
     glm::u8vec4 colour{0};
+};
+
+/// A place near an edge of what the direction sees.
+struct SheetEnd : Crossing {
+    float u = 0.0F, v = 0.0F;
+
+    /// (row, column).
+    [[nodiscard]] std::pair<int, int> cell() const {
+        return {static_cast<int>(std::floor(v)), static_cast<int>(std::floor(u))};
+    }
 };
 
 /// Shape  `columns` x `rows` lines, whole blocks and one more; the crossings of a line from the outermost inwards.
@@ -25,7 +49,9 @@ struct GridCrossings {
     int columns = 0, rows = 0;
     std::vector<std::uint32_t> first; ///< of each line; one more at the end
     std::vector<Crossing> crossings;
+    std::vector<SheetEnd> ends; ///< by cells
 
+    [[nodiscard]] std::span<const SheetEnd> ends_in(int column, int row) const;
     [[nodiscard]] std::span<const Crossing> of(int column, int row) const {
         const std::size_t k = line(column, row);
         return {&crossings[first[k]], first[k + 1] - first[k]};
@@ -34,14 +60,18 @@ struct GridCrossings {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(column);
     }
-    [[nodiscard]] glm::dvec3 box_from_grid(double u, double v, double w, double texel_box) const {
-        glm::dvec3 at(grid.origin_box);
-        at[grid.axis[0]] += u * texel_box;
-        at[grid.axis[1]] += v * texel_box;
-        at[grid.axis[2]] += grid.sign * w * texel_box;
-        return at;
-    }
 };
+
+/// The crossings of any line (u, v), on the grid or between, with heights within `range` (lowest, highest), from the highest down; into `found`, cleared first.
+void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+                const glm::dvec2& range, std::vector<LineCrossing>& found);
+
+/// What a hit anywhere on the surface is to the direction: height, slopes, owner, colour; nothing if it is too flat to its lines or
+/// looks away. Of the hit its triangle, place in it, point and normal count.
+[[nodiscard]] std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
+                                                    const SurfaceHit& hit);
+
+[[nodiscard]] glm::dvec3 grid_from_box(const ReliefGrid& grid, const glm::dvec3& point, double texel_box);
 
 [[nodiscard]] GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction);
 

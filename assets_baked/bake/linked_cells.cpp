@@ -1,5 +1,7 @@
 #include "assets_baked/bake/linked_cells.h"
 
+#include "assets_baked/bake/cut_cells.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,16 +23,32 @@ public:
                 if (is_free(id)) {
                     LinkedCell cell = linked_from(corner, id);
                     used_.insert(used_.end(), cell.crossing.begin(), cell.crossing.end());
-                    if (is_owned(cell) && complete(cell)) {
-                        cells.push_back(cell);
-                    }
+                    cell.own = is_owned(cell);
+                    complete(cell);
+                    cells.push_back(cell);
                 }
             }
         }
+        for (const SheetEnd& end : grid_.ends_in(column_, row_)) {
+            const bool is_known = std::any_of(cells.begin(), cells.end(), [&end](const LinkedCell& cell) {
+                return std::abs(height_over({cell.w, {}}, end)) < half_texel_away(end);
+            });
+            if (!is_known) {
+                cells.push_back(cell_at(end));
+            }
+        }
+        cells.erase(std::remove_if(cells.begin(), cells.end(),
+                                   [](const LinkedCell& cell) { return !cell.own || cell.cover == 0; }),
+                    cells.end());
         return cells;
     }
 
 private:
+    /// Along the line, for half a texel across the surface.
+    [[nodiscard]] static float half_texel_away(const LineCrossing& crossing) {
+        return 0.5F *
+               std::sqrt(1.0F + crossing.slope_u * crossing.slope_u + crossing.slope_v * crossing.slope_v);
+    }
     [[nodiscard]] std::size_t line_at(unsigned corner) const {
         return grid_.line(column_ + static_cast<int>(corner & 1U), row_ + static_cast<int>(corner >> 1U));
     }
@@ -58,7 +76,7 @@ private:
             // A smooth surface misses the mean slope's height by less than a few tenths; a crease or a steep one by more.
             const float allowed =
                 0.4F + std::min(3.0F, 0.55F * bend) + 0.1F * std::abs(slope(here) + slope(there));
-            if (miss < allowed && miss < least && is_free(k)) {
+            if (miss < allowed && miss < least && !is_crease(slope(here), slope(there)) && is_free(k)) {
                 least = miss;
                 best = k;
             }
@@ -97,24 +115,34 @@ private:
         return sum / count;
     }
 
-    /// Gives every corner its height; false: the surface is not met at the middle.
-    [[nodiscard]] bool complete(LinkedCell& cell) const {
+    /// A surface that no corner's line meets.
+    [[nodiscard]] LinkedCell cell_at(const SheetEnd& end) const {
+        CellCorners corners;
         for (unsigned k = 0; k < 4; ++k) {
-            cell.w[k] = cell.crossing[k] != no_crossing
-                            ? grid_.crossings[cell.crossing[k]].w
-                            : continued(cell, static_cast<float>(k & 1U), static_cast<float>(k >> 1U));
+            corners.w[k] = end.w +
+                           end.slope_u * (static_cast<float>(column_) + static_cast<float>(k & 1U) - end.u) +
+                           end.slope_v * (static_cast<float>(row_) + static_cast<float>(k >> 1U) - end.v);
         }
-        return cell.whole() || is_met(continued(cell, 0.5F, 0.5F));
+        LinkedCell cell;
+        cell.cover = cut_cell(input_, grid_, column_, row_, corners);
+        cell.w = corners.w;
+        cell.colour = end.colour;
+        cell.own = true;
+        return cell;
     }
 
-    [[nodiscard]] bool is_met(float w) const {
-        constexpr double reach = 1.2; // texels to either side
-        const double texel_box = 1.0 / input_.texels;
-        glm::vec3 outward(0.0F);
-        outward[grid_.grid.axis[2]] = static_cast<float>(grid_.grid.sign);
-        const glm::vec3 from(
-            grid_.box_from_grid(column_ + 0.5, row_ + 0.5, static_cast<double>(w) + reach, texel_box));
-        return input_.surface.trace(from, -outward, 0.0F, static_cast<float>(2.0 * reach * texel_box)).hit;
+    /// Gives every corner its height, and cuts the cell where it lacks corners, if it is to be kept.
+    void complete(LinkedCell& cell) const {
+        CellCorners corners;
+        for (unsigned k = 0; k < 4; ++k) {
+            corners.known[k] = cell.crossing[k] != no_crossing;
+            corners.w[k] = corners.known[k]
+                               ? grid_.crossings[cell.crossing[k]].w
+                               : continued(cell, static_cast<float>(k & 1U), static_cast<float>(k >> 1U));
+        }
+        cell.cover =
+            cell.whole() || !cell.own ? ~std::uint64_t{0} : cut_cell(input_, grid_, column_, row_, corners);
+        cell.w = corners.w;
     }
 
     const BlockInput& input_;

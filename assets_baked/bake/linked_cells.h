@@ -21,14 +21,17 @@ struct LinkedCell {
     std::array<std::uint32_t, 4> crossing{no_crossing, no_crossing, no_crossing,
                                           no_crossing}; ///< of the grid's list
     std::array<float, 4> w{};
+    std::uint64_t cover = ~std::uint64_t{0}; ///< as BlockRelief's covers
+    bool own = false;                        ///< no direction sees some of it clearly better
+    glm::u8vec4 colour{0};                   ///< of a cell without crossings; alpha 0: of no use
 
     [[nodiscard]] bool whole() const {
         return std::find(crossing.begin(), crossing.end(), no_crossing) == crossing.end();
     }
 };
 
-/// All surfaces over one cell, of which this direction owns a corner at least. A cell that lacks corners is there if the surface is met
-/// at its middle.
+/// All surfaces over one cell, of which this direction owns a corner at least. A cell that lacks corners is cut where the surface ends;
+/// it may lack all.
 [[nodiscard]] std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid,
                                                  int column, int row);
 

@@ -108,5 +108,69 @@ TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
     }
 }
 
+/// A block that stands askew in the prop: flat faces and sharp edges, none along the grid.
+std::shared_ptr<SourceMesh> askew_block() {
+    auto mesh = std::make_shared<SourceMesh>();
+    mesh->materials.resize(1);
+    const glm::dmat3 turn(glm::mat3_cast(glm::angleAxis(0.5, glm::dvec3(0.0, 0.0, 1.0)) *
+                                         glm::angleAxis(0.3, glm::dvec3(0.0, 1.0, 0.0))));
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec3 corner((k & 1U) != 0 ? 0.022 : -0.022, (k & 2U) != 0 ? 0.014 : -0.014,
+                                (k & 4U) != 0 ? 0.02 : -0.02);
+        mesh->positions.push_back(turn * corner + glm::dvec3(0.0, 0.0, 0.045));
+    }
+    mesh->triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    mesh->triangle_materials.assign(mesh->triangles.size(), 0);
+    return mesh;
+}
+
+TEST(Cast, SharpEdgesAreCutWhereTheyEnd) {
+    const Subject subject{askew_block()};
+    const Settings settings = near_settings();
+    const PropShape prop = make_prop(settings.prop);
+    const BlockRelief relief = subject.relief(96);
+    EXPECT_FALSE(relief.covers.empty());
+    const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+    Errors sum;
+    for (const BenchPose& pose : poses) {
+        Frame frame;
+        draw(frame, subject, relief, settings, prop, pose);
+        const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
+        const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
+        sum.truth += one.truth;
+        sum.missing += one.missing;
+        sum.extra += one.extra;
+        sum.far += one.far;
+        sum.mean_mm += one.mean_mm / static_cast<double>(poses.size());
+    }
+    std::printf("%zu blocks, %zu covers, %d pixels, missing %d, extra %d, far %d, %.5f mm\n",
+                relief.blocks.size(), relief.covers.size(), sum.truth, sum.missing, sum.extra, sum.far,
+                sum.mean_mm);
+    // Two and a half times what is seen. Cells that end in steps miss 150 pixels here, 23,316 are there.
+    EXPECT_LT(sum.missing, sum.truth / 400);
+    EXPECT_LT(sum.extra, sum.truth / 200);
+    EXPECT_LT(sum.far, sum.truth / 1000);
+    EXPECT_LT(sum.mean_mm, 0.01);
+}
+
+TEST(Cast, EveryInstructionSetMakesTheSamePicture) {
+    const Subject subject;
+    const Settings settings = near_settings();
+    const PropShape prop = make_prop(settings.prop);
+    const BlockRelief relief = subject.relief(128);
+    const std::vector<BenchPose> poses = draw_poses(settings, prop, 4, 9).value();
+    for (const BenchPose& pose : poses) {
+        Frame frame;
+        draw(frame, subject, relief, settings, prop, pose);
+        CastPicture plain;
+        plain.resize(settings.projector.pinhole.width, settings.projector.pinhole.height);
+        cast(plain, relief, frame.view, frame.items, {0, plain.rows}, Instructions::Plain);
+        EXPECT_EQ(frame.picture.t, plain.t);
+        EXPECT_EQ(frame.picture.block, plain.block);
+        EXPECT_EQ(frame.picture.place, plain.place);
+    }
+}
+
 } // namespace
 } // namespace frustumscreen
