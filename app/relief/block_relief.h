@@ -54,4 +54,10 @@ struct BlockRelief {
     std::vector<glm::u8vec4> colours;
 };
 
+/// Bytes of main memory.
+[[nodiscard]] inline std::uint64_t bytes_of(const BlockRelief& relief) {
+    const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    return bytes(relief.blocks) + bytes(relief.corner_codes) + bytes(relief.covers) + bytes(relief.colours);
+}
+
 } // namespace frustumscreen

@@ -8,6 +8,7 @@
 /// Threads  the render thread; allocates nothing in `draw`.
 #pragma once
 
+#include "app/render/cast_pass.h"
 #include "app/render/gpu_store.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
@@ -23,15 +24,19 @@ public:
         Places ///< prop coordinates, metres; alpha 1
     };
     /// Returns the number of draw calls. It leaves out draws whose shader was not prepared, or whose mesh or
-    /// texture is not in the store.
+    /// texture is not in the store. `casts`: painted for this plan; without them, and of places, no cast is drawn.
     int draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-             const Raster& raster = {}, Output output = Output::Colours) const;
+             const Raster& raster = {}, Output output = Output::Colours,
+             const CastPass* casts = nullptr) const;
 
 private:
     void upload_indices(const FramePlan& plan) const;
     void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.
     int soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
+    /// What was cast, on the outline of the draw's face.
+    void draw_cast(const FramePlan& plan, const Draw& draw, const CastPass::Picture& picture,
+                   const Shader& shader, const Raster& raster) const;
     void draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
                       const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
 

@@ -76,10 +76,19 @@ Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture
 }
 
 Drawable GpuStore::keep(LevelUpload upload) {
+    if (upload.data_.relief) {
+        return keep(std::move(upload.data_.relief));
+    }
     const MeshId id{++last_};
     meshes_.emplace(id, Mesh{std::move(upload.vertex_array_), std::move(upload.vertices_)});
     const LevelData& data = upload.data_;
     return {id, {keep(std::move(upload.texels_), data.finest_mip), data.texels_per_box, data.cut_out}};
+}
+
+Drawable GpuStore::keep(std::shared_ptr<const BlockRelief> relief) {
+    const MeshId id{++last_};
+    reliefs_.emplace(id, std::move(relief));
+    return {id, {}};
 }
 
 Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
@@ -114,6 +123,7 @@ TextureId GpuStore::keep(GlTexture texels, int finest_mip) {
 
 void GpuStore::release(const Drawable& drawable) {
     meshes_.erase(drawable.mesh);
+    reliefs_.erase(drawable.mesh);
     release(drawable.material.texture);
 }
 
@@ -123,6 +133,11 @@ void GpuStore::release(TextureId texture) {
 
 const GpuStore::Mesh* GpuStore::find(MeshId mesh) const {
     return found(meshes_, mesh);
+}
+
+const BlockRelief* GpuStore::find_relief(MeshId relief) const {
+    const auto place = reliefs_.find(relief);
+    return place != reliefs_.end() ? place->second.get() : nullptr;
 }
 
 const GpuStore::Texture* GpuStore::find(TextureId texture) const {

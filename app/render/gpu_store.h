@@ -1,4 +1,4 @@
-/// Meshes and pictures in the GPU's memory, by the numbers that plans name them with.
+/// Meshes and pictures in the GPU's memory, and reliefs that are cast on the processor, by the numbers that plans name them with.
 ///
 /// Colour   an artifact's texture gives sRGB codes as they are stored (level_data.h). A caption is coverage
 ///          0..255, white light. A picture for the table gives its colours over black, as light.
@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 
 namespace frustumscreen {
@@ -24,8 +25,10 @@ class GpuStore {
 public:
     /// Uploads what a scene needs of a level; `texture` is the level's whole texture.
     [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
-    /// Takes a level that has been uploaded piece by piece; it must be done.
+    /// Takes a level that has been uploaded piece by piece, or a relief, of which nothing is; it must be done.
     [[nodiscard]] Drawable keep(LevelUpload upload);
+    /// Takes a relief, of which nothing is uploaded.
+    [[nodiscard]] Drawable keep(std::shared_ptr<const BlockRelief> relief);
     /// Uploads all of a level.
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
@@ -46,6 +49,8 @@ public:
     };
     /// Null if it was not uploaded, or released.
     [[nodiscard]] const Mesh* find(MeshId mesh) const;
+    /// The same for a relief, which lies in main memory.
+    [[nodiscard]] const BlockRelief* find_relief(MeshId relief) const;
     [[nodiscard]] const Texture* find(TextureId texture) const;
 
     /// Bytes of GPU memory, as the driver says.
@@ -57,6 +62,7 @@ private:
     [[nodiscard]] TextureId keep(GlTexture texels, int finest_mip);
 
     std::map<MeshId, Mesh> meshes_;
+    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_;
     std::map<TextureId, Texture> textures_;
     std::uint32_t last_ = 0; ///< last number given out
 };

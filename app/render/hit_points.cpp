@@ -1,6 +1,7 @@
 #include "app/render/hit_points.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <vector>
@@ -55,7 +56,26 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) 
         image.texels[k] =
             read[k].a > 0.5F ? glm::vec3(read[k]) : glm::vec3(std::numeric_limits<float>::quiet_NaN());
     }
+    add_casts(plan, store, image);
     return image;
+}
+
+void HitPointRenderer::add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points) {
+    for (std::size_t cast = 0; cast < plan.cast_count; ++cast) {
+        const CastPlan& planned = plan.casts[cast];
+        const BlockRelief* const relief = store.find_relief(planned.relief);
+        if (relief == nullptr) {
+            continue;
+        }
+        ImageFloat met(width_, height_);
+        painter_->hit_points(*relief, planned.view, {met.texels.data(), width_, height_, width_});
+        const auto metres = static_cast<float>(planned.metres_per_box);
+        for (std::size_t k = 0; k < points.texels.size(); ++k) {
+            if (std::isnan(points.texels[k].x)) {
+                points.texels[k] = metres * met.texels[k];
+            }
+        }
+    }
 }
 
 } // namespace frustumscreen

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/image/image.h"
+#include "app/relief/relief_painter.h"
 #include "app/render/face_pass.h"
 #include "app/render/gpu_store.h"
 #include "app/render/renderer.h"
@@ -22,12 +23,15 @@ public:
     [[nodiscard]] ImageFloat draw(const FramePlan& plan, const GpuStore& store);
 
 private:
+    /// Where the meshes show nothing.
+    void add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points);
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 
     int width_;
     int height_;
     ShaderCache shaders_;
     FacePass pass_;
+    std::unique_ptr<ReliefPainter> painter_ = std::make_unique<ReliefPainter>(1);
     GlFramebuffer framebuffer_;
     GlRenderbuffer points_;
     GlRenderbuffer depth_stencil_;

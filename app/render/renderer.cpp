@@ -56,6 +56,9 @@ Result<void> Renderer::prepare(const RenderNeeds& needs) {
     if (Result<void> ready = shaders_.prepare(shaders_of(all)); !ready) {
         return ready;
     }
+    if (Result<void> ready = casts_.prepare(all.casts, width_, height_); !ready) {
+        return ready;
+    }
     if (all.samples > needs_.samples) {
         Result<SampleGrid> grid = SampleGrid::create(width_, height_, all.samples);
         if (!grid) {
@@ -68,7 +71,7 @@ Result<void> Renderer::prepare(const RenderNeeds& needs) {
 }
 
 std::uint64_t Renderer::bytes() const {
-    return store_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
+    return store_.bytes() + casts_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
 }
 
 bool Renderer::Picture::lies(const OnTable& draw) const {
@@ -136,15 +139,18 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
 /// written as they are throughout; passes that compute in linear light (captions, averages) turn the encoding
 /// on themselves.
 void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
-                     DrawResult& result) const {
+                     DrawResult& result) {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
     const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty() && repaint.prop;
     const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
+    if (repaint.prop) {
+        casts_.paint(plan, store_);
+    }
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
-        result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
+        result.draw_calls += faces_.draw(plan, store_, shaders_, raster, FacePass::Output::Colours, &casts_);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, width_, height_);
@@ -157,7 +163,7 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, shaders_);
     } else if (repaint.prop) {
-        result.draw_calls += faces_.draw(plan, store_, shaders_);
+        result.draw_calls += faces_.draw(plan, store_, shaders_, {}, FacePass::Output::Colours, &casts_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }

@@ -7,6 +7,7 @@
 ///          refuses.
 #pragma once
 
+#include "app/render/cast_pass.h"
 #include "app/render/face_pass.h"
 #include "app/render/gpu_store.h"
 #include "app/render/sample_grid.h"
@@ -93,8 +94,7 @@ private:
     };
     [[nodiscard]] static Picture picture_of(const FramePlan& plan);
     Renderer(int width, int height) : width_(width), height_(height) {}
-    void paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
-               DrawResult& result) const;
+    void paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint, DrawResult& result);
     [[nodiscard]] Repaint to_redraw(const Picture& picture, const RenderTarget& target, Redraw redraw) const;
 
     int width_, height_;
@@ -102,6 +102,7 @@ private:
     RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;
+    CastPass casts_;
     FacePass faces_;
     TablePass table_;
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample

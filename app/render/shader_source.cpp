@@ -41,11 +41,13 @@ void main() {
 constexpr std::string_view surface_fragment = R"(
 out vec4 result;
 #if !defined(PLACES) || defined(CUT_OUT)
-in vec2 texel;
 uniform sampler2D image;
+#ifndef CAST
+in vec2 texel;
 uniform float mip_level;
 #endif
-#if defined(EVEN_LIGHT) || defined(DITHERED)
+#endif
+#if defined(EVEN_LIGHT) || defined(DITHERED) || defined(CAST)
 uniform vec4 pixel_from_fragment; // scale, offset
 #endif
 #ifdef DITHERED
@@ -81,10 +83,13 @@ void main() {
         discard;
     }
 #endif
-#if !defined(PLACES) || defined(CUT_OUT)
+#ifdef CAST
+    // A pixel of the picture that was cast; all of its samples here show the same.
+    vec4 seen = texelFetch(image, ivec2(gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw), 0);
+#elif !defined(PLACES) || defined(CUT_OUT)
     vec4 seen = textureLod(image, texel, mip_level);
 #endif
-#ifdef CUT_OUT
+#if defined(CUT_OUT) || defined(CAST)
     if (seen.a < 0.5) {
         discard;
     }
@@ -178,6 +183,7 @@ std::string defines_of(const ShaderKey& key) {
     const auto define = [&defines](bool wanted, std::string_view name) {
         defines += wanted ? fmt::format("#define {}\n", name) : "";
     };
+    define(key.pass == ShaderKey::Pass::Cast, "CAST");
     define(key.places, "PLACES");
     define(key.cut_out, "CUT_OUT");
     define(key.dithered, "DITHERED");
@@ -195,6 +201,8 @@ ShaderSource source_of(const ShaderKey& key) {
         return {"", outline_vertex, outline_fragment};
     case ShaderKey::Pass::Surface:
         return {defines_of(key), surface_vertex, surface_fragment};
+    case ShaderKey::Pass::Cast:
+        return {defines_of(key), outline_vertex, surface_fragment};
     case ShaderKey::Pass::EdgeFeather:
         return {"", feather_vertex, feather_fragment};
     case ShaderKey::Pass::TablePicture:

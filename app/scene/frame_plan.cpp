@@ -133,28 +133,17 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
     return bounds;
 }
 
-/// The draw of what a face shows of a part; nothing if it shows nothing.
-std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
-                              const Shared& shared, FramePlan& plan) {
+/// What is the same for a mesh and a relief.
+Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& clip_from_box,
+                const Shared& shared) {
     const PlacedLevel& level = part.level;
     const Box box = box_of(level);
-    const double scale = level.metres_per_box;
-    glm::dmat4 clip_from_box = through.clip_from_prop;
     glm::dmat4 clip_from_unit = through.clip_from_prop;
     for (int axis = 0; axis < 3; ++axis) {
-        clip_from_box[axis] *= scale;
         clip_from_unit[axis] *= (box.high - box.low)[axis];
     }
     clip_from_unit[3] = through.clip_from_prop * glm::dvec4(box.low, 1.0);
-
     Draw draw;
-    plan.front.update(*level.triangles, through.eye_in_prop / scale);
-    draw.bounds = show_triangles(*level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box),
-                                 glm::mat4(clip_from_box), through.bounds, plan, draw.range);
-    if (draw.range.count == 0) {
-        return std::nullopt;
-    }
-    draw.shader.cut_out = level.drawable.material.cut_out;
     draw.shader.dithered = part.dither.has_value();
     draw.shader.even_light = shared.view.light.has_value();
     draw.drawable = level.drawable;
@@ -167,6 +156,52 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     return draw;
 }
 
+/// The draw of what a face shows of a part; nothing if it shows nothing.
+std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
+                              const Shared& shared, FramePlan& plan) {
+    const PlacedLevel& level = part.level;
+    const double scale = level.metres_per_box;
+    glm::dmat4 clip_from_box = through.clip_from_prop;
+    for (int axis = 0; axis < 3; ++axis) {
+        clip_from_box[axis] *= scale;
+    }
+    Draw draw = draw_level(part, through, clip_from_box, shared);
+    if (level.relief) {
+        draw.shader.pass = ShaderKey::Pass::Cast;
+        draw.cast = plan.cast_count - 1;
+        draw.bounds = through.bounds;
+        plan.lit.light(draw.bounds);
+        return draw;
+    }
+    draw.shader.cut_out = level.drawable.material.cut_out;
+    plan.front.update(*level.triangles, through.eye_in_prop / scale);
+    draw.bounds = show_triangles(*level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box),
+                                 glm::mat4(clip_from_box), through.bounds, plan, draw.range);
+    return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
+}
+
+/// False if the plan has no room for it.
+bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
+    if (plan.cast_count == plan.casts.size()) {
+        return false;
+    }
+    CastPlan& cast = plan.casts[plan.cast_count++];
+    cast.relief = level.drawable.mesh;
+    cast.metres_per_box = level.metres_per_box;
+    cast.samples = level.samples;
+    CastScene scene;
+    for (int axis = 0; axis < 3; ++axis) {
+        scene.prop_from_box[axis][axis] = level.metres_per_box;
+    }
+    scene.box_size = level.box_size;
+    scene.projector = shared.view.projector;
+    scene.prop_from_projector =
+        (shared.view.table_from_projector.inverse() * shared.view.table_from_prop).inverse();
+    scene.eye_m = shared.eye(0);
+    set_up(cast.view, shared.prop, scene);
+    return true;
+}
+
 /// Goes part by part: the triangles that look towards the eye are found once for all faces that share the
 /// eye.
 void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
@@ -177,8 +212,11 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
         through[face] = look_through(face, shared);
     }
     for (const Part& part : parts) {
+        if (part.level.is_empty() || (part.level.relief && !plan_cast(part.level, shared, plan))) {
+            continue;
+        }
         for (std::size_t face = 0; face < faces; ++face) {
-            if (!part.level.triangles || !through[face] || ((part.level.faces >> face) & 1U) == 0) {
+            if (!through[face] || ((part.level.faces >> face) & 1U) == 0) {
                 continue;
             }
             std::optional<Draw> draw = draw_part(part, shared.prop.faces[face], *through[face], shared, plan);
@@ -225,6 +263,13 @@ int samples_at(double density, int samples) {
         density *= std::numbers::sqrt2;
     }
     return samples;
+}
+
+/// Those of the first; 1 where reliefs alone are drawn.
+int samples_of_meshes(std::span<const Part> parts) {
+    const auto mesh =
+        std::find_if(parts.begin(), parts.end(), [](const Part& part) { return !part.level.relief; });
+    return mesh != parts.end() ? mesh->level.samples : (parts.empty() ? 0 : 1);
 }
 
 /// A quadrilateral with a picture, or black.
@@ -306,6 +351,13 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 
 } // namespace
 
+PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief, double metres_per_box,
+                   const Drawable& drawable) {
+    PlacedLevel level{nullptr, pack.box_size, metres_per_box, drawable, pack.samples};
+    level.relief = std::move(relief);
+    return level;
+}
+
 PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, const Drawable& drawable) {
     return {std::make_shared<LevelTriangles>(triangles_of(pack.levels[level], pack.box_size)), pack.box_size,
             metres_per_box, drawable, pack.samples};
@@ -329,6 +381,10 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     // A triangle may show on every face. Memory that is never written is never used.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
+    plan.casts.resize(parts);
+    for (CastPlan& cast : plan.casts) {
+        cast.view.faces.reserve(faces);
+    }
     return plan;
 }
 
@@ -340,13 +396,18 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.feathers.clear();
     plan.indices.clear();
     plan.front.forget();
+    plan.cast_count = 0;
     plan.lit.begin(view.projector.width, view.projector.height);
     plan_table(shared, plan);
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
         plan_parts(parts, shared, plan);
     }
     plan.lit.finish();
-    plan.samples = samples_at(pixel_density(shared, plan), parts.empty() ? 0 : parts.front().level.samples);
+    const double density = pixel_density(shared, plan);
+    plan.samples = samples_at(density, samples_of_meshes(parts));
+    for (std::size_t k = 0; k < plan.cast_count; ++k) {
+        plan.casts[k].samples = samples_at(density, std::max(plan.casts[k].samples, 1));
+    }
     if (view.light) {
         compensate(shared, *view.light, plan);
     }

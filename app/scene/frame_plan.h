@@ -15,6 +15,8 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
+#include "app/relief/block_relief.h"
+#include "app/relief/cast_view.h"
 #include "app/scene/drawable.h"
 #include "app/scene/edge_feather.h"
 #include "app/scene/light.h"
@@ -40,10 +42,17 @@ struct PlacedLevel {
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
     Drawable drawable;
     int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
-    std::uint32_t faces = ~std::uint32_t{0}; ///< of the prop, bits: those that it may show on
+    std::uint32_t faces = ~std::uint32_t{0};     ///< of the prop, bits: those that it may show on
+    std::shared_ptr<const BlockRelief> relief{}; ///< is cast in the triangles' stead; `drawable` names it
+
+    [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
 };
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
                                  const Drawable& drawable = {});
+
+/// A relief at one resolution, in the renderer's store under `drawable`.
+[[nodiscard]] PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief,
+                                 double metres_per_box, const Drawable& drawable);
 
 /// Which of the picture's pixels a draw takes, with all their samples: an ordered pattern. A draw with a
 /// share and one with its complement take each pixel exactly once together: no pixel is a mixture and none is
@@ -104,7 +113,15 @@ struct FacePlan {
     double pixels_per_m = 0.0;
 };
 
-/// A mesh seen through one face of the prop, or a quadrilateral beside the prop.
+/// A relief as the frame's eye sees it, to be cast into a picture of the processor's memory.
+struct CastPlan {
+    MeshId relief = MeshId::None; ///< in the renderer's store
+    CastView view;
+    double metres_per_box = 1.0;
+    int samples = 1; ///< a pixel
+};
+
+/// A mesh seen through one face of the prop, what was cast of a relief there, or a quadrilateral beside the prop.
 struct Draw {
     static constexpr int on_table = -1;
 
@@ -120,11 +137,12 @@ struct Draw {
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
     Dither dither;               ///< if the shader dithers
+    std::size_t cast = 0; ///< index into FramePlan::casts, of a cast; it is drawn on the face's outline
 };
 
 struct FramePlan {
     Pinhole projector;
-    /// Samples a pixel in the prop; 0 = as many as the renderer takes. Where a face is seen or lit so
+    /// Samples a pixel of the meshes in the prop, 1 without any; 0 = as many as the renderer takes. Where a face is seen or lit so
     /// slantingly that few pixels show much of the artifact, each pixel takes more samples than the level
     /// asked for, so that each place of the artifact keeps its samples.
     int samples = 0;
@@ -136,13 +154,17 @@ struct FramePlan {
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
     std::uint64_t prop_hash = 0;        ///< the same of what stands in the prop alone
     FrontTriangles front;               ///< of the part and the eye planned for last; not drawn
+    std::vector<CastPlan>
+        casts; ///< one for each part that may be a relief; the first `cast_count` are the frame's
+    std::size_t cast_count = 0;
 };
 
 /// A plan with room for every face of `parts` parts that have `indices` indices together.
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
-/// The first part says how many samples a pixel takes.
+/// The first mesh among the parts says how many samples a pixel takes; a relief takes its own where it is cast. With one eye for
+/// each face a relief shows where the first eye looks.
 void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
 /// The same for one part; without triangles the prop stays dark.
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);

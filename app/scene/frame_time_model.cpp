@@ -48,21 +48,23 @@ double RungCost::ms(const FrameWork& work, int samples) const {
            ms_per_sample * std::fmax(work.pixels, 0.0) * samples;
 }
 
-/// A small ridge term helps where the rungs cannot separate the terms.
-RungCost cost_of(const std::vector<RungTime>& rungs) {
+namespace {
+
+/// Of reliefs alone or of meshes alone. A small ridge term helps where the rungs cannot separate the terms.
+RungCost cost_of(const std::vector<RungTime>& rungs, bool relief) {
     glm::dvec3 most(1.0, 0.0, 0.0);
     const auto terms = [](const RungTime& start) {
         return glm::dvec3(1.0, std::fmax(start.work.triangles, 0.0),
                           std::fmax(start.work.pixels, 0.0) * start.samples);
     };
     for (const RungTime& rung : rungs) {
-        most = glm::max(most, terms(rung));
+        most = rung.relief == relief ? glm::max(most, terms(rung)) : most;
     }
     const glm::dvec3 scale(1.0, most.y > 0.0 ? 1.0 / most.y : 0.0, most.z > 0.0 ? 1.0 / most.z : 0.0);
     glm::dmat3 normal(0.0);
     glm::dvec3 right(0.0);
     for (const RungTime& rung : rungs) {
-        if (FrameTimeModel::is_time(rung.ms)) {
+        if (rung.relief == relief && FrameTimeModel::is_time(rung.ms)) {
             const glm::dvec3 row = terms(rung) * scale / rung.ms;
             normal += glm::outerProduct(row, row);
             right += row;
@@ -77,14 +79,25 @@ RungCost cost_of(const std::vector<RungTime>& rungs) {
     return {cost.x, cost.y, cost.z};
 }
 
+} // namespace
+
+FrameCost cost_of(const std::vector<RungTime>& rungs) {
+    return {cost_of(rungs, false), cost_of(rungs, true)};
+}
+
+double FrameCost::ms(const RungTime& rung) const {
+    return (rung.relief ? relief : mesh).ms(rung.work, rung.samples);
+}
+
 void FrameTimeModel::fit_shares() {
     std::vector<RungTime> starts;
     for (const Rung& rung : rungs_) {
         starts.push_back(rung.start);
     }
-    const RungCost cost = cost_of(starts);
+    const FrameCost costs = cost_of(starts);
     for (Rung& rung : rungs_) {
-        const double sum = cost.ms(rung.start.work, rung.start.samples);
+        const RungCost& cost = rung.start.relief ? costs.relief : costs.mesh;
+        const double sum = costs.ms(rung.start);
         if (std::isfinite(sum) && sum > 0.0) {
             rung.triangle_share = cost.ms_per_triangle * std::fmax(rung.start.work.triangles, 0.0) / sum;
             rung.sample_share =

@@ -33,8 +33,8 @@ namespace frustumscreen {
 
 /// What one frame draws of the artifact.
 struct FrameWork {
-    double triangles = 0.0;
-    double pixels = 0.0; ///< of the rectangle that the artifact can light
+    double triangles = 0.0; ///< of a relief its blocks
+    double pixels = 0.0;    ///< of the rectangle that the artifact can light
 };
 
 /// A rung as measured at the start.
@@ -42,6 +42,7 @@ struct RungTime {
     int samples = 1; ///< a pixel
     FrameWork work;
     double ms = 0.0; ///< median of some frames; not a time = never measured: infinite until it is observed
+    bool relief = false; ///< cast on the processor
 };
 
 /// What frames cost on this GPU, from the rungs measured on one artifact; good for another one whose frames' work
@@ -52,9 +53,15 @@ struct RungCost {
     double ms_per_sample = 0.0; ///< of a pixel
     [[nodiscard]] double ms(const FrameWork& work, int samples) const;
 };
+/// Meshes and reliefs are drawn in different ways and cost apart.
+struct FrameCost {
+    RungCost mesh, relief;
+    /// Of a rung's work and samples.
+    [[nodiscard]] double ms(const RungTime& rung) const;
+};
 /// Least squares, each rung weighed by 1 / ms^2; no term is negative. Rungs that are no times are left out; without any
 /// all terms are 0, which is no time either.
-[[nodiscard]] RungCost cost_of(const std::vector<RungTime>& rungs);
+[[nodiscard]] FrameCost cost_of(const std::vector<RungTime>& rungs);
 
 class FrameTimeModel {
 public:

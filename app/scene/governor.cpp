@@ -25,9 +25,9 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
 }
 
 std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box, double tolerance_mm,
-                         int samples) {
-    constexpr double most_over_p95 = 4.0;                // two pixels for half a one
-    const auto within = [&](const LevelOutline& level) { // false for NaN
+                         int samples, const std::optional<ReliefOutline>& relief) {
+    constexpr double most_over_p95 = 4.0;        // two pixels for half a one
+    const auto within = [&](const auto& level) { // false for NaN
         return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm &&
                static_cast<double>(level.error.max_box) * mm_per_box <= most_over_p95 * tolerance_mm;
     };
@@ -51,6 +51,18 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box
             rungs.push_back({static_cast<std::uint32_t>(k), s,
                              k == best && s == std::max(samples, 1) && within(levels[k])});
         }
+    }
+    if (relief && within(*relief)) {
+        const int full = std::max(samples, 1);
+        std::vector<Rung> cast{{relief->texels, full, true, true}};
+        if (full > 1) {
+            cast.push_back({relief->texels, 1, false, true});
+        }
+        rungs.insert(std::find_if(rungs.begin(), rungs.end(),
+                                  [&](const Rung& rung) {
+                                      return levels[rung.level].error.p95_box > relief->error.p95_box;
+                                  }),
+                     cast.begin(), cast.end());
     }
     return rungs;
 }

@@ -37,6 +37,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/pack/pack_outline.h"
+#include "app/pack/pack_relief.h"
 #include "app/scene/frame_time_model.h"
 
 #include <cstdint>
@@ -53,16 +54,23 @@ namespace frustumscreen {
 
 /// One way to draw an artifact.
 struct Rung {
-    std::uint32_t level = 0; ///< of Pack::levels
+    std::uint32_t level = 0; ///< of Pack::levels; of a relief its texels (pack_relief.h)
     int samples = 1;         ///< a pixel
     bool enough = false;     ///< within the tolerance, with the samples that the artifact wants
+    bool relief = false;     ///< cast on the processor
+
+    [[nodiscard]] bool shows_as(const Rung& other) const {
+        return level == other.level && relief == other.relief;
+    }
 };
 
 /// The rungs that a governor may pick, best first; nothing else must be loaded. The level that meets the
 /// tolerance with fewest triangles (the finest if none does), coarser ones that save at least a quarter of
-/// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
+/// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel. `relief`, if it meets the tolerance,
+/// stands before the levels that are less exact, with `samples` and with 1.
 [[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box,
-                                       double tolerance_mm, int samples);
+                                       double tolerance_mm, int samples,
+                                       const std::optional<ReliefOutline>& relief = std::nullopt);
 
 class Governor {
 public:

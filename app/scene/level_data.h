@@ -8,9 +8,11 @@
 
 #include "app/image/image.h"
 #include "app/pack/pack.h"
+#include "app/relief/block_relief.h"
 #include "app/scene/scene_level.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace frustumscreen {
@@ -21,6 +23,8 @@ struct LevelData {
     int finest_mip = 0;       ///< of the whole texture: which one `mips` begins with
     double texels_per_box = 0.0;
     bool cut_out = false;
+    /// In the stead of all that: it stays in main memory.
+    std::shared_ptr<const BlockRelief> relief{};
 };
 /// `texture`: the level's whole texture.
 [[nodiscard]] LevelData level_data(const SceneLevel& level, const Image8& texture);

@@ -208,9 +208,10 @@ std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture) {
 
 std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     constexpr std::uint64_t bytes_per_sample = 4 + 4; // colour; depth and stencil
-    return needs.samples > 1 ? bytes_per_sample * static_cast<std::uint64_t>(needs.samples) *
-                                   static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)
-                             : 0;
+    constexpr std::uint64_t bytes_per_texel = 4;
+    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    return pixels * (bytes_per_texel * needs.casts +
+                     (needs.samples > 1 ? bytes_per_sample * static_cast<std::uint64_t>(needs.samples) : 0));
 }
 
 std::uint64_t caption_gpu_bytes(int width, int height) {

@@ -30,25 +30,47 @@ std::string listed(std::string_view one, std::string_view more, const std::vecto
     return text;
 }
 
-void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
-                   std::uint32_t asked, ScenePlan& plan) {
-    const int samples = request.samples > 0 ? request.samples : pack.description.samples;
-    const bool governed = request.live && request.technique == "auto";
-    plan.rungs = {{asked, samples, true}};
-    if (governed) {
-        plan.rungs = ladder(pack.levels, 1e3 * plan.metres_per_box, tolerance_mm, samples);
-    }
-    for (const Rung& rung : plan.rungs) {
-        if (!in(plan.levels, rung.level)) {
-            plan.levels.push_back(rung.level);
+/// Of reliefs that were read of the pack's description.
+std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs, std::uint32_t texels) {
+    const auto found = std::find_if(reliefs.begin(), reliefs.end(), [texels](const ReliefOutline& relief) {
+        return relief.texels == texels;
+    });
+    return found != reliefs.end() ? std::optional(*found) : std::nullopt;
+}
+
+/// The coarsest whose texel is a pixel, or not clearly more; else the finest.
+std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& reliefs, double pixel_box) {
+    constexpr double not_clearly = 1.25;
+    for (const ReliefOutline& relief : reliefs) {
+        if (1.0 <= not_clearly * pixel_box * relief.texels) {
+            return relief;
         }
     }
+    return reliefs.empty() ? std::nullopt : std::optional(reliefs.back());
+}
+
+/// What the rungs draw, each once.
+void choose_what_is_read(const std::vector<ReliefOutline>& reliefs, ScenePlan& plan) {
+    for (const Rung& rung : plan.rungs) {
+        if (!rung.relief && !in(plan.levels, rung.level)) {
+            plan.levels.push_back(rung.level);
+        }
+        if (rung.relief && !relief_of(plan.reliefs, rung.level)) {
+            plan.reliefs.push_back(relief_of(reliefs, rung.level).value());
+        }
+    }
+}
+
+/// Levels that no rung draws: read all the same, or said to be left out.
+void leave_out_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
+                      bool governed, ScenePlan& plan) {
     std::vector<std::string> finer;
     std::vector<std::string> others;
     std::vector<std::uint32_t> unused;
     for (std::uint32_t level = 0; level < pack.levels.size(); ++level) {
         if (!in(plan.levels, level)) {
-            (governed && level > plan.levels.front() ? finer : others).push_back(fmt::format("{}", level));
+            (governed && !plan.levels.empty() && level > plan.levels.front() ? finer : others)
+                .push_back(fmt::format("{}", level));
             unused.push_back(level);
         }
     }
@@ -65,9 +87,23 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
     if (!others.empty()) {
         plan.left_out.push_back({UnusedLevels, listed("level", "levels", others),
                                  governed ? "coarser, and saves too little time to be worth a change"
-                                          : fmt::format("the technique \"{}\" draws level {} alone",
-                                                        request.technique, plan.levels.front())});
+                                          : fmt::format("the technique \"{}\" draws {} alone",
+                                                        request.technique, name_of(plan.rungs.front()))});
     }
+}
+
+void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
+                   double pixel_box, Rung asked, const std::vector<ReliefOutline>& reliefs, ScenePlan& plan) {
+    const bool governed = request.live && request.technique == "auto";
+    asked.samples = request.samples > 0 ? request.samples : pack.description.samples;
+    asked.enough = true;
+    plan.rungs = {asked};
+    if (governed) {
+        plan.rungs = ladder(pack.levels, 1e3 * plan.metres_per_box, tolerance_mm, asked.samples,
+                            relief_for(reliefs, pixel_box));
+    }
+    choose_what_is_read(reliefs, plan);
+    leave_out_levels(pack, request, tolerance_mm, governed, plan);
 }
 
 void choose_captions(const Settings& settings, const PackOutline& pack, const SceneRequest& request,
@@ -99,9 +135,10 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
 
 void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
     const bool all = (plan.economies & UnusedShaders) == 0;
-    const std::uint32_t first = plan.rungs.front().level;
-    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(),
-                                          [&](const Rung& rung) { return rung.level != first; });
+    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& rung) {
+                           return !rung.shows_as(plan.rungs.front());
+                       });
+    const bool casts = !plan.reliefs.empty();
     const bool plain = all || !request.light;
     const bool even = all || request.light;
     RenderNeeds& needs = plan.needs;
@@ -111,7 +148,13 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
                 ShaderKey key;
                 key.dithered = dithered;
                 key.even_light = even_light;
-                needs.draws.insert(key);
+                if (!plan.levels.empty()) {
+                    needs.draws.insert(key);
+                }
+                key.pass = ShaderKey::Pass::Cast;
+                if (casts) {
+                    needs.draws.insert(key);
+                }
             }
         }
     }
@@ -122,8 +165,10 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
     for (const Rung& rung : plan.rungs) {
-        needs.samples = std::max({needs.samples, rung.samples, request.room});
+        needs.samples = rung.relief ? needs.samples // it takes its samples where it is cast
+                                    : std::max({needs.samples, rung.samples, request.room});
     }
+    needs.casts = std::min<std::size_t>(plan.reliefs.size(), 2); // a fade shows two
     if (!plain) {
         plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
                                  "the projector's light is evened out in every picture"});
@@ -164,37 +209,72 @@ void choose_faces(ScenePlan& plan) {
     }
 }
 
-/// The level of "level0", "level1", ...
-std::optional<std::uint32_t> numbered_level(std::string_view technique) {
-    constexpr std::string_view prefix = "level";
-    if (technique.substr(0, prefix.size()) != prefix) {
+/// The number behind the prefix, and nothing else.
+std::optional<std::uint32_t> number_behind(std::string_view prefix, std::string_view name) {
+    if (!name.starts_with(prefix)) {
         return std::nullopt;
     }
-    std::uint32_t level = 0;
-    const char* const end = technique.data() + technique.size();
-    const std::from_chars_result read = std::from_chars(technique.data() + prefix.size(), end, level);
-    return read.ec == std::errc{} && read.ptr == end ? std::optional(level) : std::nullopt;
+    std::uint32_t number = 0;
+    const char* const end = name.data() + name.size();
+    const std::from_chars_result read = std::from_chars(name.data() + prefix.size(), end, number);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+constexpr std::string_view level_prefix = "level";
+constexpr std::string_view relief_prefix = "relief";
+
+/// "auto, finest, level0 to level6, relief, relief96 and relief192"
+std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutline>& reliefs) {
+    const std::size_t levels = pack.levels.size();
+    std::vector<std::string> names{"finest",
+                                   levels > 1 ? fmt::format("level0 to level{}", levels - 1) : "level0"};
+    if (!reliefs.empty()) {
+        names.emplace_back(relief_prefix);
+    }
+    for (const ReliefOutline& relief : reliefs) {
+        names.push_back(fmt::format("{}{}", relief_prefix, relief.texels));
+    }
+    return listed("auto", "auto,", names);
 }
 
 } // namespace
 
-Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique) {
+std::string name_of(const Rung& rung) {
+    return fmt::format("{}{}", rung.relief ? relief_prefix : level_prefix, rung.level);
+}
+
+Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
+    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
+    if (!reliefs) {
+        return tl::unexpected<Error>(reliefs.error());
+    }
     const auto levels = static_cast<std::uint32_t>(pack.levels.size());
     if (technique == "auto") {
-        return pack.description.default_level;
+        return Rung{pack.description.default_level};
     }
     if (technique == "finest") {
-        return levels - 1;
+        return Rung{levels - 1};
     }
-    if (const std::optional<std::uint32_t> level = numbered_level(technique); level && *level < levels) {
-        return *level;
+    if (const std::optional<std::uint32_t> level = number_behind(level_prefix, technique);
+        level && *level < levels) {
+        return Rung{*level};
     }
-    return bad_input(fmt::format("technique '{}'; this pack has auto, finest and level0{}", technique,
-                                 levels > 1 ? fmt::format(" to level{}", levels - 1) : ""));
+    std::optional<std::uint32_t> texels = number_behind(relief_prefix, technique);
+    if (const std::optional<ReliefOutline> relief = relief_for(*reliefs, pixel_box);
+        relief && technique == relief_prefix) {
+        texels = relief->texels;
+    }
+    if (texels && relief_of(*reliefs, *texels)) {
+        return Rung{*texels, 1, false, true};
+    }
+    return bad_input(fmt::format(
+        "technique '{}'; this pack has {}{}", technique, techniques_of(pack, *reliefs),
+        technique.starts_with(relief_prefix) && reliefs->empty() ? "; bake it again for relief" : ""));
 }
 
 bool is_technique(std::string_view name) {
-    return name == "auto" || name == "finest" || numbered_level(name);
+    return name == "auto" || name == "finest" || name == relief_prefix || number_behind(level_prefix, name) ||
+           number_behind(relief_prefix, name);
 }
 
 std::string_view name_of(Economy economy) {
@@ -204,9 +284,9 @@ std::string_view name_of(Economy economy) {
 }
 
 Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
-    const Result<std::uint32_t> asked = level_of(pack, request.technique);
-    if (!asked) {
-        return tl::unexpected<Error>(asked.error());
+    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
+    if (!reliefs) {
+        return tl::unexpected<Error>(reliefs.error());
     }
     ScenePlan plan;
     plan.economies = request.economies;
@@ -221,7 +301,12 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     }
     const double pixel_m =
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
-    choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m, *asked, plan);
+    const Result<Rung> asked = rung_of(pack, request.technique, pixel_m / plan.metres_per_box);
+    if (!asked) {
+        return tl::unexpected<Error>(asked.error());
+    }
+    choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m,
+                  pixel_m / plan.metres_per_box, *asked, *reliefs, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
                    request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||

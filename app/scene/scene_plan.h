@@ -12,6 +12,7 @@
 #pragma once
 
 #include "app/pack/pack_outline.h"
+#include "app/pack/pack_relief.h"
 #include "app/scene/governor.h"
 #include "app/scene/light.h"
 #include "app/scene/shader_key.h"
@@ -28,10 +29,14 @@
 
 namespace frustumscreen {
 
-/// The form of a technique's name: "auto", "finest", or "level" and a number that some pack may have.
+/// The form of a technique's name: "auto", "finest", "relief", or "level" or "relief" and a number that some pack may have.
 [[nodiscard]] bool is_technique(std::string_view name);
-/// The level that a technique's name means: "auto" the pack's default, "finest", "level0", "level1", ...
-[[nodiscard]] Result<std::uint32_t> level_of(const PackOutline& pack, std::string_view technique);
+/// "level0", "relief96".
+[[nodiscard]] std::string name_of(const Rung& rung);
+/// The way to draw that a technique's name means, without its samples: "auto" the pack's default level, "finest", "level0", "level1",
+/// ...; "relief96", "relief192", ... by texels; "relief" the coarsest whose texel is not clearly larger than a pixel of `pixel_box`
+/// on the prop, else the finest.
+[[nodiscard]] Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box);
 
 /// A kind of things that a scene may do without; bits.
 enum Economy : unsigned {
@@ -65,10 +70,11 @@ struct SceneRequest {
 };
 
 struct ScenePlan {
-    std::vector<Rung> rungs;           ///< the ways in which the artifact may be drawn, best first
-    std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `rungs` first
-    std::vector<std::size_t> captions; ///< of the pack
-    std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
+    std::vector<Rung> rungs;            ///< the ways in which the artifact may be drawn, best first
+    std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `rungs` first
+    std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `rungs`
+    std::vector<std::size_t> captions;  ///< of the pack
+    std::uint32_t faces = 0;            ///< of the prop, bits: those that may show
     /// As if all textures were opaque: an outline does not say which leave texels out.
     RenderNeeds needs;
     unsigned economies = AllEconomies;

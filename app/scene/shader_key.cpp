@@ -1,10 +1,15 @@
 #include "app/scene/shader_key.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace frustumscreen {
 
 namespace {
+
+std::string_view name_of_light(const ShaderKey& key) {
+    return key.even_light ? " in even light" : " in plain light";
+}
 
 std::string name_of_surface(const ShaderKey& key) {
     std::string name = key.dithered ? "fading " : "";
@@ -12,7 +17,7 @@ std::string name_of_surface(const ShaderKey& key) {
     if (key.places) {
         return "places of the " + name;
     }
-    return name + (key.even_light ? " in even light" : " in plain light");
+    return name.append(name_of_light(key));
 }
 
 } // namespace
@@ -23,6 +28,8 @@ std::string name_of(const ShaderKey& key) {
         return "outline of a face";
     case ShaderKey::Pass::Surface:
         return name_of_surface(key);
+    case ShaderKey::Pass::Cast:
+        return std::string(key.dithered ? "fading cast relief" : "cast relief").append(name_of_light(key));
     case ShaderKey::Pass::EdgeFeather:
         return "edges between faces";
     case ShaderKey::Pass::TablePicture:
@@ -48,7 +55,7 @@ ShaderKey places_of(ShaderKey key) {
 }
 
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
-    RenderNeeds both{std::max(a.samples, b.samples), a.draws};
+    RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.casts, b.casts)};
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -15,13 +16,14 @@ struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,      ///< marks a face of the prop
         Surface,      ///< draws a mesh
+        Cast,         ///< shows what was cast into memory, on a face of the prop
         EdgeFeather,  ///< dims a strip of a face
         TablePicture, ///< draws a flat picture beside the prop
         TileClear,    ///< blackens tiles of the larger picture that several samples a pixel need
         TileAverage,  ///< averages these samples
     };
     Pass pass = Pass::Surface;
-    // Of surfaces alone:
+    // Of surfaces alone, the last two of casts too:
     bool places : 1 = false;     ///< gives each pixel's place in the prop and not its colour
     bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
     bool dithered : 1 = false;   ///< draws a share of the pixels
@@ -40,6 +42,7 @@ struct ShaderKey {
 struct RenderNeeds {
     int samples = 1;           ///< a pixel, that there is room for in the whole picture
     std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
+    std::size_t casts = 0;     ///< pictures that one plan may cast into memory
 };
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings

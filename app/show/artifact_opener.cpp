@@ -165,7 +165,10 @@ RenderNeeds needs_of_any_pack(int samples) {
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
+        key.pass = ShaderKey::Pass::Cast;
+        needs.draws.insert(key);
     }
+    needs.casts = 2; // in a fade
     needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({ShaderKey::Pass::TablePicture});
     return with_cut_outs(needs);

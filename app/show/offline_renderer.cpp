@@ -1,5 +1,6 @@
 #include "app/show/offline_renderer.h"
 
+#include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/exposure.h"
 
@@ -60,7 +61,15 @@ Result<OfflineScene> load_offline(const std::filesystem::path& file,
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
     }
-    return OfflineScene{*std::move(setup), std::move(plan), *std::move(pack)};
+    OfflineScene scene{*std::move(setup), std::move(plan), *std::move(pack), nullptr};
+    if (!scene.plan.reliefs.empty()) {
+        Result<BlockRelief> relief = load_relief(file, scene.plan.reliefs.front());
+        if (!relief) {
+            return tl::unexpected<Error>(relief.error());
+        }
+        scene.relief = std::make_shared<const BlockRelief>(*std::move(relief));
+    }
+    return scene;
 }
 
 OfflineRenderer::OfflineRenderer(const ScenePlan& plan)
@@ -68,7 +77,7 @@ OfflineRenderer::OfflineRenderer(const ScenePlan& plan)
       light_(plan.light) {}
 
 Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineScene& scene) {
-    const auto& [setup, plan, pack] = scene;
+    const auto& [setup, plan, pack, relief] = scene;
     const OfflineOptions& options = setup.options;
     std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
     const int width = made->projector_.width;
@@ -78,17 +87,9 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
         return tl::unexpected<Error>(display.error());
     }
     made->display_ = std::move(*display);
-    const std::uint32_t number = plan.rungs.front().level;
-    const SceneLevel level = scene_level(*pack, number, plan);
-    Result<Renderer> renderer = Renderer::create(width, height, needs_of(plan, level));
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    made->renderer_ = std::move(*renderer);
-    const Result<Drawable> drawable =
-        made->renderer_->store().upload(level, pack->textures[level.mesh.texture]);
-    if (!drawable) {
-        return tl::unexpected<Error>(drawable.error());
+    made->technique_ = name_of(plan.rungs.front());
+    if (Result<void> taken = scene.relief ? made->take_relief(scene) : made->take_level(scene); !taken) {
+        return tl::unexpected<Error>(taken.error());
     }
     if (options.hit_points) {
         Result<HitPointRenderer> hit_points = HitPointRenderer::create(*made->renderer_);
@@ -97,18 +98,45 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
         }
         made->hit_points_ = std::move(*hit_points);
     }
-    made->exposure_ =
-        exposure_of(level.mesh, pack->box_size, pack->textures[level.mesh.texture], plan.highlight_code);
-    made->technique_ = fmt::format("level{}", number);
-    made->estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
-    made->placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)),
-                     pack->box_size,
-                     plan.metres_per_box,
-                     *drawable,
-                     samples_of(options, *pack),
-                     plan.faces};
+    made->placed_.samples = samples_of(options, *pack);
+    made->placed_.faces = plan.faces;
     made->plan_ = make_plan(made->prop_, made->placed_);
     return made;
+}
+
+Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
+    const auto& [setup, plan, pack, relief] = scene;
+    const std::uint32_t number = plan.rungs.front().level;
+    const SceneLevel level = scene_level(*pack, number, plan);
+    Result<Renderer> renderer = Renderer::create(projector_.width, projector_.height, needs_of(plan, level));
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    renderer_ = std::move(*renderer);
+    const Image8& texture = pack->textures[level.mesh.texture];
+    const Result<Drawable> drawable = renderer_->store().upload(level, texture);
+    if (!drawable) {
+        return tl::unexpected<Error>(drawable.error());
+    }
+    exposure_ = exposure_of(level.mesh, pack->box_size, texture, plan.highlight_code);
+    estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
+    placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
+               plan.metres_per_box, *drawable};
+    return {};
+}
+
+Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
+    const auto& [setup, plan, pack, relief] = scene;
+    Result<Renderer> renderer = Renderer::create(projector_.width, projector_.height, plan.needs);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    renderer_ = std::move(*renderer);
+    exposure_ = exposure_of(*relief, plan.highlight_code);
+    estimated_error_mm_ =
+        1e3 * plan.metres_per_box * static_cast<double>(plan.reliefs.front().error.mean_box);
+    placed_ = placed(*pack, relief, plan.metres_per_box, renderer_->store().keep(relief));
+    return {};
 }
 
 void OfflineRenderer::draw_once(const PlanView& view) {

@@ -44,6 +44,7 @@ struct OfflineScene {
     OfflineSetup setup;
     ScenePlan plan;
     VerifiedPack pack;
+    std::shared_ptr<const BlockRelief> relief; ///< in the stead of a level
 };
 /// `setup_of` says how it is drawn, from its outline.
 [[nodiscard]] Result<OfflineScene>
@@ -65,13 +66,16 @@ public:
 
     [[nodiscard]] const Pinhole& projector() const { return projector_; }
     [[nodiscard]] const PropShape& prop() const { return prop_; }
-    /// "level0", ...: the level that "auto" or "finest" chose.
+    /// "level0", "relief96", ...: what "auto", "finest" or "relief" chose.
     [[nodiscard]] const std::string& technique() const { return technique_; }
-    /// The level's measured mean error on the configured prop.
+    /// Its measured mean error on the configured prop.
     [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }
 
 private:
     explicit OfflineRenderer(const ScenePlan& plan);
+    /// What is drawn, and a renderer for it.
+    [[nodiscard]] Result<void> take_level(const OfflineScene& scene);
+    [[nodiscard]] Result<void> take_relief(const OfflineScene& scene);
     void draw_once(const PlanView& view);
 
     Pinhole projector_;

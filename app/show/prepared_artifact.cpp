@@ -1,6 +1,7 @@
 #include "app/show/prepared_artifact.h"
 
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_relief.h"
 #include "app/scene/exposure.h"
 #include "app/show/hotspot_show.h"
 
@@ -22,6 +23,11 @@ Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level)
     });
 }
 
+/// What hides hotspots; a mesh, where reliefs alone are drawn too.
+std::uint32_t coarsest_of(const ScenePlan& plan) {
+    return plan.levels.empty() ? 0 : *std::min_element(plan.levels.begin(), plan.levels.end());
+}
+
 } // namespace
 
 Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
@@ -30,7 +36,6 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     std::vector<PreparedLevel> levels;
     double exposure = 1.0;
     ArtifactTriangles triangles;
-    const std::uint32_t coarsest = *std::min_element(plan.levels.begin(), plan.levels.end());
     for (const std::uint32_t number : plan.levels) {
         if (given_up()) {
             return bad_input("not wanted any more");
@@ -39,15 +44,36 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (!pack) {
             return tl::unexpected<Error>(pack.error());
         }
-        if (number == plan.rungs.front().level) {
+        if (number == plan.levels.front()) {
             const PackLevel& level = (*pack)->levels[number];
             exposure =
                 exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
         }
-        if (number == coarsest && !(*pack)->hotspots.empty()) {
+        if (number == coarsest_of(plan) && !(*pack)->hotspots.empty()) {
             triangles = hiding_triangles((*pack)->levels[number], (*pack)->box_size, plan.metres_per_box);
         }
         levels.push_back(prepare_level(**pack, number, plan));
+    }
+    for (const ReliefOutline& outline : plan.reliefs) {
+        if (given_up()) {
+            return bad_input("not wanted any more");
+        }
+        Result<BlockRelief> relief = load_relief(known.file, outline);
+        if (!relief) {
+            return tl::unexpected<Error>(relief.error());
+        }
+        if (levels.empty()) {
+            exposure = exposure_of(*relief, plan.highlight_code);
+        }
+        levels.push_back(prepare_relief(known.outline.description, outline, *std::move(relief), plan));
+    }
+    if (plan.levels.empty() && !known.outline.description.hotspots.empty()) {
+        const Result<VerifiedPack> pack = read_level(known, coarsest_of(plan));
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
+        triangles =
+            hiding_triangles((*pack)->levels[coarsest_of(plan)], (*pack)->box_size, plan.metres_per_box);
     }
     PreparedArtifact made{
         RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};
@@ -71,9 +97,12 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
         const LevelOutline& level = known.outline.levels[number];
         bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
     }
+    for (const ReliefOutline& relief : known.plan.reliefs) {
+        constexpr std::uint64_t more_in_memory = 2; // a cell's corners lie together there
+        bytes += more_in_memory * relief.bytes;
+    }
     if (!known.outline.description.hotspots.empty()) {
-        const std::uint32_t coarsest = *std::min_element(known.plan.levels.begin(), known.plan.levels.end());
-        bytes += TriangleTree::most_bytes(known.outline.levels[coarsest].triangles);
+        bytes += TriangleTree::most_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
     }
     return bytes;
 }

@@ -127,7 +127,7 @@ Result<ArtifactReader::Prepared> Residents::prepare(std::size_t item,
     return prepare_artifact(known(of.artifact), set_up_.technique, set_up_.deadline_ms, given_up);
 }
 
-void Residents::start(const RungCost& cost, const PropShape& prop, const PlanView& view,
+void Residents::start(const FrameCost& cost, const PropShape& prop, const PlanView& view,
                       const glm::dvec3& eye_m) {
     if (std::none_of(records_.begin(), records_.end(),
                      [](const ResidentItem& item) { return !item.loaded && item.bytes > 0; })) {

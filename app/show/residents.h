@@ -72,7 +72,7 @@ public:
     [[nodiscard]] Result<void> upload_first(GpuStore& store);
     /// From now on the others may come; needs no context. `cost`: of frames on this GPU; `prop`, `view`: what a rung's time is expected for,
     /// `eye_m` its eye.
-    void start(const RungCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
+    void start(const FrameCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
     /// Once a frame.
     void step(GpuStore& store, const ResidentsWish& wish);
     /// All that is shown, and what somebody waits for, is there as far as it can be.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -22,8 +23,21 @@ constexpr std::array<std::string_view, 32> level_names{
 /// Of one rung, each of the two times. A start waits for it, and where a frame takes long, few say enough: the governor goes on learning.
 constexpr double longest_measurement_ms = 50.0;
 
-std::string_view name_of_level(std::uint32_t level) {
-    return level_names.at(level);
+/// The bake's resolutions; others have no number of their own here.
+constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> relief_names{{{96, "relief96"},
+                                                                                  {192, "relief192"},
+                                                                                  {384, "relief384"},
+                                                                                  {768, "relief768"},
+                                                                                  {1536, "relief1536"},
+                                                                                  {3072, "relief3072"}}};
+
+std::string_view literal_of(const Rung& rung) {
+    if (!rung.relief) {
+        return level_names.at(rung.level);
+    }
+    const auto found = std::find_if(relief_names.begin(), relief_names.end(),
+                                    [&](const auto& name) { return name.first == rung.level; });
+    return found != relief_names.end() ? found->second : "relief";
 }
 
 } // namespace
@@ -50,6 +64,19 @@ PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePl
     return made;
 }
 
+PreparedLevel prepare_relief(const PackDescription& pack, const ReliefOutline& outline, BlockRelief relief,
+                             const ScenePlan& plan) {
+    PreparedLevel made;
+    made.use.level = outline.texels;
+    made.use.blocks = relief.blocks.size();
+    made.error = outline.error;
+    made.box_size = pack.box_size;
+    made.samples = pack.samples;
+    made.needs = plan.needs;
+    made.data.relief = std::make_shared<const BlockRelief>(std::move(relief));
+    return made;
+}
+
 RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
                      std::span<const PreparedLevel> levels)
     : technique_(std::move(technique)), rungs_(plan.rungs), deadline_ms_(deadline_ms),
@@ -60,12 +87,17 @@ RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadli
         uses_.push_back(level.use);
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
         needs_ = united(needs_, level.needs);
-        indices += level.triangles->indices.size();
-        levels_.push_back(
-            {level.use.level, mm_per_box * static_cast<double>(level.error.mean_box),
-             mm_per_box * static_cast<double>(level.error.p95_box),
-             PlacedLevel{
-                 level.triangles, level.box_size, plan.metres_per_box, {}, level.samples, plan.faces}});
+        indices += level.triangles ? level.triangles->indices.size() : 0;
+        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr},
+                           mm_per_box * static_cast<double>(level.error.mean_box),
+                           mm_per_box * static_cast<double>(level.error.p95_box),
+                           PlacedLevel{level.triangles,
+                                       level.box_size,
+                                       plan.metres_per_box,
+                                       {},
+                                       level.samples,
+                                       plan.faces,
+                                       level.data.relief}});
     }
     plan_ = make_plan(plan.prop, indices, 2);
 }
@@ -103,9 +135,13 @@ std::uint64_t RunLevels::bytes() const {
     std::uint64_t bytes = 0;
     std::uint64_t most_indices = 0;
     for (std::size_t place = 0; place < levels_.size(); ++place) {
-        const LevelTriangles& triangles = *levels_[place].placed.triangles;
-        bytes += uses_[place].planned_gpu_bytes + bytes_of(triangles);
-        most_indices = std::max<std::uint64_t>(most_indices, triangles.indices.size());
+        const PlacedLevel& placed = levels_[place].placed;
+        if (placed.relief) {
+            bytes += bytes_of(*placed.relief);
+            continue;
+        }
+        bytes += uses_[place].planned_gpu_bytes + bytes_of(*placed.triangles);
+        most_indices = std::max<std::uint64_t>(most_indices, placed.triangles->indices.size());
     }
     // The plan of a frame lists the triangles that look towards the eye, and those that a face shows.
     return bytes + 2 * sizeof(std::uint32_t) * most_indices;
@@ -113,23 +149,31 @@ std::uint64_t RunLevels::bytes() const {
 
 bool RunLevels::fades() const {
     return std::any_of(rungs_.begin(), rungs_.end(),
-                       [&](const Rung& rung) { return rung.level != rungs_.front().level; });
+                       [&](const Rung& rung) { return !rung.shows_as(rungs_.front()); });
 }
 
-std::size_t RunLevels::slot_of(std::uint32_t level) const {
+std::size_t RunLevels::slot_of(const Rung& rung) const {
     return static_cast<std::size_t>(
-        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.level == level; }) -
+        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.shows.shows_as(rung); }) -
         levels_.begin());
 }
 
-FrameWork RunLevels::work(int samples) const {
-    const double more = static_cast<double>(plan_.samples) / samples; // a slanting view takes more
-    return {static_cast<double>(plan_.indices.size()) / 3.0, static_cast<double>(plan_.lit.pixels()) * more};
+FrameWork RunLevels::work(const Rung& rung) const {
+    const auto pixels = static_cast<double>(plan_.lit.pixels());
+    const auto more = [&](int samples) {
+        return pixels * samples / rung.samples;
+    }; // a slanting view takes more
+    if (rung.relief) {
+        const BlockRelief& relief = *levels_[slot_of(rung)].placed.relief;
+        return {static_cast<double>(relief.blocks.size()),
+                plan_.cast_count > 0 ? more(plan_.casts[0].samples) : pixels};
+    }
+    return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
 }
 
 double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanView& view, Renderer& renderer,
                             const RenderTarget& target) {
-    const Level& level = levels_[slot_of(rung.level)];
+    const Level& level = levels_[slot_of(rung)];
     PlacedLevel placed = level.placed;
     placed.samples = rung.samples;
     std::array<double, 7> ms{};
@@ -153,7 +197,7 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     std::vector<RungTime> times(rungs_.size());
     for (std::size_t k = 0; k < rungs_.size(); ++k) {
         const double ms = median_ms(rungs_[k], prop, view, renderer, target);
-        times[k] = {rungs_[k].samples, work(rungs_[k].samples), ms};
+        times[k] = {rungs_[k].samples, work(rungs_[k]), ms, rungs_[k].relief};
     }
     // Once more, the other way round: what else the machine did meanwhile slowed some rungs and not others. Where two frames take
     // long, a start waits for no more.
@@ -165,13 +209,17 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     // The driver makes its own programs at the first draw with a shader: now, and not in the middle of a fade or with the first
     // artifact that leaves out texels.
     for (const ShaderKey& key : renderer.shaders()) {
-        if (key.pass == ShaderKey::Pass::Surface && !key.places && key.even_light == view.light.has_value()) {
-            PlacedLevel level = levels_.front().placed;
-            level.drawable.material.cut_out = key.cut_out;
+        const bool casts = key.pass == ShaderKey::Pass::Cast;
+        const auto level = std::find_if(levels_.begin(), levels_.end(),
+                                        [&](const Level& one) { return one.shows.relief == casts; });
+        if ((casts || key.pass == ShaderKey::Pass::Surface) && !key.places &&
+            key.even_light == view.light.has_value() && level != levels_.end()) {
+            PlacedLevel placed = level->placed;
+            placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {
-                plan_frame(prop, fade(level, level, 0.5), view, plan_);
+                plan_frame(prop, fade(placed, placed, 0.5), view, plan_);
             } else {
-                plan_frame(prop, level, view, plan_);
+                plan_frame(prop, placed, view, plan_);
             }
             renderer.draw(plan_, target, Redraw::Everything);
         }
@@ -180,14 +228,14 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     start(times);
 }
 
-void RunLevels::start(const RungCost& cost, const PropShape& prop, const PlanView& view) {
+void RunLevels::start(const FrameCost& cost, const PropShape& prop, const PlanView& view) {
     std::vector<RungTime> times;
     for (const Rung& rung : rungs_) {
-        PlacedLevel placed = levels_[slot_of(rung.level)].placed;
+        PlacedLevel placed = levels_[slot_of(rung)].placed;
         placed.samples = rung.samples;
         plan_frame(prop, placed, view, plan_);
-        const FrameWork frame = work(rung.samples);
-        times.push_back({rung.samples, frame, cost.ms(frame, rung.samples)});
+        times.push_back({rung.samples, work(rung), 0.0, rung.relief});
+        times.back().ms = cost.ms(times.back());
     }
     start(times);
 }
@@ -195,12 +243,12 @@ void RunLevels::start(const RungCost& cost, const PropShape& prop, const PlanVie
 void RunLevels::start(const std::vector<RungTime>& times) {
     times_ = times;
     governor_ = Governor(rungs_, times, deadline_ms_);
-    shown_ = slot_of(governor_.rung().level);
+    shown_ = slot_of(governor_.rung());
 }
 
 void RunLevels::enter(MonotonicTime now, double load) {
     governor_.enter(now, load);
-    shown_ = slot_of(governor_.rung().level);
+    shown_ = slot_of(governor_.rung());
     coming_.reset();
 }
 
@@ -229,8 +277,8 @@ void RunLevels::record_time(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
         return; // two levels, or nothing, were drawn: the time says little about one
     }
-    governor_.observe(now, work(governor_.rung().samples), ms);
-    if (const std::size_t slot = slot_of(governor_.rung().level); slot != shown_) {
+    governor_.observe(now, work(governor_.rung()), ms);
+    if (const std::size_t slot = slot_of(governor_.rung()); slot != shown_) {
         coming_ = slot;
         fade_start_ = now;
     }
@@ -240,7 +288,7 @@ LevelState RunLevels::state() const {
     const Level& to = levels_[coming_.value_or(shown_)];
     const Level& from = levels_[shown_];
     return {technique_,
-            name_of_level(to.level),
+            literal_of(to.shows),
             governor_.rung().samples,
             std::max(from.mean_error_mm, to.mean_error_mm),
             std::max(from.p95_error_mm, to.p95_error_mm),

@@ -31,21 +31,22 @@ namespace frustumscreen {
 
 inline constexpr double level_fade_s = 0.4;
 
-/// The mesh of a level and what the scene kept of it, for reports.
+/// The mesh of a level and what the scene kept of it, or a relief, for reports.
 struct LevelUse {
-    std::uint32_t level = 0;
+    std::uint32_t level = 0; ///< of Pack::levels; of a relief its texels
     std::size_t triangles = 0;
     std::size_t unseen_triangles = 0, unseen_clusters = 0;
     glm::ivec2 texture{0, 0}; ///< texels of the finest mip level kept
     int finest_mip = 0;
     std::uint64_t planned_gpu_bytes = 0;
     std::uint64_t gpu_bytes = 0; ///< as the driver says
+    std::size_t blocks = 0;      ///< of a relief, which has none of the above; else 0
 };
 
 /// What is being drawn.
 struct LevelState {
     std::string_view technique; ///< as asked for
-    std::string_view level;     ///< "level0", ...: during a fade the one that comes in; a literal
+    std::string_view level;     ///< "level0", "relief96", ...: during a fade the one that comes in; a literal
     int samples = 0;
     double estimated_error_mm = 0.0; ///< mean; during a fade the larger of the two
     double p95_error_mm = 0.0;       ///< the tolerance limits this one
@@ -58,21 +59,24 @@ struct PreparedLevel {
     LevelUse use; ///< the driver has said nothing yet
     LevelError error;
     glm::dvec3 box_size{1.0};
-    int samples = 0; ///< Pack::samples
-    std::shared_ptr<const LevelTriangles> triangles;
+    int samples = 0;                                 ///< Pack::samples
+    std::shared_ptr<const LevelTriangles> triangles; ///< none: it is a relief, and lies in `data`
     RenderNeeds needs;
     std::vector<LeftOut> left_out;
     LevelData data;
 };
 /// `level`: one of the plan's. Pure; takes long.
 [[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
+/// `outline`: one of the plan's; what was read of it.
+[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, const ReliefOutline& outline,
+                                           BlockRelief relief, const ScenePlan& plan);
 
 class RunLevels {
 public:
-    /// The plan's levels in its order. Nothing can be drawn before each has its drawable. Needs no context.
+    /// The plan's levels in its order, then its reliefs. Nothing can be drawn before each has its drawable. Needs no context.
     RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
               std::span<const PreparedLevel> levels);
-    /// The level at this place of the plan is in the store.
+    /// The level at this place of them is in the store.
     void give(std::size_t place, const Drawable& drawable, const GpuStore& store);
 
     /// All at once. `technique`: as asked for. `pack` need not outlive the call. On failure nothing stays in the store.
@@ -96,7 +100,7 @@ public:
     /// Starts the governor with times that were measured: one for each rung, finest first.
     void start(const std::vector<RungTime>& times);
     /// Starts the governor with times that are expected for the view. Needs no context.
-    void start(const RungCost& cost, const PropShape& prop, const PlanView& view);
+    void start(const FrameCost& cost, const PropShape& prop, const PlanView& view);
     /// Those that it was started with; none before.
     [[nodiscard]] const std::vector<RungTime>& times() const { return times_; }
 
@@ -116,16 +120,16 @@ public:
 
 private:
     struct Level {
-        std::uint32_t level = 0; ///< of the pack
+        Rung shows; ///< without samples
         double mean_error_mm = 0.0;
         double p95_error_mm = 0.0;
         PlacedLevel placed;
     };
     /// With the samples that the governor chose.
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
-    [[nodiscard]] std::size_t slot_of(std::uint32_t level) const;
-    /// The plan's work, for a rung of so many samples.
-    [[nodiscard]] FrameWork work(int samples) const;
+    [[nodiscard]] std::size_t slot_of(const Rung& rung) const;
+    /// The plan's work, for a rung.
+    [[nodiscard]] FrameWork work(const Rung& rung) const;
     [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
                                    Renderer& renderer, const RenderTarget& target);
 

@@ -54,7 +54,7 @@ struct SetRequest {
 };
 /// What frames cost on this GPU, and the view that they are expected for.
 struct ExpectedFrames {
-    RungCost cost;
+    FrameCost cost;
     PropShape prop;
     PlanView view;
     glm::dvec3 eye_m{0.0};

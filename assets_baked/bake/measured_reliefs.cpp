@@ -135,6 +135,15 @@ float ReliefScene::colour_rmse(const SourceSamples& samples) const {
         std::sqrt(squares / static_cast<double>(std::max<std::size_t>(samples.points.size(), 1))));
 }
 
+/// The texture, whose texels are a `size`th of the box, with texels about as large as the relief's: so none of it is skipped.
+Image8 mip_for(const Image8& texture, int size, int texels) {
+    Image8 mip = texture;
+    for (int each = size; each >= 2 * texels; each /= 2) {
+        mip = half_size(mip);
+    }
+    return mip;
+}
+
 } // namespace
 
 std::vector<int> relief_texels(int size) {
@@ -161,10 +170,11 @@ TriangleMesh surface_of(const BlockRelief& relief) {
 }
 
 std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
-    const SourceMesh mesh = textured_source(source.finest, source.texture, source.box_size);
-    const SourceScene scene(mesh, mesh.positions, Sides::Front);
     std::vector<MeasuredRelief> reliefs;
     for (const int texels : relief_texels(size)) {
+        const Image8 texture = mip_for(source.texture, size, texels);
+        const SourceMesh mesh = textured_source(source.finest, texture, source.box_size);
+        const SourceScene scene(mesh, mesh.positions, Sides::Front);
         MeasuredRelief made{bake_blocks({scene, source.box_size, source.directions, texels}), {}};
         if (made.relief.blocks.empty()) {
             continue;

@@ -126,8 +126,8 @@ TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
     EXPECT_EQ(best[0], &found[1]);
     EXPECT_EQ(best_working(found, 1), std::vector<SetUpChoice*>{&found[1]});
     EXPECT_EQ(setup_table(now, found, {}).find("frame"), std::string::npos);
-    now.cost = FrameCost{1.0, 1.0, 5e4};
-    found[1].cost = FrameCost{1.37, 1.21, 65'432.0};
+    now.cost = SetUpCost{1.0, 1.0, 5e4};
+    found[1].cost = SetUpCost{1.37, 1.21, 65'432.0};
     EXPECT_NE(setup_table(now, found, {}).find("1.37 (1.21)"), std::string::npos);
     std::istringstream csv(setup_csv(now, found));
     std::vector<std::string> lines;

@@ -53,7 +53,7 @@ protected:
 TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
     const std::array<const Settings*, 3> set_ups{&settings_, &large_, &settings_};
     double done = 0.0;
-    const Result<std::vector<FrameCost>> costs = frame_costs(set_ups, pack_, [&](double share) {
+    const Result<std::vector<SetUpCost>> costs = frame_costs(set_ups, pack_, [&](double share) {
         EXPECT_GE(share, done);
         done = share;
     });
@@ -62,7 +62,7 @@ TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
     EXPECT_EQ(done, 1.0);
     EXPECT_EQ((*costs)[0].times_first, 1.0);
     EXPECT_EQ((*costs)[0].cpu_times_first, 1.0);
-    for (const FrameCost& cost : *costs) {
+    for (const SetUpCost& cost : *costs) {
         EXPECT_TRUE(std::isfinite(cost.times_first) && cost.times_first > 0.0);
         EXPECT_TRUE(std::isfinite(cost.cpu_times_first) && cost.cpu_times_first > 0.0);
     }
@@ -71,7 +71,7 @@ TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
 
 TEST_F(FrameCosts, TheSamplesHoldEveryPixelThatTheRayCastHits) {
     const std::array<const Settings*, 2> set_ups{&settings_, &large_};
-    const Result<std::vector<FrameCost>> costs = frame_costs(set_ups, pack_, [](double) {});
+    const Result<std::vector<SetUpCost>> costs = frame_costs(set_ups, pack_, [](double) {});
     ASSERT_TRUE(costs) << costs.error().message;
     for (std::size_t k = 0; k < set_ups.size(); ++k) {
         const double hit = pixels_hit(*set_ups[k]) * pack_.samples;

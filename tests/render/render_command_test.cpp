@@ -1,7 +1,9 @@
 // `frustumscreen render` end to end, on a pack made in memory.
 
+#include "app/pack/pack_relief.h"
 #include "tests/programs/kiosk_folder.h"
 #include "tests/render/rig.h"
+#include "tests/render/ring_relief.h"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -61,6 +63,32 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
     EXPECT_NE(csv.find(",level0,"), std::string::npos) << csv;
     EXPECT_TRUE(text("out.txt").empty());
     EXPECT_EQ(text("err.txt"), "");
+}
+
+TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
+    EXPECT_EQ(run(usual("none") + "--technique relief"), 1);
+    EXPECT_NE(text("err.txt").find("bake it again for relief"), std::string::npos) << text("err.txt");
+    Pack pack = rings();
+    complete(pack);
+    put_reliefs(pack, std::vector<MeasuredRelief>{{*relief_of(pack, 96), {1e-3F, 2e-3F, 3e-3F, 0.0F}},
+                                                  {*relief_of(pack, 192), {5e-4F, 1e-3F, 2e-3F, 0.0F}}});
+    ASSERT_TRUE(write_file(folder / "rings.fspack", write_pack(pack).value()));
+    const std::string small = "--width 320 --height 200 ";
+    ASSERT_EQ(run(usual("relief") + small + "--technique relief --aov"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("coarse") + small + "--technique relief96"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("mesh") + small + "--technique level0"), 0) << text("err.txt");
+    EXPECT_NE(text("relief/frames.csv").find(",relief192,"), std::string::npos) << text("relief/frames.csv");
+    EXPECT_NE(text("coarse/frames.csv").find(",relief96,"), std::string::npos) << text("coarse/frames.csv");
+    EXPECT_TRUE(fs::exists(folder / "relief/frame_00001.pfm"));
+    const Image8 relief = picture("relief/frame_00000.png");
+    const Image8 mesh = picture("mesh/frame_00000.png");
+    std::size_t off = 0;
+    for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
+        const glm::ivec3 difference = glm::abs(glm::ivec3(relief.texels[k]) - glm::ivec3(mesh.texels[k]));
+        off += std::max({difference.r, difference.g, difference.b}) > 32 ? 1U : 0U;
+    }
+    EXPECT_GT(lit_pixels(relief), 1000U);
+    EXPECT_LT(off, lit_pixels(mesh) / 10) << "outlines and the texture's edges";
 }
 
 TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
@@ -146,7 +174,8 @@ TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
     for (const std::string technique : {"finst", "level", "level-1", "Auto", "level0x"}) {
         EXPECT_EQ(refusal("run --pattern --config kiosk.toml --technique " + technique),
                   "frustumscreen run: --technique: '" + technique +
-                      "' is no technique; allowed: auto, finest, level0, level1, ...; frustumscreen run "
+                      "' is no technique; allowed: auto, finest, level0, level1, ..., relief, "
+                      "relief96, relief192, ...; frustumscreen run "
                       "--help says more");
     }
     for (const std::string seconds : {"8s", "0,5", "0", "nan", "1e9"}) {

@@ -60,6 +60,35 @@ TEST(Ladder, TakesNoLevelThatHasLostAPart) {
     EXPECT_EQ(ladder(levels, 120.0, 0.28, 1)[0].level, 1U);
 }
 
+TEST(Ladder, HasAReliefWhereItsErrorPutsItAndNoneThatIsNotWithin) {
+    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F)};
+    ReliefOutline relief{384, 5000, 2'000'000, {1e-4F, 5e-4F, 1e-3F, 0.0F}, "r"};
+    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4, relief);
+    ASSERT_EQ(rungs.size(), 8U);
+    EXPECT_TRUE(rungs[0].relief && rungs[0].enough && rungs[0].level == 384 && rungs[0].samples == 4);
+    EXPECT_TRUE(rungs[1].relief && !rungs[1].enough && rungs[1].samples == 1);
+    EXPECT_TRUE(!rungs[2].relief && rungs[2].enough && rungs[2].level == 1);
+    relief.error.p95_box = 2.2e-3F; // within, but worse than the level
+    EXPECT_TRUE(ladder(levels, 120.0, 0.28, 4, relief)[3].relief);
+    relief.error.max_box = 0.05F; // a part is lost: thin sheets, small things
+    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4, relief).size(), 6U);
+    relief.error = {1e-4F, 3e-3F, 1e-3F, 0.0F};
+    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4, relief).size(), 6U);
+}
+
+TEST(Cost, OfReliefsAndMeshesIsApart) {
+    // 1 ms and 1 us a triangle; 2 ms and half a us a block.
+    const std::vector<RungTime> times{{1, {1000.0, 0.0}, 2.0},
+                                      {1, {3000.0, 0.0}, 4.0},
+                                      {1, {1000.0, 0.0}, 2.5, true},
+                                      {1, {9000.0, 0.0}, 6.5, true}};
+    const FrameCost cost = cost_of(times);
+    for (const RungTime& rung : times) {
+        EXPECT_NEAR(cost.ms(rung), rung.ms, 0.02 * rung.ms);
+    }
+    EXPECT_EQ(cost_of({times[0], times[1]}).ms(times[2]), 0.0) << "no relief was measured";
+}
+
 TEST(Ladder, SurvivesErrorFiguresThatAreNone) {
     std::vector<LevelOutline> levels{level_of(1000, std::nanf("")), level_of(3000, -1.0F)};
     EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);

@@ -3,6 +3,7 @@
 #include "app/scene/scene_plan.h"
 #include "tests/settings/steep_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,6 +26,22 @@ PackOutline outline() {
     pack.description.captions = {{"en", "A", ""}, {"de", "B", ""}};
     pack.description.samples = 4;
     pack.description.default_level = 2;
+    return pack;
+}
+
+/// With reliefs of these texels, each with this error, box.
+PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float p95_box) {
+    PackOutline pack = outline();
+    std::string reliefs;
+    std::vector<std::string> parts;
+    for (const std::uint32_t each : texels) {
+        parts.push_back(fmt::format("relief_blocks/{}.bin", each));
+        reliefs += fmt::format(
+            R"({}{{"blocks":5,"bytes":9,"error":{{"mean_box":{},"p95_box":{},"max_box":{},)"
+            R"("colour_rmse":0}},"part":"{}","texels":{}}})",
+            reliefs.empty() ? "" : ",", p95_box / 3.0F, p95_box, 2.0F * p95_box, parts.back(), each);
+    }
+    pack.description.sections = {{"relief_blocks", "{\"reliefs\":[" + reliefs + "]}", parts}};
     return pack;
 }
 
@@ -79,6 +96,58 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     asked.technique = "auto";
     asked.live = false; // a picture from a pose file: the pack's default
     EXPECT_EQ(plan_scene(settings, outline(), asked).value().levels, std::vector<std::uint32_t>{2U});
+}
+
+TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
+    const Settings settings =
+        steep_table(); // a pixel is 0.56 mm on the prop, the artifact 120 mm: 214 pixels
+    const PackOutline pack = outline_with_reliefs({48, 96, 192, 384}, 1e-4F);
+    SceneRequest asked = request(settings);
+    for (const auto& [technique, texels] :
+         {std::pair("relief", 192U), std::pair("relief48", 48U), std::pair("relief384", 384U)}) {
+        asked.technique = technique;
+        const ScenePlan plan = plan_scene(settings, pack, asked).value();
+        EXPECT_TRUE(plan.levels.empty());
+        ASSERT_EQ(plan.reliefs.size(), 1U);
+        EXPECT_EQ(plan.reliefs.front().texels, texels);
+        EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}", texels));
+        EXPECT_EQ(plan.needs.casts, 1U);
+        EXPECT_EQ(plan.needs.samples, 1) << "its samples are taken where it is cast";
+        for (const ShaderKey& key : plan.needs.draws) {
+            EXPECT_NE(key.pass, ShaderKey::Pass::Surface);
+        }
+    }
+    asked.technique = "relief100";
+    EXPECT_NE(plan_scene(settings, pack, asked)
+                  .error()
+                  .message.find("relief, relief48, relief96, relief192 and relief384"),
+              std::string::npos);
+    asked.technique = "relief";
+    EXPECT_NE(plan_scene(settings, outline(), asked).error().message.find("bake it again"),
+              std::string::npos);
+    EXPECT_EQ(
+        plan_scene(settings, outline_with_reliefs({16, 32}, 1e-4F), asked).value().reliefs.front().texels,
+        32U)
+        << "the finest, where none is fine enough";
+}
+
+TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
+    const Settings settings = steep_table();
+    const ScenePlan plan =
+        plan_scene(settings, outline_with_reliefs({96, 192, 384}, 1e-4F), request(settings)).value();
+    ASSERT_EQ(plan.reliefs.size(), 1U);
+    EXPECT_EQ(plan.reliefs.front().texels, 192U);
+    EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
+    EXPECT_EQ(plan.needs.casts, 1U);
+    EXPECT_TRUE(fades(plan));
+    // One that strays further than the tolerance is neither read nor drawn.
+    const ScenePlan meshes =
+        plan_scene(settings, outline_with_reliefs({96, 192, 384}, 8e-3F), request(settings)).value();
+    EXPECT_TRUE(meshes.reliefs.empty());
+    EXPECT_EQ(meshes.needs.casts, 0U);
+    PackOutline damaged = outline_with_reliefs({96}, 1e-4F);
+    damaged.description.sections.front().data = "{}";
+    EXPECT_FALSE(plan_scene(settings, damaged, request(settings)));
 }
 
 TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
@@ -166,12 +235,16 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
         key.cut_out = (bits & 4U) != 0;
         key.places = (bits & 8U) != 0;
         keys.insert(key.places ? places_of(key) : key);
+        if (!key.places && !key.cut_out) {
+            key.pass = ShaderKey::Pass::Cast;
+            keys.insert(key);
+        }
     }
     for (const ShaderKey::Pass pass : {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture,
                                        ShaderKey::Pass::TileClear, ShaderKey::Pass::TileAverage}) {
         keys.insert({pass});
     }
-    EXPECT_EQ(keys.size(), 16U); // places are the same in any light
+    EXPECT_EQ(keys.size(), 20U); // places are the same in any light
     std::set<std::string> names;
     std::set<std::uint32_t> numbers;
     for (const ShaderKey& key : keys) {

@@ -41,7 +41,7 @@ struct SetUpChoice {
     SetUpFigures figures;
     /// Even enough, covered, with pixels enough; its artifacts are no smaller than they are now.
     bool works = false;
-    std::optional<FrameCost> cost; ///< if it was measured
+    std::optional<SetUpCost> cost; ///< if it was measured
 };
 /// The settings as they are, to compare with.
 [[nodiscard]] SetUpChoice as_it_is(const Settings& settings);

@@ -12,7 +12,7 @@ double throw_ratio(const Pinhole& pinhole) {
     return pinhole.fx / pinhole.width;
 }
 
-std::string cost_words(const std::optional<FrameCost>& cost) {
+std::string cost_words(const std::optional<SetUpCost>& cost) {
     return cost ? fmt::format("{:.2f} ({:.2f}) {:7.0f}", cost->times_first, cost->cpu_times_first,
                               1e-3 * cost->samples)
                 : std::string();

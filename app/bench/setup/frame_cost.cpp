@@ -54,10 +54,10 @@ Result<std::unique_ptr<Candidate>> make_candidate(const Settings& settings, cons
 
 } // namespace
 
-Result<std::vector<FrameCost>> frame_costs(std::span<const Settings* const> set_ups, const Pack& pack,
+Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_ups, const Pack& pack,
                                            const Progress& progress) {
     if (set_ups.empty()) {
-        return std::vector<FrameCost>{};
+        return std::vector<SetUpCost>{};
     }
     const Result<EglContext> context = EglContext::without_screen();
     if (!context) {
@@ -75,7 +75,7 @@ Result<std::vector<FrameCost>> frame_costs(std::span<const Settings* const> set_
     }
     const std::vector<BenchPose> poses = turned_in_the_middle(set_ups.front()->eye.default_m);
     const std::vector<FrameTimes> times = time_interleaved(techniques, poses, {rounds}, progress);
-    std::vector<FrameCost> costs;
+    std::vector<SetUpCost> costs;
     for (std::size_t k = 0; k < times.size(); ++k) {
         costs.push_back({quantile(times[k].wall_ms, 0.5) / quantile(times[0].wall_ms, 0.5),
                          quantile(times[k].cpu_ms, 0.5) / quantile(times[0].cpu_ms, 0.5),

@@ -17,14 +17,14 @@
 
 namespace frustumscreen {
 
-struct FrameCost {
+struct SetUpCost {
     double times_first = 1.0;     ///< the median frame time, over that of the first set-up
     double cpu_times_first = 1.0; ///< the same of the processor's time, all threads
     double samples = 0.0;         ///< cleared and averaged for a frame, in whole tiles; a mean over the poses
 };
 
 /// One for each set-up; the first has the ratio 1. All have the first one's eyes.
-[[nodiscard]] Result<std::vector<FrameCost>> frame_costs(std::span<const Settings* const> set_ups,
+[[nodiscard]] Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_ups,
                                                          const Pack& pack, const Progress& progress);
 
 } // namespace frustumscreen

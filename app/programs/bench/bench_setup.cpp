@@ -28,7 +28,7 @@ Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUp
     for (const SetUpChoice* choice : timed) {
         set_ups.push_back(&choice->settings);
     }
-    const Result<std::vector<FrameCost>> costs =
+    const Result<std::vector<SetUpCost>> costs =
         frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); });
     if (!costs) {
         return tl::unexpected<Error>(costs.error());

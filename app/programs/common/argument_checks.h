@@ -18,7 +18,9 @@ namespace frustumscreen {
     const auto check = [](std::string& text) {
         return is_technique(text)
                    ? std::string()
-                   : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ...", text);
+                   : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ..., "
+                                 "relief, relief96, relief192, ...",
+                                 text);
     };
     return {check, ""};
 }

@@ -72,6 +72,10 @@ std::string needs_text(const PlanReport& report) {
     std::string text = "The exhibit needs\n";
     const auto out = std::back_inserter(text);
     for (const LevelUse& level : report.measured.show->levels(0).uses()) {
+        if (level.blocks > 0) {
+            fmt::format_to(out, "  relief of {} texels: {} blocks\n", level.level, level.blocks);
+            continue;
+        }
         fmt::format_to(out, "  level {}: {} triangles, a texture of {} x {} texels\n", level.level,
                        level.triangles, level.texture.x, level.texture.y);
     }
@@ -129,6 +133,7 @@ Json needs_json(const PlanReport& report) {
     Json levels = Json::array();
     for (const LevelUse& level : report.measured.show->levels(0).uses()) {
         levels.push_back({{"level", level.level},
+                          {"blocks", level.blocks},
                           {"triangles", level.triangles},
                           {"unseen_triangles", level.unseen_triangles},
                           {"unseen_clusters", level.unseen_clusters},
@@ -139,7 +144,10 @@ Json needs_json(const PlanReport& report) {
     }
     Json rungs = Json::array();
     for (const Rung& rung : plan.rungs) {
-        rungs.push_back({{"level", rung.level}, {"samples", rung.samples}, {"enough", rung.enough}});
+        rungs.push_back({{"technique", name_of(rung)},
+                         {"level", rung.level},
+                         {"samples", rung.samples},
+                         {"enough", rung.enough}});
     }
     return {{"levels", levels},
             {"rungs", rungs},

@@ -44,7 +44,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
     app.add_option("--poses", request.poses, "poses, CSV")->required();
     app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
-    app.add_option("--technique", request.options.technique, "auto, finest, level0, level1, ...")
+    app.add_option("--technique", request.options.technique,
+                   "auto, finest, level0, level1, ..., relief, relief96, ...")
         ->check(is_technique_word())
         ->capture_default_str();
     CLI::Option* width =

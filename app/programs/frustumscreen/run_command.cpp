@@ -85,7 +85,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
                    "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
-    app.add_option("--technique", request.show.technique, "auto, finest, level0, level1, ...")
+    app.add_option("--technique", request.show.technique,
+                   "auto, finest, level0, level1, ..., relief, relief96, ...")
         ->check(is_technique_word())
         ->capture_default_str();
     app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");

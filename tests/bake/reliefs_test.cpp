@@ -1,0 +1,66 @@
+// The reliefs that a pack gets beside its levels, against what is known of a sphere.
+#include "app/pack/block_part.h"
+#include "app/pack/pack_relief.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/measured_reliefs.h"
+#include "tests/bake/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+Pack sphere_pack(int size) {
+    SourceMesh mesh = test::empty_mesh();
+    test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 64);
+    for (const glm::dvec3& p : mesh.positions) {
+        mesh.colours.emplace_back(0.5 + p.x, 0.5 + p.y, p.z, 1.0);
+    }
+    BakeOptions options;
+    options.size = size;
+    options.unlit = true;
+    options.up = "z";
+    options.turn_deg = 0.0;
+    return bake(mesh, options).value();
+}
+
+BlockRelief relief_of(const Pack& pack, const ReliefOutline& outline) {
+    return pack_format::decode_blocks(pack.section_parts.at(outline.part)).value();
+}
+
+TEST(Reliefs, AreOf96TexelsAndTwiceAsManyUpToTheBakesSize) {
+    EXPECT_EQ(relief_texels(512), (std::vector<int>{96, 192, 384}));
+    EXPECT_EQ(relief_texels(1024), (std::vector<int>{96, 192, 384, 768}));
+    EXPECT_EQ(relief_texels(96), (std::vector<int>{96}));
+    EXPECT_EQ(relief_texels(40), (std::vector<int>{40}));
+}
+
+TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
+    const Pack pack = sphere_pack(192);
+    const std::vector<ReliefOutline> reliefs = reliefs_of(pack).value();
+    ASSERT_EQ(reliefs.size(), 2U);
+    for (const ReliefOutline& outline : reliefs) {
+        const BlockRelief relief = relief_of(pack, outline);
+        EXPECT_EQ(relief.grids.size(), 5U) << "a frustum's";
+        double worst = 0.0;
+        for (const glm::vec3& point : surface_of(relief).positions) {
+            worst = std::max(worst, std::abs(glm::distance(glm::dvec3(point), {0.0, 0.0, 0.5}) - 0.5));
+        }
+        std::printf("%u texels: off the sphere by %.2e at most; mean %.2e, p95 %.2e, max %.2e, colour %.2f\n",
+                    outline.texels, worst, static_cast<double>(outline.error.mean_box),
+                    static_cast<double>(outline.error.p95_box), static_cast<double>(outline.error.max_box),
+                    static_cast<double>(outline.error.colour_rmse));
+        // The sphere's own triangles are off it by 1 - cos(pi / 64) of its radius.
+        EXPECT_LT(worst, 0.02);
+        EXPECT_LT(outline.error.p95_box, 0.5F / static_cast<float>(outline.texels));
+        EXPECT_LT(outline.error.max_box, 2.0F / static_cast<float>(outline.texels));
+        EXPECT_LT(outline.error.colour_rmse, 2.0F);
+    }
+    EXPECT_LT(reliefs[1].error.mean_box, reliefs[0].error.mean_box);
+}
+
+} // namespace
+} // namespace frustumscreen

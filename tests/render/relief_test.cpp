@@ -1,0 +1,199 @@
+// A relief in the picture: where the ray cast has the artifact, in the colours of its mesh, beside meshes in a fade.
+
+#include "tests/render/counted_new.h"
+#include "tests/render/reference_cast.h"
+#include "tests/render/rig.h"
+#include "tests/render/ring_relief.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+RenderNeeds needs_with_casts(int samples) {
+    RenderNeeds all = needs(samples, true);
+    for (ShaderKey key : RenderNeeds(all).draws) {
+        if (key.pass == ShaderKey::Pass::Surface) {
+            key.pass = ShaderKey::Pass::Cast;
+            all.draws.insert(key);
+        }
+    }
+    all.casts = 2;
+    return all;
+}
+
+struct ReliefRig : Rig {
+    PlacedLevel cast;
+
+    explicit ReliefRig(int samples, int texels = 256) : Rig(320, 200, samples) {
+        EXPECT_TRUE(renderer->prepare(needs_with_casts(samples)));
+        hit_points = HitPointRenderer::create(*renderer).value();
+        const std::shared_ptr<const BlockRelief> relief = relief_of(pack, texels);
+        cast = placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
+        level.samples = cast.samples = samples;
+        plan = make_plan(prop, 2 * level.triangles->indices.size(), 2);
+    }
+    Image8 one(const Stage& stage, const PlacedLevel& which, std::optional<LightCompensation> light = {}) {
+        plan_frame(prop, which, stage.view(light), plan);
+        draw(Redraw::Everything);
+        return picture();
+    }
+    Image8 fading(const Stage& stage, const PlacedLevel& from, const PlacedLevel& to, double share) {
+        plan_frame(prop, fade(from, to, share), stage.view(LightCompensation{}), plan);
+        EXPECT_TRUE(draw(Redraw::Everything).drawn);
+        return picture();
+    }
+};
+
+int farthest_channel(const glm::u8vec4& a, const glm::u8vec4& b) {
+    const glm::ivec3 difference = glm::abs(glm::ivec3(a) - glm::ivec3(b));
+    return std::max({difference.r, difference.g, difference.b});
+}
+
+TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
+    ReliefRig rig(1);
+    const ReferenceCast truth(rig.pack, rig.level.metres_per_box);
+    Stage stage(320, 200);
+    std::mt19937 random(3);
+    for (int pose = 0; pose < 3; ++pose) {
+        stage.shuffle(random);
+        const Image8 picture = rig.one(stage, rig.cast);
+        const ImageFloat places = rig.places();
+        std::size_t both = 0;
+        std::size_t one = 0;
+        double mm = 0.0;
+        for (int y = 0; y < places.height; ++y) {
+            for (int x = 0; x < places.width; ++x) {
+                const ReferenceCast::Hit hit = truth.through_pixel(stage, {x + 0.5, y + 0.5});
+                const bool met = !std::isnan(places.at(x, y).x);
+                const glm::u8vec4 shown = picture.at(x, y);
+                one += met != hit.found ? 1U : 0U;
+                EXPECT_TRUE(met || shown.r + shown.g + shown.b == 0) << x << " " << y;
+                if (met && hit.found) {
+                    both += 1;
+                    mm += 1e3 * glm::distance(glm::dvec3(places.at(x, y)), hit.point);
+                }
+            }
+        }
+        std::printf("%zu pixels, %zu in one alone, %.4f mm\n", both, one, mm / static_cast<double>(both));
+        ASSERT_GT(both, 800U);
+        EXPECT_LT(one, both / 50);
+        EXPECT_LT(mm / static_cast<double>(both), 0.05);
+    }
+}
+
+TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
+    ReliefRig rig(1);
+    Stage stage(320, 200);
+    std::mt19937 random(4);
+    for (const std::optional<LightCompensation> light :
+         {std::optional<LightCompensation>(), std::optional(LightCompensation{})}) {
+        stage.shuffle(random);
+        const Image8 mesh = rig.one(stage, rig.level, light);
+        const Image8 relief = rig.one(stage, rig.cast, light);
+        std::size_t lit = 0;
+        std::size_t off = 0;
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
+            const glm::u8vec4& a = mesh.texels[k];
+            if (a.r + a.g + a.b > 0) {
+                lit += 1;
+                sum += glm::dvec3(relief.texels[k]) - glm::dvec3(a);
+                off += farthest_channel(a, relief.texels[k]) > 24 ? 1U : 0U;
+            }
+        }
+        const glm::dvec3 brighter = sum / static_cast<double>(lit);
+        std::printf("%zu pixels, %zu off by more than 24 codes, %.2f %.2f %.2f brighter\n", lit, off,
+                    brighter.r, brighter.g, brighter.b);
+        ASSERT_GT(lit, 800U);
+        EXPECT_LT(off, lit / 4); // the texture's squares have edges, and few pixels each
+        EXPECT_LT(glm::length(brighter), 6.0);
+    }
+}
+
+TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
+    for (const int samples : {1, 4}) {
+        ReliefRig rig(samples);
+        Stage stage(320, 200);
+        std::mt19937 random(7);
+        stage.shuffle(random);
+        const Image8 mesh = rig.one(stage, rig.level, LightCompensation{});
+        const Image8 relief = rig.one(stage, rig.cast, LightCompensation{});
+        for (const bool comes : {true, false}) {
+            const Image8& from = comes ? mesh : relief;
+            const Image8& to = comes ? relief : mesh;
+            std::size_t last = 0;
+            for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const Image8 middle = comes ? rig.fading(stage, rig.level, rig.cast, share)
+                                            : rig.fading(stage, rig.cast, rig.level, share);
+                std::size_t arrived = 0;
+                std::size_t neither = 0;
+                for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+                    const bool is_from = farthest_channel(middle.texels[k], from.texels[k]) <= 1;
+                    const bool is_to = farthest_channel(middle.texels[k], to.texels[k]) <= 1;
+                    neither += is_from || is_to ? 0U : 1U;
+                    arrived += is_to && !is_from ? 1U : 0U;
+                }
+                // Beside a mesh of several samples a pixel on the edge of the prop has the relief in some of them.
+                const std::size_t on_edges = samples > 1 ? 20 : 0;
+                EXPECT_LE(neither, on_edges) << samples << " " << comes << " " << share;
+                std::printf("%d samples, %g: %zu neither, %zu arrived\n", samples, share, neither, arrived);
+                EXPECT_TRUE(share == 0.0 ? arrived <= on_edges : arrived > last) << share;
+                last = arrived;
+            }
+        }
+    }
+}
+
+TEST(Relief, TwoOfThemFadeIntoEachOther) {
+    ReliefRig rig(1);
+    const std::shared_ptr<const BlockRelief> coarse = relief_of(rig.pack, 64);
+    PlacedLevel other =
+        placed(rig.pack, coarse, rig.level.metres_per_box, rig.renderer->store().keep(coarse));
+    other.samples = 1;
+    Stage stage(320, 200);
+    std::mt19937 random(8);
+    stage.shuffle(random);
+    const Image8 from = rig.one(stage, rig.cast, LightCompensation{});
+    const Image8 to = rig.one(stage, other, LightCompensation{});
+    ASSERT_NE(from.texels, to.texels);
+    const Image8 middle = rig.fading(stage, rig.cast, other, 0.5);
+    for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+        ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
+    }
+}
+
+TEST(Relief, IsGoneWhenItWasReleased) {
+    ReliefRig rig(1);
+    const Stage stage(320, 200);
+    ASSERT_GT(lit_pixels(rig.one(stage, rig.cast)), 1000U);
+    rig.renderer->store().release(rig.cast.drawable);
+    EXPECT_EQ(lit_pixels(rig.one(stage, rig.cast)), 0U);
+}
+
+TEST(Relief, AFrameOfItAllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    ReliefRig rig(4);
+    Stage stage(320, 200);
+    std::mt19937 random(5);
+    std::vector<Stage> stages;
+    for (int k = 0; k < 20; ++k) {
+        stage.shuffle(random);
+        stages.push_back(stage);
+    }
+    long counted = 0;
+    for (int k = 0; k < 60; ++k) { // the first rounds make room for the fullest view
+        const Stage& from = stages[static_cast<std::size_t>(k) % stages.size()];
+        const long before = allocations_so_far();
+        plan_frame(from.prop, rig.cast, from.view(LightCompensation{}), rig.plan);
+        rig.draw();
+        counted += k < 40 ? 0 : allocations_so_far() - before;
+    }
+    EXPECT_EQ(counted, 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
