@@ -2,7 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -14,23 +14,30 @@ GLuint stencil_value(std::size_t face) {
     return static_cast<GLuint>(face) + 1U;
 }
 
-void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster) {
-    const glm::vec2 scale = 1.0F / glm::vec2(raster.fragments);
-    glUniform4f(shader.location(Uniform::PixelFromFragment), scale.x, scale.y,
-                static_cast<float>(raster.corner.x), static_cast<float>(raster.corner.y));
-    glUniform4f(shader.location(Uniform::Pinhole), static_cast<float>(pinhole.cx),
-                static_cast<float>(pinhole.cy), static_cast<float>(1.0 / pinhole.fx),
-                static_cast<float>(1.0 / pinhole.fy));
+/// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
+constexpr float code_power = 1.0F / 2.4F;
+
+void set_uniform(const Shader& shader, Uniform uniform, const glm::dvec2& scale, const glm::dvec2& offset) {
+    const glm::vec4 packed(scale, offset);
+    glUniform4fv(shader.location(uniform), 1, glm::value_ptr(packed));
 }
 
-void set_face(const Shader& shader, const FacePlan& face) {
-    glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(face.light.inverse_depth));
-    glUniform3f(shader.location(Uniform::FaceGain), face.light.constant, face.light.per_cubic_metre,
-                face.light.most);
+void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster) {
+    const glm::dvec2 scale = 1.0 / glm::dvec2(raster.fragments);
+    const glm::dvec2 corner(raster.corner);
+    const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
+    set_uniform(shader, Uniform::PixelFromFragment, scale, corner);
+    set_uniform(shader, Uniform::RayFromFragment, scale * per_pixel,
+                (corner - glm::dvec2(pinhole.cx, pinhole.cy)) * per_pixel);
+}
+
+void set_face(const Shader& shader, const FaceLight& light) {
+    glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(light.inverse_depth));
+    glUniform4f(shader.location(Uniform::FaceGain), light.per_cubic_metre, light.most,
+                std::pow(light.per_cubic_metre, code_power), std::pow(light.most, code_power));
 }
 
 void set_draw(const Shader& shader, const Draw& draw) {
-    constexpr float code_power = 1.0F / 2.4F;
     glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
     glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
     glUniform3fv(shader.location(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
@@ -40,11 +47,10 @@ void set_draw(const Shader& shader, const Draw& draw) {
 
 /// The uploaded level that ::mip_level asks for, one for the whole draw: a software or small GPU spends more
 /// on finding and mixing two levels for each pixel than on the rest of the pixel.
-float mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
+int mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
     const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
-    return static_cast<float>(
-        mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box) -
-        texture.finest_mip);
+    const int mip = mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box);
+    return std::max(mip - texture.finest_mip, 0);
 }
 
 } // namespace
@@ -161,7 +167,7 @@ void FacePass::draw_cast(const FramePlan& plan, const Draw& draw, const CastPass
     }
     shader.use();
     set_view(shader, plan.projector, raster);
-    set_face(shader, plan.faces[face]);
+    set_face(shader, plan.faces[face].light);
     set_draw(shader, draw);
     glUniform4fv(shader.location(Uniform::Corners), 4, glm::value_ptr(plan.faces[face].corners_clip[0]));
     glActiveTexture(GL_TEXTURE0);
@@ -182,11 +188,11 @@ void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuSt
     const auto face = static_cast<std::size_t>(draw.face);
     shader.use();
     set_view(shader, plan.projector, raster);
-    set_face(shader, plan.faces[face]);
+    set_face(shader, plan.faces[face].light);
     set_draw(shader, draw);
-    glUniform1f(shader.location(Uniform::MipLevel), mip_of(draw, texture, raster));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture.texels.get());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, mip_of(draw, texture, raster));
     glBindVertexArray(mesh.vertex_array.get());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);

@@ -63,7 +63,8 @@ Result<void> LevelUpload::begin() {
     glBindTexture(GL_TEXTURE_2D, texels_.get());
     glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
                    finest.height);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    // Each draw takes one level, its GL_TEXTURE_BASE_LEVEL: a filter that may choose costs more.
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

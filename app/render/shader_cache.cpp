@@ -11,9 +11,10 @@ namespace {
 
 /// In the order of Uniform.
 constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> uniform_names{
-    "corners",    "clip_from_unit",      "prop_from_unit", "mip_level",     "brightness",
-    "dither",     "pixel_from_fragment", "pinhole",        "inverse_depth", "face_gain",
-    "edge_share", "rectangles",          "picture",        "raster"};
+    "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
+    "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
+    "face_gain", "edge_share",          "rectangles",        "picture",
+    "raster"};
 
 } // namespace
 

@@ -44,10 +44,9 @@ out vec4 result;
 uniform sampler2D image;
 #ifndef CAST
 in vec2 texel;
-uniform float mip_level;
 #endif
 #endif
-#if defined(EVEN_LIGHT) || defined(DITHERED) || defined(CAST)
+#if defined(DITHERED) || defined(CAST)
 uniform vec4 pixel_from_fragment; // scale, offset
 #endif
 #ifdef DITHERED
@@ -65,15 +64,14 @@ in vec3 point;
 #else
 uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
 #ifdef EVEN_LIGHT
-uniform vec4 pinhole;       // cx, cy, 1 / fx, 1 / fy
-uniform vec3 inverse_depth; // of the face's plane
-uniform vec3 face_gain;     // constant, times d^3, most
-float compensation() {
-    vec2 pixel = gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw;
-    vec2 ray = (pixel - pinhole.xy) * pinhole.zw;
-    float depth = 1.0 / dot(inverse_depth, vec3(pixel, 1.0));
-    float d2 = depth * depth * (1.0 + dot(ray, ray));
-    return min(face_gain.z, face_gain.x + face_gain.y * d2 * sqrt(d2));
+uniform vec4 ray_from_fragment; // scale, offset; z = 1
+uniform vec3 inverse_depth;     // of the face's plane, along a ray
+uniform vec4 face_gain;         // times d^3, most; both to the power of 1 / 2.4
+// As `brightness`. 3 / 2.4 is 1 + 1 / 4: a power of the distance takes roots alone.
+vec2 compensation() {
+    vec3 ray = vec3(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw, 1.0);
+    float d = sqrt(dot(ray, ray)) / dot(inverse_depth, ray);
+    return min(face_gain.yw, face_gain.xz * d * vec2(d * d, sqrt(sqrt(d))));
 }
 #endif
 #endif
@@ -87,7 +85,7 @@ void main() {
     // A pixel of the picture that was cast; all of its samples here show the same.
     vec4 seen = texelFetch(image, ivec2(gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw), 0);
 #elif !defined(PLACES) || defined(CUT_OUT)
-    vec4 seen = textureLod(image, texel, mip_level);
+    vec4 seen = texture(image, texel);
 #endif
 #if defined(CUT_OUT) || defined(CAST)
     if (seen.a < 0.5) {
@@ -100,8 +98,7 @@ void main() {
     vec3 code = seen.rgb;
     vec2 gain = brightness;
 #ifdef EVEN_LIGHT
-    float compensated = compensation();
-    gain *= vec2(compensated, pow(compensated, 1.0 / 2.4));
+    gain *= compensation();
 #endif
     // The code of `gain` times the light of a code, by sRGB's own power law; its straight piece near black exactly.
     result = vec4(max(gain.x * code, (code + 0.055) * gain.y - 0.055), 1.0);

@@ -343,8 +343,8 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
     const double reference =
         reference_light(std::span(seen).first(faces), shared.projector_in_prop, compensation);
     for (FacePlan& face : plan.faces) {
-        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)], shared.view.projector,
-                                shared.projector_from_prop, reference, compensation);
+        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)],
+                                shared.projector_from_prop, reference);
     }
     feather_edges(shared.prop, shared.projector_in_prop, plan);
 }

@@ -49,33 +49,26 @@ double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projec
     return compensation.reference * share;
 }
 
-FaceLight face_light(const PropFace& face, const Pinhole& pinhole, const glm::dmat4& projector_from_prop,
-                     double reference, const LightCompensation& compensation) {
+FaceLight face_light(const PropFace& face, const glm::dmat4& projector_from_prop, double reference) {
     // The plane in the projector's frame: m.Q = h with m = R n; with Q = Z r, 1 / Z = m.r / h.
     const glm::dmat3 rotation(projector_from_prop);
     const glm::dvec3 m = rotation * face.plane.normal;
     const double h = face.plane.offset + glm::dot(m, glm::dvec3(projector_from_prop[3]));
-    const glm::dvec3 per_ray = m / h;
     FaceLight light;
-    light.inverse_depth = glm::vec3(
-        glm::dvec3(per_ray.x / pinhole.fx, per_ray.y / pinhole.fy,
-                   per_ray.z - per_ray.x * pinhole.cx / pinhole.fx - per_ray.y * pinhole.cy / pinhole.fy));
+    light.inverse_depth = glm::vec3(m / h);
     const glm::dvec3 projector = glm::transpose(rotation) * -glm::dvec3(projector_from_prop[3]);
     const double most = ease((sine_above(face, projector) - least_sine_of_light) /
                              (full_sine_of_light - least_sine_of_light));
     light.most = static_cast<float>(most);
-    light.constant = static_cast<float>(most * (1.0 - compensation.strength));
     // `h` is measured from the projector's origin along m: the projector is -h above the plane.
-    light.per_cubic_metre = static_cast<float>(most * compensation.strength * reference / -h);
+    light.per_cubic_metre = static_cast<float>(most * reference / -h);
     return light;
 }
 
 double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel) {
-    const double inverse_depth = glm::dot(glm::dvec3(light.inverse_depth), glm::dvec3(pixel, 1.0));
-    const double d = glm::length(pinhole.ray(pixel)) / inverse_depth;
-    return std::min(static_cast<double>(light.most),
-                    static_cast<double>(light.constant) +
-                        static_cast<double>(light.per_cubic_metre) * d * d * d);
+    const glm::dvec3 ray = pinhole.ray(pixel);
+    const double d = glm::length(ray) / glm::dot(glm::dvec3(light.inverse_depth), ray);
+    return std::min(static_cast<double>(light.most), static_cast<double>(light.per_cubic_metre) * d * d * d);
 }
 
 } // namespace frustumscreen

@@ -31,8 +31,6 @@ struct LightCompensation {
     double reference = 0.25;
     /// How far the artifact dims as a whole, 0..1; 1: never.
     double least_share = 0.3;
-    /// 0 = none, 1 = even light; between: a mixture of the two pictures, brighter and less even.
-    double strength = 1.0;
 };
 
 /// What the exhibit does in this set-up. In the hand no artifact dims as a whole: a face that looks away from the
@@ -54,18 +52,16 @@ struct SeenFace {
 [[nodiscard]] double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 
-/// Gain of the pixel (u, v), in linear light, for a face: min(most, constant + per_cubic_metre * d^3), where
-/// the lit point's distance is d = |((u - cx) / fx, (v - cy) / fy, 1)| / dot(inverse_depth, (u, v, 1)).
+/// Gain of the pixel (u, v), in linear light, for a face: min(most, per_cubic_metre * d^3), where the lit point's
+/// distance is d = |ray| / dot(inverse_depth, ray), and ray = ((u - cx) / fx, (v - cy) / fy, 1).
 struct FaceLight {
     glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F}; ///< 1/m, of the face's plane along the optical axis
-    float constant = 1.0F;
     float per_cubic_metre = 0.0F;
     float most = 1.0F; ///< less where the light grazes the face
 };
 /// `projector_from_prop` is rigid; the projector is above the face.
-[[nodiscard]] FaceLight face_light(const PropFace& face, const Pinhole& pinhole,
-                                   const glm::dmat4& projector_from_prop, double reference,
-                                   const LightCompensation& compensation);
+[[nodiscard]] FaceLight face_light(const PropFace& face, const glm::dmat4& projector_from_prop,
+                                   double reference);
 [[nodiscard]] double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel);
 
 } // namespace frustumscreen

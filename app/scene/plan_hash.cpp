@@ -76,7 +76,6 @@ std::uint64_t hash_of_prop(const FramePlan& plan) {
     for (const FacePlan& face : plan.faces) {
         hash.add(static_cast<std::uint64_t>(face.face));
         hash_corners(face.corners_clip, hash);
-        hash.add_float(face.light.constant);
         hash.add_float(face.light.per_cubic_metre);
         hash.add_float(face.light.most);
     }

@@ -25,8 +25,7 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
     std::uniform_real_distribution<double> u(0.0, 1.0);
     for (const PropFace& face : lit.prop.faces) {
         const double reference = 0.2;
-        const FaceLight light =
-            face_light(face, pinhole, lit.projector_from_prop.matrix(), reference, LightCompensation{});
+        const FaceLight light = face_light(face, lit.projector_from_prop.matrix(), reference);
         for (int k = 0; k < 200; ++k) {
             const double s = u(random);
             const double t = u(random);
@@ -113,7 +112,7 @@ TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
         const glm::dvec3 lens = middle + std::sqrt(1.0 - sine * sine) * along + sine * front.plane.normal;
         glm::dmat4 projector_from_prop(1.0); // looking along -Z suffices: only the lens's place counts
         projector_from_prop[3] = glm::dvec4(-lens, 1.0);
-        const FaceLight light = face_light(front, pinhole, projector_from_prop, 0.2, {});
+        const FaceLight light = face_light(front, projector_from_prop, 0.2);
         EXPECT_GE(light.most, before) << sine;
         EXPECT_LT(light.most - before, k > 0 ? 0.01 : 2.0) << sine;
         EXPECT_EQ(light.most == 0.0F, sine <= least_sine_of_light) << sine;

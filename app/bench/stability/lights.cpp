@@ -67,8 +67,7 @@ public:
         const double reference = reference_light(faces, lens, compensation_);
         std::vector<std::optional<double>> sent;
         for (const PropFace& face : prop_.faces) {
-            const FaceLight light =
-                face_light(face, projector_.pinhole, projector_from_prop.matrix(), reference, compensation_);
+            const FaceLight light = face_light(face, projector_from_prop.matrix(), reference);
             const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
             for (const glm::dvec3& point :
                  {face.corners[0], face.corners[1], face.corners[2], face.corners[3], middle}) {

@@ -111,7 +111,6 @@ double not_finite(const FramePlan& plan) {
                 add(static_cast<double>(corner[k]));
             }
         }
-        add(static_cast<double>(face.light.constant));
         add(static_cast<double>(face.light.per_cubic_metre));
         add(face.pixels_per_m);
     }

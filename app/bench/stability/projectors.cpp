@@ -93,8 +93,7 @@ StabilityResult light(const StabilityOptions&) {
             const glm::dvec3 lens = projector_from_prop.inverse().translation;
             const std::array seen{SeenFace{&face, stage.eye_m}};
             const double reference = reference_light(seen, lens, {});
-            const FaceLight planned =
-                face_light(face, stage.projector, projector_from_prop.matrix(), reference, {});
+            const FaceLight planned = face_light(face, projector_from_prop.matrix(), reference);
             for (int j = 0; j < 100; ++j) {
                 const int row = j / 10;
                 const double a = (j % 10 + 0.5) / 10.0;
