@@ -24,16 +24,23 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
     return std::fmax(nearest, 0.0) / std::fmax(projector.fx, projector.fy);
 }
 
-std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box, double tolerance_mm,
-                         int samples, const std::optional<ReliefOutline>& relief) {
-    constexpr double most_over_p95 = 4.0;        // two pixels for half a one
-    const auto within = [&](const auto& level) { // false for NaN
-        return static_cast<double>(level.error.p95_box) * mm_per_box <= tolerance_mm &&
-               static_cast<double>(level.error.max_box) * mm_per_box <= most_over_p95 * tolerance_mm;
+bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
+                      double tolerance_mm) {
+    constexpr double outline_share = 0.5;
+    constexpr double most_over_mean = 4.0;                     // two pixels for half a one
+    const auto within = [mm_per_box](float box, double most) { // false for NaN
+        return static_cast<double>(box) * mm_per_box <= most;
     };
+    return within(worst.mean_box, tolerance_mm) &&
+           within(worst.outline_shift_box, outline_share * tolerance_mm) &&
+           within(error.max_box, most_over_mean * tolerance_mm);
+}
+
+std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough, int samples,
+                         const std::optional<ReliefOutline>& relief) {
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
-        if (within(levels[k]) && (!within(levels[best]) || levels[k].triangles <= levels[best].triangles)) {
+        if (enough[k] && (!enough[best] || levels[k].triangles <= levels[best].triangles)) {
             best = k;
         }
     }
@@ -48,11 +55,11 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box
         }
         last_triangles = triangles;
         for (int s = std::max(samples, 1); s >= 1; s /= 2) {
-            rungs.push_back({static_cast<std::uint32_t>(k), s,
-                             k == best && s == std::max(samples, 1) && within(levels[k])});
+            rungs.push_back(
+                {static_cast<std::uint32_t>(k), s, k == best && s == std::max(samples, 1) && enough[k]});
         }
     }
-    if (relief && within(*relief)) {
+    if (relief) {
         const int full = std::max(samples, 1);
         std::vector<Rung> cast{{relief->texels, full, true, true}};
         if (full > 1) {

@@ -5,10 +5,12 @@
 /// samples that the artifact wants), the quickest, if it meets the deadline. Second: the finest level that
 /// meets it, with as many samples as fit. Third: the quickest rung.
 ///
-/// Tolerance  half a projector pixel as that pixel lands on the face (docs/conventions.md): nearly all
-///          of a level's surface (p95) is off by no more, and all of it (max) by no more than two pixels.
-///          The mean would hide a spout that is off by pixels, where a visitor looks; p95 alone hides a
-///          strap of 3 % of the surface that a level has lost.
+/// Tolerance  half a projector pixel as that pixel lands on the face (docs/conventions.md): the eye that sees the
+///          most of a level's error sees it off by no more than that on average, its outline by no more than half of
+///          that, and no part of it is off by more than two pixels. The worst eye and not a typical one, because a
+///          visitor may stay where the level looks worst, and the limits that the bench holds are those of the worst
+///          pose. The mean alone would hide a spout that is off by pixels, where a visitor looks; distances between
+///          the surfaces hide what a slanting eye sees of them (error_estimate.h).
 /// Levers   fewer samples come before a coarser level, because samples do not affect the tolerance. Measured
 ///          on six scans (RMSE in codes against the finest level at 16 samples, llvmpipe): past the tolerance
 ///          a coarser level cost 2 to 200 codes for each millisecond saved, half the samples 4 to 14: about
@@ -38,6 +40,7 @@
 #include "app/geometry/transform.h"
 #include "app/pack/pack_outline.h"
 #include "app/pack/pack_relief.h"
+#include "app/pack/seen_errors.h"
 #include "app/scene/frame_time_model.h"
 
 #include <cstdint>
@@ -64,12 +67,17 @@ struct Rung {
     }
 };
 
-/// The rungs that a governor may pick, best first; nothing else must be loaded. The level that meets the
-/// tolerance with fewest triangles (the finest if none does), coarser ones that save at least a quarter of
-/// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel. `relief`, if it meets the tolerance,
-/// stands before the levels that are less exact, with `samples` and with 1.
-[[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, double mm_per_box,
-                                       double tolerance_mm, int samples,
+/// `worst`: of the level, as the eyes see it that see the most of its error.
+[[nodiscard]] bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
+                                    double tolerance_mm);
+
+/// The rungs that a governor may pick, best first; nothing else must be loaded. The level that is good enough
+/// with fewest triangles (the finest if none is), coarser ones that save at least a quarter of
+/// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
+/// `enough`: of each level, whether it is. `relief`, one that is good enough, stands before the levels that are less exact, with
+/// `samples` and with 1.
+[[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough,
+                                       int samples,
                                        const std::optional<ReliefOutline>& relief = std::nullopt);
 
 class Governor {

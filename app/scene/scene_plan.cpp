@@ -30,6 +30,15 @@ std::string listed(std::string_view one, std::string_view more, const std::vecto
     return text;
 }
 
+std::vector<bool> good_levels(const PackOutline& pack, const ScenePlan& plan, double tolerance_mm) {
+    std::vector<bool> good;
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        good.push_back(within_tolerance(pack.levels[k].error, worst_of(plan.seen[k]),
+                                        1e3 * plan.metres_per_box, tolerance_mm));
+    }
+    return good;
+}
+
 /// Of reliefs that were read of the pack's description.
 std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs, std::uint32_t texels) {
     const auto found = std::find_if(reliefs.begin(), reliefs.end(), [texels](const ReliefOutline& relief) {
@@ -99,8 +108,13 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
     asked.enough = true;
     plan.rungs = {asked};
     if (governed) {
-        plan.rungs = ladder(pack.levels, 1e3 * plan.metres_per_box, tolerance_mm, asked.samples,
-                            relief_for(reliefs, pixel_box));
+        std::optional<ReliefOutline> relief = relief_for(reliefs, pixel_box);
+        if (relief &&
+            !within_tolerance(relief->error, worst_of(derived(relief->error, pack.description.box_size)),
+                              1e3 * plan.metres_per_box, tolerance_mm)) {
+            relief.reset();
+        }
+        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief);
     }
     choose_what_is_read(reliefs, plan);
     leave_out_levels(pack, request, tolerance_mm, governed, plan);
@@ -288,7 +302,12 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     if (!reliefs) {
         return tl::unexpected<Error>(reliefs.error());
     }
+    Result<std::vector<SeenLevel>> seen = seen_levels(pack);
+    if (!seen) {
+        return tl::unexpected<Error>(seen.error());
+    }
     ScenePlan plan;
+    plan.seen = *std::move(seen);
     plan.economies = request.economies;
     plan.projector = settings.projector.pinhole;
     plan.table_from_projector = settings.projector.table_from_projector;

@@ -8,11 +8,12 @@
 /// Decisions that need a level's own triangles are made level by level as they are read: scene_level.h.
 ///
 /// Threads  pure; any.
-/// Errors   a technique that the pack does not have.
+/// Errors   a technique that the pack does not have; a pack's section that is not what FORMAT.md says.
 #pragma once
 
 #include "app/pack/pack_outline.h"
 #include "app/pack/pack_relief.h"
+#include "app/scene/error_estimate.h"
 #include "app/scene/governor.h"
 #include "app/scene/light.h"
 #include "app/scene/shader_key.h"
@@ -84,6 +85,7 @@ struct ScenePlan {
     RigidTransform table_from_projector;
     PropShape prop;
     double metres_per_box = 0.0;
+    std::vector<SeenLevel> seen; ///< of each of the pack's levels
     Visibility visibility;
     std::optional<LightCompensation> light; ///< nothing: it was not asked for
     int highlight_code = 0;                 ///< for exposure_of; 0 without light

@@ -119,7 +119,7 @@ Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
         return tl::unexpected<Error>(drawable.error());
     }
     exposure_ = exposure_of(level.mesh, pack->box_size, texture, plan.highlight_code);
-    estimated_error_mm_ = 1e3 * plan.metres_per_box * static_cast<double>(level.mesh.error.mean_box);
+    seen_ = plan.seen[number];
     placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
                plan.metres_per_box, *drawable};
     return {};
@@ -133,8 +133,7 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     }
     renderer_ = std::move(*renderer);
     exposure_ = exposure_of(*relief, plan.highlight_code);
-    estimated_error_mm_ =
-        1e3 * plan.metres_per_box * static_cast<double>(plan.reliefs.front().error.mean_box);
+    seen_ = derived(plan.reliefs.front().error, pack->box_size);
     placed_ = placed(*pack, relief, plan.metres_per_box, renderer_->store().keep(relief));
     return {};
 }
@@ -157,6 +156,7 @@ OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, cons
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     OfflinePicture picture;
     picture.ms = taken.count();
+    picture.error = estimate_error(seen_, prop_, placed_, view, plan_);
     picture.colour = read_colour(display_->framebuffer(), projector_.width, projector_.height);
     if (hit_points_) {
         picture.hit_points = hit_points_->draw(plan_, renderer_->store());

@@ -9,6 +9,7 @@
 #include "app/pack/pack_file.h"
 #include "app/render/hit_points.h"
 #include "app/render/renderer.h"
+#include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/scene_level.h"
 #include "app/settings/settings.h"
@@ -54,6 +55,7 @@ load_offline(const std::filesystem::path& file,
 struct OfflinePicture {
     Image8 colour;
     std::optional<ImageFloat> hit_points; ///< prop frame, metres; NaN = no hit
+    std::optional<ErrorEstimate> error;   ///< nothing: it shows nothing of the artifact
     double ms = 0.0;                      ///< plan, full redraw, until the GPU is done; no read-back
 };
 
@@ -68,8 +70,6 @@ public:
     [[nodiscard]] const PropShape& prop() const { return prop_; }
     /// "level0", "relief96", ...: what "auto", "finest" or "relief" chose.
     [[nodiscard]] const std::string& technique() const { return technique_; }
-    /// Its measured mean error on the configured prop.
-    [[nodiscard]] double estimated_error_mm() const { return estimated_error_mm_; }
 
 private:
     explicit OfflineRenderer(const ScenePlan& plan);
@@ -84,7 +84,7 @@ private:
     std::optional<LightCompensation> light_;
     double exposure_ = 1.0;
     std::string technique_;
-    double estimated_error_mm_ = 0.0;
+    SeenLevel seen_;
     PlacedLevel placed_;
     FramePlan plan_;
     std::unique_ptr<SurfacelessDisplay> display_; ///< before everything that lives in its context

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace frustumscreen {
@@ -54,7 +55,7 @@ PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePl
                 kept.finest_mip,
                 gpu_bytes(kept, texture),
                 0};
-    made.error = kept.mesh.error;
+    made.seen = plan.seen[level];
     made.box_size = pack.box_size;
     made.samples = pack.samples;
     made.triangles = std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size));
@@ -69,7 +70,7 @@ PreparedLevel prepare_relief(const PackDescription& pack, const ReliefOutline& o
     PreparedLevel made;
     made.use.level = outline.texels;
     made.use.blocks = relief.blocks.size();
-    made.error = outline.error;
+    made.seen = derived(outline.error, pack.box_size);
     made.box_size = pack.box_size;
     made.samples = pack.samples;
     made.needs = plan.needs;
@@ -81,16 +82,13 @@ RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadli
                      std::span<const PreparedLevel> levels)
     : technique_(std::move(technique)), rungs_(plan.rungs), deadline_ms_(deadline_ms),
       governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms) {
-    const double mm_per_box = 1e3 * plan.metres_per_box;
     std::size_t indices = 0;
     for (const PreparedLevel& level : levels) {
         uses_.push_back(level.use);
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
         needs_ = united(needs_, level.needs);
         indices += level.triangles ? level.triangles->indices.size() : 0;
-        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr},
-                           mm_per_box * static_cast<double>(level.error.mean_box),
-                           mm_per_box * static_cast<double>(level.error.p95_box),
+        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr}, level.seen,
                            PlacedLevel{level.triangles,
                                        level.box_size,
                                        plan.metres_per_box,
@@ -258,6 +256,17 @@ PlacedLevel RunLevels::placed(std::size_t slot) const {
     return placed;
 }
 
+std::optional<ErrorEstimate> RunLevels::estimate(const PropShape& prop, const PlanView& view) const {
+    const auto of = [&](std::size_t slot) {
+        return estimate_error(levels_[slot].seen, prop, levels_[slot].placed, view, plan_);
+    };
+    const std::optional<ErrorEstimate> shown = of(shown_);
+    const std::optional<ErrorEstimate> coming = coming_ ? of(*coming_) : shown;
+    return shown ? std::optional(ErrorEstimate{std::fmax(shown->mean_mm, coming->mean_mm),
+                                               std::fmax(shown->p95_mm, coming->p95_mm)})
+                 : std::nullopt;
+}
+
 DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanView& view, Renderer& renderer,
                            const RenderTarget& target, Redraw redraw) {
     const double share = coming_ ? ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
@@ -270,6 +279,7 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
     } else {
         plan_frame(prop, placed(shown_), view, plan_);
     }
+    error_ = estimate(prop, view);
     return renderer.draw(plan_, target, redraw);
 }
 
@@ -286,14 +296,8 @@ void RunLevels::record_time(MonotonicTime now, double ms) {
 
 LevelState RunLevels::state() const {
     const Level& to = levels_[coming_.value_or(shown_)];
-    const Level& from = levels_[shown_];
-    return {technique_,
-            literal_of(to.shows),
-            governor_.rung().samples,
-            std::max(from.mean_error_mm, to.mean_error_mm),
-            std::max(from.p95_error_mm, to.p95_error_mm),
-            governor_.switches(),
-            governor_.ignored()};
+    return {technique_, literal_of(to.shows), governor_.rung().samples,
+            error_,     governor_.switches(), governor_.ignored()};
 }
 
 } // namespace frustumscreen

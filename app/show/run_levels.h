@@ -12,6 +12,7 @@
 
 #include "app/pack/pack_file.h"
 #include "app/render/renderer.h"
+#include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/governor.h"
 #include "app/scene/level_data.h"
@@ -48,8 +49,8 @@ struct LevelState {
     std::string_view technique; ///< as asked for
     std::string_view level;     ///< "level0", "relief96", ...: during a fade the one that comes in; a literal
     int samples = 0;
-    double estimated_error_mm = 0.0; ///< mean; during a fade the larger of the two
-    double p95_error_mm = 0.0;       ///< the tolerance limits this one
+    /// Of the frame that was drawn last; during a fade the larger of the two levels'. Nothing: it shows nothing.
+    std::optional<ErrorEstimate> error;
     std::uint64_t switches = 0;
     std::uint64_t ignored_times = 0;
 };
@@ -57,7 +58,7 @@ struct LevelState {
 /// A level read and culled, and what of it goes into the GPU's memory.
 struct PreparedLevel {
     LevelUse use; ///< the driver has said nothing yet
-    LevelError error;
+    SeenLevel seen;
     glm::dvec3 box_size{1.0};
     int samples = 0;                                 ///< Pack::samples
     std::shared_ptr<const LevelTriangles> triangles; ///< none: it is a relief, and lies in `data`
@@ -121,12 +122,13 @@ public:
 private:
     struct Level {
         Rung shows; ///< without samples
-        double mean_error_mm = 0.0;
-        double p95_error_mm = 0.0;
+        SeenLevel seen;
         PlacedLevel placed;
     };
     /// With the samples that the governor chose.
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
+    /// Of the plan.
+    [[nodiscard]] std::optional<ErrorEstimate> estimate(const PropShape& prop, const PlanView& view) const;
     [[nodiscard]] std::size_t slot_of(const Rung& rung) const;
     /// The plan's work, for a rung.
     [[nodiscard]] FrameWork work(const Rung& rung) const;
@@ -145,6 +147,7 @@ private:
     FramePlan plan_;
     std::size_t shown_ = 0; ///< of `levels_`
     std::optional<std::size_t> coming_;
+    std::optional<ErrorEstimate> error_;
     MonotonicTime fade_start_;
 };
 

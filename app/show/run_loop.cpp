@@ -157,9 +157,8 @@ private:
         }
         if (result_.rows.size() < rows_expected_) {
             result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
-                                    static_cast<float>(state.levels.estimated_error_mm), changed,
-                                    state.artifact, state.levels.level, name_of(state.state), state.language,
-                                    state.told});
+                                    state.levels.error, changed, state.artifact, state.levels.level,
+                                    name_of(state.state), state.language, state.told});
         }
         shown_ = situation;
         shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
@@ -298,8 +297,7 @@ private:
         status.technique = state.levels.technique;
         status.level = state.levels.level;
         status.samples = state.levels.samples;
-        status.estimated_error_mm = state.levels.estimated_error_mm;
-        status.p95_error_mm = state.levels.p95_error_mm;
+        status.error = state.levels.error;
         status.level_switches = state.levels.switches;
         status.ignored_times = state.levels.ignored_times;
         status.median_ms = times_.quantile(0.5);

@@ -54,6 +54,12 @@ double rounded(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
 
+/// Null where there is none. A finest level is off by less than a micrometre.
+nlohmann::ordered_json json_of_mm(const std::optional<ErrorEstimate>& error, double ErrorEstimate::*figure) {
+    return error ? nlohmann::ordered_json(std::round((*error).*figure * 1e4) / 1e4)
+                 : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json json_of(std::optional<std::uint8_t> code) {
     return code ? nlohmann::ordered_json(*code) : nlohmann::ordered_json(nullptr);
 }
@@ -130,13 +136,18 @@ PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
 }
 
 std::string frames_csv(const std::vector<FrameRow>& rows) {
-    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told\n";
+    std::string csv =
+        "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told,p95_error_mm\n";
     auto out = std::back_inserter(csv);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const FrameRow& row = rows[k];
-        fmt::format_to(out, "{},{},{:.3f},{},{:.4f},{},{},{},{},{}\n", k, row.t_us, row.ms, row.technique,
-                       row.estimated_error_mm, row.drawn ? 1 : 0, csv_text(row.artifact), row.state,
-                       csv_text(row.language), told_name(row.told));
+        const auto error_mm = [&](double ErrorEstimate::*figure) {
+            return row.error ? fmt::format("{:.4f}", (*row.error).*figure) : std::string();
+        };
+        fmt::format_to(out, "{},{},{:.3f},{},{},{},{},{},{},{},{}\n", k, row.t_us, row.ms, row.technique,
+                       error_mm(&ErrorEstimate::mean_mm), row.drawn ? 1 : 0, csv_text(row.artifact),
+                       row.state, csv_text(row.language), told_name(row.told),
+                       error_mm(&ErrorEstimate::p95_mm));
     }
     return csv;
 }
@@ -186,8 +197,8 @@ std::string status_json(const RunStatus& status) {
         {"level", status.level},
         {"samples", status.samples},
         {"language", status.language},
-        {"estimated_error_mm", rounded(status.estimated_error_mm)},
-        {"p95_error_mm", rounded(status.p95_error_mm)},
+        {"estimated_error_mm", json_of_mm(status.error, &ErrorEstimate::mean_mm)},
+        {"p95_error_mm", json_of_mm(status.error, &ErrorEstimate::p95_mm)},
         {"frame_ms",
          {{"p50", rounded(status.median_ms)},
           {"p95", rounded(status.p95_ms)},

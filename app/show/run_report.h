@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/geometry/transform.h"
+#include "app/scene/error_estimate.h"
 #include "app/show/import_watch.h"
 #include "app/show/set_status.h"
 #include "app/status/known_exhibit.h"
@@ -42,7 +43,7 @@ struct ToldText {
 struct FrameRow {
     std::int64_t t_us = 0;
     float ms = 0.0F;
-    float estimated_error_mm = 0.0F;
+    std::optional<ErrorEstimate> error; ///< nothing: nothing of an artifact is shown
     bool drawn = false;
     std::string_view artifact;
     std::string_view technique;
@@ -51,7 +52,7 @@ struct FrameRow {
     ToldText told;
 };
 
-/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told. `told`: description.K, label.K as a pack
+/// CSV: frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told,p95_error_mm. `told`: description.K, label.K as a pack
 /// names its texts; `words`, the exhibit's own; empty where only the short text is shown.
 [[nodiscard]] std::string frames_csv(const std::vector<FrameRow>& rows);
 
@@ -118,9 +119,8 @@ struct RunStatus {
     std::chrono::system_clock::time_point shown_since; ///< of this artifact, by the wall clock
     double shown_for_s = 0.0;                          ///< the same by the run's own
     int samples = 0;                                   ///< a pixel
-    double estimated_error_mm = 0.0; ///< mean, as measured by the bake, on the configured prop
-    double p95_error_mm = 0.0;
-    double median_ms = 0.0; ///< of the frames that were drawn
+    std::optional<ErrorEstimate> error; ///< of what was shown last; nothing: it was nothing of an artifact
+    double median_ms = 0.0;             ///< of the frames that were drawn
     double p95_ms = 0.0;
     double p99_ms = 0.0;
     std::uint64_t missed_deadlines = 0; ///< frames drawn that took longer than one refresh

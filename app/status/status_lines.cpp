@@ -82,11 +82,13 @@ std::string state_line(const JsonFields& status) {
 
 std::string picture_line(const JsonFields& status) {
     const std::string level = status.text("level");
-    return level.empty() ? std::string()
-                         : fmt::format("{} ({}), {} a pixel, {:.2f} mm from the scan on average", level,
-                                       or_else(status.text("technique"), "?"),
-                                       counted(count_of(status, "samples"), "sample", "samples"),
-                                       status.number("estimated_error_mm").value_or(0.0));
+    const std::optional<double> error_mm = status.number("estimated_error_mm");
+    return level.empty()
+               ? std::string()
+               : fmt::format("{} ({}), {} a pixel{}", level, or_else(status.text("technique"), "?"),
+                             counted(count_of(status, "samples"), "sample", "samples"),
+                             error_mm ? fmt::format(", {:.2f} mm from the scan on average", *error_mm)
+                                      : std::string());
 }
 
 std::string frames_line(const JsonFields& status) {

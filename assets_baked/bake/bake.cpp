@@ -229,18 +229,16 @@ double mm_per_box(const Pack& pack, const BakedProp& prop) {
 
 /// The first level that is good enough, from the finest one of at most `free_triangles` on. The last level is
 /// for close views: it is drawn with more samples.
-std::uint32_t choose_default(const Pack& pack, const Bakery& bakery, const BakedProp& prop) {
+std::uint32_t choose_default(const Pack& pack, const SeenErrors& seen, const BakedProp& prop) {
     constexpr std::size_t free_triangles = 30'000;
     std::uint32_t level = 0;
     while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
         ++level;
     }
-    const auto good = [&](const PackLevel& one) {
-        const SeenError seen =
-            seen_error(one, pack.textures[one.texture], pack.box_size, bakery.source(), prop.zone);
-        return good_enough(one.error, seen, mm_per_box(pack, prop));
+    const auto good = [&](std::uint32_t one) {
+        return good_enough(pack.levels[one].error, mean_of(seen.levels[one]), mm_per_box(pack, prop));
     };
-    while (level + 1 < pack.levels.size() && !good(pack.levels[level])) {
+    while (level + 1 < pack.levels.size() && !good(level)) {
         ++level;
     }
     return level;
@@ -388,7 +386,9 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     options.progress("choice of the level", 0.98);
     pack.samples =
         samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
-    pack.default_level = choose_default(pack, bakery, options.prop);
+    const SeenErrors seen = seen_errors(pack, bakery.source(), options.prop.zone);
+    put_seen_errors(seen, pack);
+    pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);
     options.progress("done", 1.0);
     return pack;

@@ -7,11 +7,13 @@
 #pragma once
 
 #include "app/pack/pack.h"
+#include "app/pack/seen_errors.h"
 #include "assets_baked/bake/charts.h"
 #include "assets_baked/bake/source_scene.h"
 #include "assets_baked/bake/visibility.h"
 
 #include <functional>
+#include <span>
 
 namespace frustumscreen {
 
@@ -57,16 +59,11 @@ struct SourceSamples {
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
 
-/// What a visitor would notice: means over several eyes of the viewing zone. (With one eye, a single strap
-/// would change the figure too much.)
-struct SeenError {
-    double mean_box = 0.0; ///< distance between what it sees on the level and on the source
-    /// The width of an even band along the source's outline made of the rays that hit only one of the two.
-    double outline_shift_box = 0.0;
-    double silhouette_share = 0.0; ///< the same rays, over those that hit both
-};
-[[nodiscard]] SeenError seen_error(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                                   const SourceScene& source, const ViewingZone& zone);
+/// What eyes all around see of the pack's levels: rays from each eye against the source. The eyes are spread evenly over
+/// the zone; hardly anybody stands at its edge.
+[[nodiscard]] SeenErrors seen_errors(const Pack& pack, const SourceScene& source, const ViewingZone& zone);
+/// The means over all eyes: with one, a single strap would change the figures too much.
+[[nodiscard]] SeenError mean_of(std::span<const SeenError> seen);
 /// The first hit of a ray on a surface of which not every place is drawn.
 using TraceSurface = std::function<SurfaceHit(const glm::vec3& eye, const glm::vec3& direction)>;
 /// Distances both ways, as measure_shape, of what rays from eyes of the zone meet: from the source's hits to the surface, and from

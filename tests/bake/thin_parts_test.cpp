@@ -129,10 +129,10 @@ TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
 
 TEST(ThinParts, ALevelWhoseWorstPlaceIsOffByMoreThanAMillimetreIsNotGoodEnough) {
     const double mm_per_box = 100.0;
-    const SeenError seen{1e-5, 1e-5, 1e-4};
+    const SeenError seen{1e-5F, 1e-4F, 1e-5F, 1e-4F};
     EXPECT_TRUE(good_enough({1e-5F, 1e-4F, 0.0099F, 0.0F}, seen, mm_per_box));
     EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0101F, 0.0F}, seen, mm_per_box));
-    EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0F, 0.0F}, {1e-3, 1e-5, 1e-4}, mm_per_box));
+    EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0F, 0.0F}, {1e-3F, 1e-3F, 1e-5F, 1e-4F}, mm_per_box));
 }
 
 TEST(ThinParts, TheSimplifierKeepsEveryCornerWithinItsTolerances) {

@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
+#include "app/pack/seen_errors.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>
@@ -44,6 +45,9 @@ void require_usable(const Pack& pack) {
     for (const PackLevel& level : pack.levels) {
         require_usable(pack, level);
     }
+    const Result<SeenErrors> seen = seen_errors_of(pack, pack.levels.size());
+    fuzz::require(!seen || seen->eyes.empty() || seen->levels.size() == pack.levels.size(),
+                  "what is seen is of every level");
 }
 
 /// Choosing one level reads that level as reading everything does.

@@ -57,7 +57,7 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
     EXPECT_EQ(image.height, 200);
     EXPECT_GT(lit_pixels(image), 1000U);
     const std::string csv = text("a/frames.csv");
-    EXPECT_EQ(csv.substr(0, csv.find('\n')), "frame,t_us,ms,technique,estimated_error_mm");
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm");
     EXPECT_NE(csv.find("\n0,1000,"), std::string::npos) << csv;
     EXPECT_NE(csv.find("\n1,3000,"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",level0,"), std::string::npos) << csv;

@@ -13,9 +13,8 @@
 namespace frustumscreen {
 namespace {
 
-LevelOutline level_of(std::uint64_t triangles, float p95_box) {
+LevelOutline level_of(std::uint64_t triangles) {
     LevelOutline level;
-    level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
     level.triangles = triangles;
     return level;
 }
@@ -26,10 +25,23 @@ MonotonicTime at_seconds(double seconds) {
 
 constexpr double deadline_ms = 1000.0 / 60.0;
 
-TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
-    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F),
-                                           level_of(8000, 9e-4F), level_of(30000, 1e-4F)};
-    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4); // 0.48, 0.24, 0.108, 0.012 mm
+TEST(Tolerance, IsOfWhatTheWorstEyeSeesOnThisPropAndOfTheWorstPlace) {
+    const LevelError error{1e-4F, 3e-4F, 5e-3F, 0.0F};
+    const SeenError worst{2e-3F, 9e-3F, 1e-3F, 0.5F}; // on a prop of 120 mm: 0.24 mm, outline 0.12 mm
+    EXPECT_TRUE(within_tolerance(error, worst, 120.0, 0.25));
+    EXPECT_FALSE(within_tolerance(error, worst, 120.0, 0.23));
+    EXPECT_FALSE(within_tolerance(error, worst, 130.0, 0.25)); // a larger prop shows more of it
+    EXPECT_FALSE(within_tolerance(error, {2e-3F, 0.0F, 1.1e-3F, 0.0F}, 120.0, 0.25));    // the outline is off
+    EXPECT_FALSE(within_tolerance({0.0F, 0.0F, 9e-3F, 0.0F}, SeenError{}, 120.0, 0.25)); // a part is lost
+    const float nan = std::nanf("");
+    EXPECT_FALSE(within_tolerance({0.0F, 0.0F, nan, 0.0F}, SeenError{}, 120.0, 0.25));
+    EXPECT_FALSE(within_tolerance(error, {nan, 0.0F, 0.0F, 0.0F}, 120.0, 0.25));
+    EXPECT_FALSE(within_tolerance(error, worst, 120.0, std::nan("")));
+}
+
+TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
+    const std::vector<LevelOutline> levels{level_of(1000), level_of(2000), level_of(8000), level_of(30000)};
+    const std::vector<Rung> rungs = ladder(levels, {false, true, true, true}, 4);
     ASSERT_EQ(rungs.size(), 6U);
     EXPECT_EQ(rungs[0].level, 1U);
     EXPECT_EQ(rungs[0].samples, 4);
@@ -40,40 +52,31 @@ TEST(Ladder, BeginsWithTheCoarsestLevelWithinTheToleranceAndItsSamples) {
     for (std::size_t k = 1; k < rungs.size(); ++k) {
         EXPECT_FALSE(rungs[k].enough);
     }
-    // A prop twice as large shows twice the error.
-    EXPECT_EQ(ladder(levels, 240.0, 0.28, 4)[0].level, 2U);
 }
 
-TEST(Ladder, OfATighterToleranceThanAnyLevelBeginsWithTheFinest) {
-    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(1200, 3e-3F),
-                                           level_of(4000, 1e-3F)};
-    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.01, 1);
+TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
+    const std::vector<LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
+    const std::vector<Rung> rungs = ladder(levels, {false, false, false}, 1);
     ASSERT_EQ(rungs.size(), 2U); // 1000 triangles are not worth a level of their own beside 1200
     EXPECT_EQ(rungs[0].level, 2U);
     EXPECT_FALSE(rungs[0].enough);
     EXPECT_EQ(rungs[1].level, 1U);
+    EXPECT_EQ(ladder(levels, {false, false, false}, 0)[0].samples, 1);
 }
 
-TEST(Ladder, TakesNoLevelThatHasLostAPart) {
-    std::vector<LevelOutline> levels{level_of(1000, 2e-3F), level_of(3000, 1e-3F)};
-    levels[0].error.max_box = 0.05F; // 6 mm
-    EXPECT_EQ(ladder(levels, 120.0, 0.28, 1)[0].level, 1U);
-}
-
-TEST(Ladder, HasAReliefWhereItsErrorPutsItAndNoneThatIsNotWithin) {
-    const std::vector<LevelOutline> levels{level_of(1000, 4e-3F), level_of(2000, 2e-3F)};
+TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
+    std::vector<LevelOutline> levels{level_of(1000), level_of(2000)};
+    levels[0].error.p95_box = 4e-3F;
+    levels[1].error.p95_box = 2e-3F;
     ReliefOutline relief{384, 5000, 2'000'000, {1e-4F, 5e-4F, 1e-3F, 0.0F}, "r"};
-    const std::vector<Rung> rungs = ladder(levels, 120.0, 0.28, 4, relief);
+    const std::vector<Rung> rungs = ladder(levels, {false, true}, 4, relief);
     ASSERT_EQ(rungs.size(), 8U);
     EXPECT_TRUE(rungs[0].relief && rungs[0].enough && rungs[0].level == 384 && rungs[0].samples == 4);
     EXPECT_TRUE(rungs[1].relief && !rungs[1].enough && rungs[1].samples == 1);
     EXPECT_TRUE(!rungs[2].relief && rungs[2].enough && rungs[2].level == 1);
-    relief.error.p95_box = 2.2e-3F; // within, but worse than the level
-    EXPECT_TRUE(ladder(levels, 120.0, 0.28, 4, relief)[3].relief);
-    relief.error.max_box = 0.05F; // a part is lost: thin sheets, small things
-    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4, relief).size(), 6U);
-    relief.error = {1e-4F, 3e-3F, 1e-3F, 0.0F};
-    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4, relief).size(), 6U);
+    relief.error.p95_box = 2.2e-3F; // worse than the level
+    EXPECT_TRUE(ladder(levels, {false, true}, 4, relief)[3].relief);
+    EXPECT_EQ(ladder(levels, {false, true}, 4).size(), 6U);
 }
 
 TEST(Cost, OfReliefsAndMeshesIsApart) {
@@ -87,14 +90,6 @@ TEST(Cost, OfReliefsAndMeshesIsApart) {
         EXPECT_NEAR(cost.ms(rung), rung.ms, 0.02 * rung.ms);
     }
     EXPECT_EQ(cost_of({times[0], times[1]}).ms(times[2]), 0.0) << "no relief was measured";
-}
-
-TEST(Ladder, SurvivesErrorFiguresThatAreNone) {
-    std::vector<LevelOutline> levels{level_of(1000, std::nanf("")), level_of(3000, -1.0F)};
-    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);
-    levels[1].error.p95_box = std::nanf("");
-    EXPECT_EQ(ladder(levels, 120.0, 0.28, 4)[0].level, 1U);
-    EXPECT_EQ(ladder(levels, 120.0, std::nan(""), 0)[0].level, 1U);
 }
 
 TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {

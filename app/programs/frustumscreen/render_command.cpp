@@ -126,8 +126,9 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
             return tl::unexpected<Error>(written.error());
         }
     }
-    return fmt::format("{},{},{:.3f},{},{:.4f}\n", frame, t_us, picture.ms, studio.renderer.technique(),
-                       studio.renderer.estimated_error_mm());
+    return fmt::format("{},{},{:.3f},{},{},{}\n", frame, t_us, picture.ms, studio.renderer.technique(),
+                       picture.error ? fmt::format("{:.4f}", picture.error->mean_mm) : std::string(),
+                       picture.error ? fmt::format("{:.4f}", picture.error->p95_mm) : std::string());
 }
 
 Result<void> render(const Request& request) {
@@ -164,7 +165,7 @@ Result<void> render(const Request& request) {
         return tl::unexpected<Error>(renderer.error());
     }
     const Studio studio{request, **settings, **renderer};
-    std::string csv = "frame,t_us,ms,technique,estimated_error_mm\n";
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
     std::vector<VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");
     for (std::size_t frame = 0; frame < frames->size(); ++frame) {

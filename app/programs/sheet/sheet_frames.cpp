@@ -136,7 +136,7 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
             return bad_input(fmt::format("{}:{}: t_us and ms must be numbers", name, line_number));
         }
         records.push_back({static_cast<std::int64_t>(*t_us), *ms, columns->of(fields, "technique"),
-                           number(columns->of(fields, "estimated_error_mm")).value_or(0.0),
+                           number(columns->of(fields, "estimated_error_mm")),
                            columns->of(fields, "drawn") != "0", columns->of(fields, "artifact"),
                            columns->of(fields, "state"), columns->of(fields, "told"),
                            columns->of(fields, "language")});

@@ -12,6 +12,7 @@
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct FrameRecord {
     std::int64_t t_us = 0;
     double ms = 0.0;
     std::string technique;
-    double estimated_error_mm = 0.0;
+    std::optional<double> estimated_error_mm; ///< nothing: the frame shows nothing of an artifact
     bool drawn = true;
     std::string artifact; ///< empty if the file does not say
     std::string state;    ///< of the exhibit; the same

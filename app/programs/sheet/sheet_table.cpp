@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace frustumscreen {
 
@@ -23,7 +24,7 @@ std::array<std::string, 8> cells(const TableLine& line) {
             fmt::format("{:.2f}", line.median_ms),
             fmt::format("{:.2f}", line.p99_ms),
             line.median_ms > 0.0 ? fmt::format("{:.2f}", line.p99_ms / line.median_ms) : "",
-            fmt::format("{:.3f}", line.estimated_error_mm)};
+            line.estimated_error_mm ? fmt::format("{:.3f}", *line.estimated_error_mm) : ""};
 }
 
 } // namespace
@@ -31,15 +32,20 @@ std::array<std::string, 8> cells(const TableLine& line) {
 std::vector<TableLine> table_lines(const std::vector<FrameRecord>& records) {
     std::vector<TableLine> lines;
     std::vector<std::vector<double>> times;
+    std::vector<std::vector<double>> errors_mm;
     for (std::size_t k = 0; k < records.size(); ++k) {
         const FrameRecord& record = records[k];
         auto line = std::find_if(lines.begin(), lines.end(), [&](const TableLine& l) {
             return l.artifact == record.artifact && l.technique == record.technique;
         });
         if (line == lines.end()) {
-            lines.push_back({record.artifact, record.technique, 0, 0, 0.0, 0.0, record.estimated_error_mm});
+            lines.push_back({record.artifact, record.technique, 0, 0, 0.0, 0.0, std::nullopt});
             times.emplace_back();
+            errors_mm.emplace_back();
             line = lines.end() - 1;
+        }
+        if (record.estimated_error_mm) {
+            errors_mm[static_cast<std::size_t>(line - lines.begin())].push_back(*record.estimated_error_mm);
         }
         if (!record.drawn) {
             ++line->unchanged;
@@ -52,6 +58,10 @@ std::vector<TableLine> table_lines(const std::vector<FrameRecord>& records) {
         if (!times[k].empty()) {
             lines[k].median_ms = quantile(times[k], 0.5);
             lines[k].p99_ms = quantile(times[k], 0.99);
+        }
+        if (!errors_mm[k].empty()) {
+            lines[k].estimated_error_mm = std::accumulate(errors_mm[k].begin(), errors_mm[k].end(), 0.0) /
+                                          static_cast<double>(errors_mm[k].size());
         }
     }
     return lines;
@@ -82,8 +92,8 @@ std::string html_table(const std::vector<TableLine>& lines, const std::string& t
         "th,td{{padding:.35em 1.1em .35em 0;text-align:right;border-bottom:1px solid #26282e}}\n"
         "th:nth-child(-n+2),td:nth-child(-n+2){{text-align:left}}p{{color:#8a8e96}}</style></head>\n"
         "<body><h1>{0}</h1>\n<table>\n{1}</table>\n"
-        "<p>Times from the tracker\u2019s poll to the finished picture; the error is the level\u2019s "
-        "measured mean distance from the source\u2019s surface on the configured prop.</p>\n"
+        "<p>Times from the tracker\u2019s poll to the finished picture; the error is the mean "
+        "of the frames\u2019 estimated distances from the source\u2019s surface on the configured prop.</p>\n"
         "</body></html>\n",
         xml_text(title), rows);
 }

@@ -3,6 +3,7 @@
 
 #include "app/programs/sheet/sheet_frames.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct TableLine {
     std::size_t unchanged = 0;
     double median_ms = 0.0;
     double p99_ms = 0.0;
-    double estimated_error_mm = 0.0;
+    std::optional<double> estimated_error_mm; ///< the mean over the frames that show something of it
 };
 
 /// In the order of first appearance.

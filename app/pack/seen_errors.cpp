@@ -1,0 +1,208 @@
+#include "app/pack/seen_errors.h"
+
+#include "app/pack/json_reader.h"
+#include "app/pack/json_writer.h"
+#include "app/pack/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace frustumscreen {
+
+using namespace pack_format;
+
+namespace {
+
+constexpr std::string_view section_name = "seen_errors";
+constexpr std::size_t most_eyes = 1000;
+
+/// An eye as it stands in the file.
+struct EyeRecord {
+    std::array<double, 3> towards{};
+    float steepness = 1.0F;
+    std::array<double, seen_patches> shares{};
+    std::array<double, 3 * seen_patches> places{};
+};
+struct ErrorRecord {
+    SeenError error;
+    std::array<double, seen_patches> patches_box{};
+};
+struct Records {
+    std::vector<EyeRecord> eyes;
+    std::vector<std::vector<ErrorRecord>> levels;
+};
+
+/// What was measured with some thousand rays has no more than three digits; a direction, four.
+double few_digits(double value, int digits = 3) {
+    return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+}
+float few_digits(float value) {
+    return static_cast<float>(few_digits(static_cast<double>(value)));
+}
+
+EyeRecord record_of(const SeenEye& eye) {
+    EyeRecord record;
+    record.steepness = few_digits(eye.steepness);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<glm::length_t>(axis);
+        record.towards[axis] = few_digits(eye.towards[at], 4);
+        for (std::size_t k = 0; k < seen_patches; ++k) {
+            record.places[3 * k + axis] = few_digits(eye.patches[k].place[at]);
+        }
+    }
+    for (std::size_t k = 0; k < seen_patches; ++k) {
+        record.shares[k] = few_digits(eye.patches[k].share);
+    }
+    return record;
+}
+
+SeenEye eye_of(const EyeRecord& record) {
+    SeenEye eye{{record.towards[0], record.towards[1], record.towards[2]}, record.steepness, {}};
+    for (std::size_t k = 0; k < seen_patches; ++k) {
+        eye.patches[k] = {{record.places[3 * k], record.places[3 * k + 1], record.places[3 * k + 2]},
+                          record.shares[k]};
+    }
+    return eye;
+}
+
+ErrorRecord record_of(const SeenError& error) {
+    ErrorRecord record{{few_digits(error.mean_box),
+                        few_digits(error.p95_box),
+                        few_digits(error.outline_shift_box),
+                        few_digits(error.silhouette_share),
+                        {}},
+                       {}};
+    std::transform(error.patches_box.begin(), error.patches_box.end(), record.patches_box.begin(),
+                   [](float box) { return few_digits(static_cast<double>(box)); });
+    return record;
+}
+
+SeenError error_of(const ErrorRecord& record) {
+    SeenError error = record.error;
+    std::transform(record.patches_box.begin(), record.patches_box.end(), error.patches_box.begin(),
+                   [](double box) { return static_cast<float>(box); });
+    return error;
+}
+
+void record_fields(auto& fields, auto& records) {
+    fields.objects("eyes", records.eyes, most_eyes, [](auto& item, auto& eye) {
+        item.numbers("towards", std::span(eye.towards));
+        item.number("steepness", eye.steepness);
+        item.numbers("shares", std::span(eye.shares));
+        item.numbers("places", std::span(eye.places));
+    });
+    fields.objects("levels", records.levels, most_levels, [](auto& level, auto& eyes) {
+        level.objects("eyes", eyes, most_eyes, [](auto& item, auto& record) {
+            item.number("mean_box", record.error.mean_box);
+            item.number("p95_box", record.error.p95_box);
+            item.number("outline_shift_box", record.error.outline_shift_box);
+            item.number("silhouette_share", record.error.silhouette_share);
+            item.numbers("patches_box", std::span(record.patches_box));
+        });
+    });
+}
+
+const PackSection* find_section(const PackDescription& pack) {
+    const auto found = std::find_if(pack.sections.begin(), pack.sections.end(),
+                                    [](const PackSection& section) { return section.name == section_name; });
+    return found != pack.sections.end() ? &*found : nullptr;
+}
+
+bool is_sound(const SeenError& seen) {
+    const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; }; // not NaN
+    constexpr float most_error_box = 10.0F; // as LevelError
+    constexpr float most_share = 1e6F;
+    return allowed(seen.mean_box, most_error_box) && allowed(seen.p95_box, most_error_box) &&
+           allowed(seen.outline_shift_box, most_error_box) && allowed(seen.silhouette_share, most_share) &&
+           std::all_of(seen.patches_box.begin(), seen.patches_box.end(),
+                       [&](float box) { return allowed(box, most_error_box); });
+}
+
+bool is_sound(const SeenEye& eye) {
+    constexpr double unit_tolerance = 1e-3;
+    constexpr double farthest_box = 2.0;
+    constexpr float steepest = 1e4F;
+    return std::abs(glm::length(eye.towards) - 1.0) <= unit_tolerance && eye.steepness >= 1.0F &&
+           eye.steepness <= steepest &&
+           std::all_of(eye.patches.begin(), eye.patches.end(), [](const SeenPatch& patch) {
+               return patch.share >= 0.0 && patch.share <= 1.0 && glm::length(patch.place) <= farthest_box;
+           });
+}
+
+Result<void> check(const SeenErrors& seen, std::size_t levels) {
+    const auto refused = [](std::string_view fault) {
+        return bad_input(fmt::format("sections.seen_errors.data {}", fault));
+    };
+    if (seen.eyes.empty() || seen.levels.size() != levels) {
+        return refused(
+            fmt::format("has {} levels from {} eyes; allowed are the pack's {} from one eye at least",
+                        seen.levels.size(), seen.eyes.size(), levels));
+    }
+    if (!std::all_of(seen.eyes.begin(), seen.eyes.end(), [](const SeenEye& eye) { return is_sound(eye); })) {
+        return refused(
+            "has an eye that is not of length 1, or patches that are not shares of places in the box");
+    }
+    for (const std::vector<SeenError>& level : seen.levels) {
+        if (level.size() != seen.eyes.size() ||
+            !std::all_of(level.begin(), level.end(), [](const SeenError& each) { return is_sound(each); })) {
+            return refused(
+                fmt::format("has a level with {} errors from {} eyes; allowed are as many, from 0 to 10",
+                            level.size(), seen.eyes.size()));
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+void put_seen_errors(const SeenErrors& seen, PackDescription& pack) {
+    assert(find_section(pack) == nullptr);
+    Records records;
+    for (const SeenEye& eye : seen.eyes) {
+        records.eyes.push_back(record_of(eye));
+    }
+    for (const std::vector<SeenError>& level : seen.levels) {
+        std::vector<ErrorRecord>& eyes = records.levels.emplace_back();
+        for (const SeenError& error : level) {
+            eyes.push_back(record_of(error));
+        }
+    }
+    JsonWriter fields;
+    record_fields(fields, std::as_const(records));
+    pack.sections.push_back(
+        {std::string(section_name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
+}
+
+Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t levels) {
+    const PackSection* const section = find_section(pack);
+    if (section == nullptr) {
+        return SeenErrors{};
+    }
+    Refusal refusal;
+    const nlohmann::json data = parse_json(refusal, section->data);
+    Records records;
+    if (!refusal.message) {
+        JsonReader fields(refusal, &data, "sections.seen_errors.data");
+        record_fields(fields, records);
+        fields.finish();
+    }
+    if (refusal.message) {
+        return bad_input(*refusal.message);
+    }
+    SeenErrors seen;
+    std::transform(records.eyes.begin(), records.eyes.end(), std::back_inserter(seen.eyes), eye_of);
+    for (const std::vector<ErrorRecord>& level : records.levels) {
+        std::transform(level.begin(), level.end(), std::back_inserter(seen.levels.emplace_back()), error_of);
+    }
+    const Result<void> good = check(seen, levels);
+    return good ? Result<SeenErrors>(std::move(seen)) : tl::unexpected<Error>(good.error());
+}
+
+} // namespace frustumscreen

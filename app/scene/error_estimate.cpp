@@ -1,0 +1,135 @@
+#include "app/scene/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Of the weights, radians: half of the angle between neighbouring eyes of the bake.
+constexpr double spread = 0.15;
+constexpr double rounding_px = 0.00015;
+/// The 95th percentile of a length in two directions, over its mean: sqrt(ln 20 / (pi / 4)).
+constexpr double p95_of_rounding = 1.95;
+
+/// The face of the plan through which the eye sees a point in the prop; null: it is dark.
+const FacePlan* seen_through(const PropShape& prop, const FramePlan& plan, const glm::dvec3& eye,
+                             const glm::dvec3& point) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    std::size_t through = prop.faces.size();
+    for (std::size_t face = 0; face < prop.faces.size(); ++face) {
+        const double eye_above = prop.faces[face].plane.distance(eye);
+        const double point_above = prop.faces[face].plane.distance(point);
+        const double at = eye_above / (eye_above - point_above);
+        if (eye_above > 0.0 && eye_above > point_above && at > farthest) {
+            farthest = at;
+            through = face;
+        }
+    }
+    const auto found = std::find_if(plan.faces.begin(), plan.faces.end(), [through](const FacePlan& face) {
+        return static_cast<std::size_t>(face.face) == through;
+    });
+    return found != plan.faces.end() ? &*found : nullptr;
+}
+
+/// What one eye of the bake saw, by the pixels that show it now.
+struct Seen {
+    double mean_box = 0.0;
+    double over_even = 1.0; ///< the mean over the one of even rays
+    double pixel_mm = 0.0;  ///< as it lands on the artifact
+};
+
+Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, double metres_per_box,
+           const glm::dvec3& eye, const FramePlan& plan) {
+    double pixels = 0.0;
+    double even_box = 0.0;
+    Seen sum;
+    for (std::size_t k = 0; k < seen_patches; ++k) {
+        const SeenPatch& patch = seen.patches[k];
+        const auto error_box = static_cast<double>(error.patches_box[k]);
+        even_box += patch.share * error_box;
+        const FacePlan* const face =
+            patch.share > 0.0 ? seen_through(prop, plan, eye, metres_per_box * patch.place) : nullptr;
+        if (face != nullptr && face->pixels_per_m > 0.0) {
+            const double share = patch.share * face->pixels_per_m * face->pixels_per_m;
+            pixels += share;
+            sum.mean_box += share * error_box;
+            sum.pixel_mm += share * 1e3 / face->pixels_per_m;
+        }
+    }
+    if (!(pixels > 0.0)) { // all that this eye saw is dark from here, or edge-on
+        return {static_cast<double>(error.mean_box), 1.0, 0.0};
+    }
+    sum.mean_box /= pixels;
+    sum.pixel_mm /= pixels;
+    sum.over_even = even_box > 0.0 ? sum.mean_box / even_box : 1.0;
+    return sum;
+}
+
+} // namespace
+
+SeenLevel derived(const LevelError& error, const glm::dvec3& box_size) {
+    constexpr float along_the_ray = 2.0F;
+    SeenEye eye;
+    eye.steepness = along_the_ray;
+    eye.patches[0] = {{0.0, 0.0, 0.5 * box_size.z}, 1.0};
+    SeenError seen{along_the_ray * error.mean_box, along_the_ray * error.p95_box, error.mean_box, 0.0F, {}};
+    seen.patches_box.fill(seen.mean_box);
+    return {{eye}, {seen}};
+}
+
+Result<std::vector<SeenLevel>> seen_levels(const PackOutline& pack) {
+    const Result<SeenErrors> seen = seen_errors_of(pack.description, pack.levels.size());
+    if (!seen) {
+        return tl::unexpected<Error>(seen.error());
+    }
+    std::vector<SeenLevel> levels;
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        levels.push_back(seen->eyes.empty() ? derived(pack.levels[k].error, pack.description.box_size)
+                                            : SeenLevel{seen->eyes, seen->levels[k]});
+    }
+    return levels;
+}
+
+SeenError worst_of(const SeenLevel& seen) {
+    SeenError worst;
+    for (const SeenError& each : seen.errors) { // what is no number stays so, where there is one eye
+        worst.mean_box = std::max(each.mean_box, worst.mean_box);
+        worst.p95_box = std::max(each.p95_box, worst.p95_box);
+        worst.outline_shift_box = std::max(each.outline_shift_box, worst.outline_shift_box);
+        worst.silhouette_share = std::max(each.silhouette_share, worst.silhouette_share);
+        for (std::size_t k = 0; k < seen_patches; ++k) {
+            worst.patches_box[k] = std::max(each.patches_box[k], worst.patches_box[k]);
+        }
+    }
+    return worst;
+}
+
+std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const PropShape& prop,
+                                            const PlacedLevel& level, const PlanView& view,
+                                            const FramePlan& plan) {
+    if (plan.faces.empty()) {
+        return std::nullopt;
+    }
+    const double scale = level.metres_per_box;
+    const glm::dvec3 eye = view.table_from_prop.inverse().point(view.eyes_m.front());
+    const glm::dvec3 towards = glm::normalize(eye - glm::dvec3(0.0, 0.0, 0.5 * level.box_size.z * scale));
+    ErrorEstimate sum;
+    double weights = 0.0;
+    for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
+        const glm::dvec3 apart = seen.eyes[k].towards - towards;
+        const double weight = std::exp(-glm::dot(apart, apart) / (2.0 * spread * spread));
+        const Seen now = shown(seen.eyes[k], seen.errors[k], prop, scale, eye, plan);
+        const double mean_mm = 1e3 * scale * now.mean_box;
+        const double p95_mm = 1e3 * scale * static_cast<double>(seen.errors[k].p95_box) * now.over_even;
+        const double rounding_mm = rounding_px * static_cast<double>(seen.eyes[k].steepness) * now.pixel_mm;
+        sum.mean_mm += weight * std::hypot(mean_mm, rounding_mm);
+        sum.p95_mm += weight * std::hypot(p95_mm, p95_of_rounding * rounding_mm);
+        weights += weight;
+    }
+    return ErrorEstimate{sum.mean_mm / weights, sum.p95_mm / weights};
+}
+
+} // namespace frustumscreen
