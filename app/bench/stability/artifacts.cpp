@@ -102,9 +102,9 @@ StabilityResult placing(const StabilityOptions&) {
             // Rounding of a number of the box's size; the matrix rounds at the origin's distance.
             const double away = 1.0 + offset / scale;
             result.rows.push_back({where + "points in the box, box units", 4 * 0x1p-53, errors.box});
-            result.rows.push_back({where + "scale into the prop, relative", 16 * 0x1p-53, errors.scale});
+            result.rows.push_back({where + "scale into the prop, relative", 4 * 0x1p-53, errors.scale});
             result.rows.push_back(
-                {where + "points by the one matrix, box units", 16 * 0x1p-53 * away, errors.matrix});
+                {where + "points by the one matrix, box units", 8 * 0x1p-53 * away, errors.matrix});
         }
     }
     return result;
@@ -148,7 +148,7 @@ StabilityResult baked(const StabilityOptions&) {
         result.rows.push_back({where + "finest level off the sphere, box units", 6e-5 + 1.0 / 65535.0 + input,
                                off_sphere(*pack, pack->levels.back())});
     }
-    result.rows.push_back({"scale into the prop, between all of them, relative", 1e-3, most / least - 1.0});
+    result.rows.push_back({"scale into the prop, between all of them, relative", 1e-12, most / least - 1.0});
     return result;
 }
 
@@ -157,7 +157,7 @@ StabilityResult many_triangles(const StabilityOptions& options) {
     const exact::Stage stage = usual_stage();
     const SeenArtifact artifact = seen_artifact(stage, options.triangles);
     return {rows_of(figures_of(stage, artifact, plan_of(stage, artifact)),
-                    fmt::format("{} triangles: ", options.triangles), bound_px / 0.1, gpu_bound_px / 0.1)};
+                    fmt::format("{} triangles: ", options.triangles), bound_px / 0.2, gpu_bound_px / 0.2)};
 }
 
 } // namespace

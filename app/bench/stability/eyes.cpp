@@ -72,7 +72,7 @@ StabilityResult dark_limit(const StabilityOptions&) {
     for (std::size_t face = 0; face < 5; ++face) {
         off = std::fmax(off, std::abs(darkest_sine(face) / 1e-3 - 1.0));
     }
-    return {{{"sine at which a face goes dark, off 0.001 (0.057 deg), relative", 1e-6, off}}};
+    return {{{"sine at which a face goes dark, off 0.001 (0.057 deg), relative", 1e-10, off}}};
 }
 
 /// With the eye on or behind a face's plane, that face is dark and the others are right.
@@ -92,7 +92,7 @@ StabilityResult on_and_behind(const StabilityOptions&) {
         }
     }
     StabilityResult result{
-        rows_of(figures, "the other faces: ", bound_px / least_sine, gpu_bound_px / least_sine)};
+        rows_of(figures, "the other faces: ", bound_px, gpu_bound_px)}; // these are seen openly
     result.rows.push_back({"times that the face itself was lit", 0.0, lit});
     return result;
 }
@@ -120,7 +120,8 @@ StabilityResult inside_the_artifact(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage, 4000, 0.8);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    return {rows_of(figures, "", bound_px / 0.01, gpu_bound_px / 0.01)};
+    constexpr double least_seen_sine = 0.125; // of triangles that are beside the eye
+    return {rows_of(figures, "", bound_px / least_seen_sine, gpu_bound_px / least_seen_sine)};
 }
 
 /// With the eye at the projector, every point is drawn where the projector sees it, on any face.
@@ -141,9 +142,9 @@ StabilityResult at_the_projector(const StabilityOptions&) {
                                                               seen->v - (400.0L - 1920.0L * x.y / depth))));
         }
     }
-    StabilityResult result{rows_of(figures_of(stage, artifact, plan_of(stage, artifact)), "", bound_px / 0.1,
-                                   gpu_bound_px / 0.1)};
-    result.rows.push_back({"the exact picture, off the projector's own view, px", 1e-12, off_px});
+    StabilityResult result{
+        rows_of(figures_of(stage, artifact, plan_of(stage, artifact)), "", bound_px, gpu_bound_px)};
+    result.rows.push_back({"the exact picture, off the projector's own view, px", 1e-13, off_px});
     return result;
 }
 
@@ -157,8 +158,9 @@ StabilityResult far_away(const StabilityOptions&) {
                                                   std::sin(elevation));
             figures.include(figures_of(stage));
         }
+        // A thousand metres are as many prop's heights as cost the 64-bit eye two more roundings.
         for (StabilityRow& row : rows_of(figures, fmt::format("{:g} m: ", distance_m),
-                                         bound_px * std::fmax(10.0, distance_m), gpu_bound_px / 0.1)) {
+                                         bound_px * (2.0 + distance_m / 1e3), 2.0 * gpu_bound_px)) {
             result.rows.push_back(std::move(row));
         }
     }

@@ -51,9 +51,9 @@ struct PictureFigures {
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
                                         std::optional<std::size_t> only_face = std::nullopt);
 
-/// Errors of the usual stage's picture where nothing is seen slantingly: a picture's width times some
-/// roundings of the matrix, 64 of 2^-53 and 4 of 2^-24. At a slant they grow by 1 / sine.
-inline constexpr double bound_px = 64.0 * 1280.0 * 0x1p-53;
+/// Errors of the usual stage's picture where nothing is seen slantingly: a picture's width times four
+/// roundings of the matrix, of 2^-53 or 2^-24. At a slant they grow by 1 / sine.
+inline constexpr double bound_px = 4.0 * 1280.0 * 0x1p-53;
 inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 
 /// Rows that require: nothing is missing, unlit, wrong or infinite; errors are within the bounds; at least

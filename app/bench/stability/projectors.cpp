@@ -45,7 +45,7 @@ StabilityResult grazing(const StabilityOptions&) {
             figures.include(figures_of(grazing_stage(face, degrees), face));
         }
         for (StabilityRow& row :
-             rows_of(figures, fmt::format("{:g} deg: ", degrees), bound_px / 0.1, gpu_bound_px / 0.1)) {
+             rows_of(figures, fmt::format("{:g} deg: ", degrees), 4.0 * bound_px, 0.5 * gpu_bound_px)) {
             result.rows.push_back(std::move(row));
         }
     }
@@ -108,7 +108,7 @@ StabilityResult light(const StabilityOptions&) {
             }
         }
         result.rows.push_back({fmt::format("{:g} deg: gain off the exact one, of 1", degrees),
-                               std::fmin(0.05, 1e-5 / std::sin(radians(degrees))), off});
+                               std::fmin(5e-4, 1e-7 / std::sin(radians(degrees))), off});
     }
     return result;
 }
@@ -137,9 +137,10 @@ StabilityResult intrinsics(const StabilityOptions&) {
         stage.table_from_prop.translation = lens.prop_m;
         stage.eye_m += lens.prop_m;
         // With a focal length of f pixels, rounding to 32 bits is f x 2^-24 pixels.
-        const double size = std::fmax(1280.0, std::fmax(lens.pinhole.fx, lens.pinhole.fy)) / 1280.0;
+        const double size =
+            std::fmax(lens.pinhole.width, 0.5 * std::fmax(lens.pinhole.fx, lens.pinhole.fy)) / 1280.0;
         for (StabilityRow& row :
-             rows_of(figures_of(stage), lens.name, size * bound_px / 0.1, size * gpu_bound_px / 0.1, 0.0)) {
+             rows_of(figures_of(stage), lens.name, 2.0 * size * bound_px, 2.0 * size * gpu_bound_px, 0.0)) {
             result.rows.push_back(std::move(row));
         }
     }

@@ -15,10 +15,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// Every pose has some faces nearly edge-on, so the bounds are those of the flattest view that is still lit.
-std::vector<StabilityRow> rows_at_any_slant(const PictureFigures& figures, const std::string& where,
-                                            double least_points = 100.0) {
-    return rows_of(figures, where, bound_px / 1e-3, gpu_bound_px / 1e-3, least_points);
+/// Of what is seen of the prop where it stands, and where it is tilted.
+constexpr double least_sine_upright = 0.1;
+constexpr double least_sine_tilted = 0.05;
+
+std::vector<StabilityRow> rows_at(double sine, const PictureFigures& figures, const std::string& where,
+                                  double least_points = 100.0) {
+    return rows_of(figures, where, bound_px / sine, gpu_bound_px / sine, least_points);
 }
 
 void append(StabilityResult& result, std::vector<StabilityRow> rows) {
@@ -39,7 +42,7 @@ StabilityResult edges(const StabilityOptions&) {
                 figures.include(figures_of(stage));
             }
         }
-        append(result, rows_at_any_slant(figures, where));
+        append(result, rows_at(least_sine_upright, figures, where));
     };
     add("at the edge: ", {{0.32, 0.0}, {-0.32, 0.0}, {0.0, 0.17}, {0.0, -0.17}, {0.31, 0.16}});
     add("straddling it: ", {{0.40, 0.0}, {-0.39, 0.02}, {0.02, 0.25}, {-0.05, -0.26}, {0.40, 0.25}});
@@ -70,8 +73,8 @@ StabilityResult lifted(const StabilityOptions&) {
         stage.eye_m = {0.0, -0.55, height_m + 0.5};
         stage.table_from_prop.translation = {0.0, 0.0, height_m};
         const SeenArtifact artifact = seen_artifact(stage, 40000);
-        append(result, rows_at_any_slant(figures_of(stage, artifact, plan_of(stage, artifact)),
-                                         fmt::format("{:g} m: ", height_m)));
+        append(result, rows_at(least_sine_upright, figures_of(stage, artifact, plan_of(stage, artifact)),
+                               fmt::format("{:g} m: ", height_m)));
     }
     PictureFigures figures;
     for (const double height_m : {1.08, 1.1, 1.19, 1.2, 1.3, 10.0}) { // the lens is in it, or below it
@@ -81,7 +84,7 @@ StabilityResult lifted(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    append(result, rows_at_any_slant(figures, "about the lens: ", 0.0));
+    append(result, rows_at(least_sine_upright, figures, "about the lens: ", 0.0));
     return result;
 }
 
@@ -96,7 +99,7 @@ StabilityResult tilted(const StabilityOptions&) {
             figures.include(figures_of(stage));
         }
     }
-    return {rows_at_any_slant(figures, "", 10000.0)};
+    return {rows_at(least_sine_tilted, figures, "", 10000.0)};
 }
 
 /// Only a rigid matrix has a rigid transform.

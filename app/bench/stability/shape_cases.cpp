@@ -49,7 +49,7 @@ void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
         }
     }
     result.rows.push_back({"error figures that are not finite", 0.0, not_finite});
-    for (StabilityRow& row : rows_of(picture, "", bound_px / 0.1, gpu_bound_px / 0.1, 1.0)) {
+    for (StabilityRow& row : rows_of(picture, "", bound_px, gpu_bound_px, 1.0)) {
         result.rows.push_back(std::move(row));
     }
 }
