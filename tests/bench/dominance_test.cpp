@@ -43,44 +43,70 @@ SetUpResult with(std::vector<TechniqueResult> peers) {
     return result;
 }
 
-Verdict verdict_beside(const TechniqueResult& peer) {
-    const std::vector<Verdict> verdicts = judge_dominance(with({peer}));
-    EXPECT_EQ(verdicts.size(), 1U);
-    return verdicts.at(0);
+/// By shape, then by colour.
+std::vector<Verdict> verdicts_beside(const TechniqueResult& peer) {
+    std::vector<Verdict> verdicts = judge_dominance(with({peer}));
+    EXPECT_EQ(verdicts.size(), 2U);
+    return verdicts;
 }
 
-TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominates) {
-    const Verdict verdict = verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 3.0, middling));
-    EXPECT_FALSE(verdict.held);
-    EXPECT_NE(verdict.what.find("mesh 0"), std::string::npos);
-    EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos);
-}
-
-TEST(Dominance, APeerThatIsWorseInOneFigureDoesNot) {
-    for (const Errors& errors : {Errors{0.21, 0.01, 1.0}, Errors{0.01, 0.11, 1.0}, Errors{0.01, 0.01, 8.1}}) {
-        EXPECT_TRUE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 1.5, errors)).held);
+TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominatesInBoth) {
+    const TechniqueResult peer = technique("LOD 10k", TechniqueKind::Lod, 3.0, middling);
+    for (const Verdict& verdict : verdicts_beside(peer)) {
+        EXPECT_FALSE(verdict.held);
+        EXPECT_NE(verdict.what.find("mesh 0"), std::string::npos);
+        EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos);
     }
-    EXPECT_TRUE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 5.0, {0.0, 0.0, 0.0})).held);
+    const SetUpResult result = with({peer});
+    EXPECT_EQ(dominated_by(result, result.techniques[1], Dominance::Shape), "LOD 10k");
+    EXPECT_EQ(dominated_by(result, result.techniques[1], Dominance::Colour), "LOD 10k");
+}
+
+TEST(Dominance, ShapeAndColourAreJudgedApart) {
+    for (const Errors& errors : {Errors{0.21, 0.01, 1.0}, Errors{0.01, 0.11, 1.0}}) {
+        const std::vector<Verdict> verdicts =
+            verdicts_beside(technique("LOD", TechniqueKind::Lod, 1.5, errors));
+        EXPECT_TRUE(verdicts[0].held);
+        EXPECT_FALSE(verdicts[1].held);
+    }
+    const std::vector<Verdict> verdicts =
+        verdicts_beside(technique("LOD", TechniqueKind::Lod, 1.5, {0.01, 0.01, 8.1}));
+    EXPECT_FALSE(verdicts[0].held);
+    EXPECT_TRUE(verdicts[1].held);
+    for (const Verdict& dear : verdicts_beside(technique("LOD", TechniqueKind::Lod, 5.0, {0.0, 0.0, 0.0}))) {
+        EXPECT_TRUE(dear.held);
+    }
+}
+
+TEST(Dominance, ShapeIsJudgedAmongPicturesOfAsManySamples) {
+    TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 1.5, {0.0, 0.0, 0.0});
+    peer.samples = 4;
+    const std::vector<Verdict> verdicts = judge_dominance(with({peer}));
+    ASSERT_EQ(verdicts.size(), 1U); // none has one sample, as the level
+    EXPECT_NE(verdicts[0].what.find("colour"), std::string::npos);
+    EXPECT_FALSE(verdicts[0].held);
+    const SetUpResult result = with({peer});
+    EXPECT_EQ(dominated_by(result, result.techniques[1], Dominance::Shape), "");
 }
 
 TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
     for (const double cost : {3.85, 4.0, 4.15}) {
-        const Verdict verdict = verdict_beside(technique("LOD 10k", TechniqueKind::Lod, cost, middling));
-        EXPECT_TRUE(verdict.held) << cost;
-        EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos) << cost;
+        for (const Verdict& verdict :
+             verdicts_beside(technique("LOD 10k", TechniqueKind::Lod, cost, middling))) {
+            EXPECT_TRUE(verdict.held) << cost;
+            EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos) << cost;
+        }
     }
-    EXPECT_FALSE(verdict_beside(technique("LOD 10k", TechniqueKind::Lod, 3.8, middling)).held);
+    EXPECT_FALSE(verdicts_beside(technique("LOD 10k", TechniqueKind::Lod, 3.8, middling))[0].held);
 }
 
-TEST(Dominance, FloorAndRayCastAreNotJudged) {
-    const Verdict verdict =
-        judge_dominance(with({technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0}),
-                              technique("LOD", TechniqueKind::Lod, 9.0, {0, 0, 0})}))
-            .at(0);
-    EXPECT_TRUE(verdict.held);
-    EXPECT_EQ(verdict.found.find("ray cast"), std::string::npos);
-    EXPECT_TRUE(
-        judge_dominance(with({technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0})})).empty());
+TEST(Dominance, TheRayCastIsJudgedAndTheFloorIsNot) {
+    for (const Verdict& verdict :
+         verdicts_beside(technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0}))) {
+        EXPECT_FALSE(verdict.held);
+        EXPECT_EQ(verdict.found.find("floor"), std::string::npos);
+    }
+    EXPECT_TRUE(judge_dominance(with({})).empty());
 }
 
 TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {

@@ -139,7 +139,7 @@ TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
             ASSERT_TRUE(points);
             const PictureError error = measure(picture, {picture.colour, *points});
             EXPECT_LT(error.outline_shift_px, 0.02);
-            EXPECT_LT(error.geometric_p95_mm, 0.001);
+            EXPECT_LT(error.geometric_p95_mm, 0.002); // 16 bits a coordinate are 0.0012 mm apart
         }
     }
 }

@@ -60,6 +60,17 @@ TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
     EXPECT_FALSE(verdict({picture_error(0.1, 0.1, 0, 0), picture_error(0.61, 0.31, 0, 0)}));
 }
 
+TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
+    SetUpResult result = example();
+    result.techniques.push_back(
+        technique("auto (mesh 0)", TechniqueKind::Auto, 0, 3.0, {picture_error(1.79, 0.9, 0.229, 10.0)}));
+    std::vector<Verdict> verdicts = judge(result);
+    std::erase_if(verdicts, [](const Verdict& verdict) { return verdict.what.find("auto (mesh 0): ") != 0; });
+    EXPECT_EQ(verdicts.size(), judge(result.techniques[1], default_level_limits).size());
+    EXPECT_EQ(missed(verdicts), 2U); // silhouette and geometry
+    EXPECT_EQ(missed(judge(result)), 2U);
+}
+
 TEST(Verdicts, OneBadPoseMissesALimit) {
     TechniqueResult level = technique("t", TechniqueKind::PackLevel, 0, 1.0,
                                       {picture_error(0, 0, 0.01, 1.0), picture_error(0, 0, 0.21, 1.0)});

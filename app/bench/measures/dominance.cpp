@@ -13,7 +13,7 @@ bool has_eye_image(const TechniqueResult& technique) {
 }
 
 bool of_one_mesh(const TechniqueResult& a, const TechniqueResult& b) {
-    return a.kind == b.kind && a.triangles == b.triangles;
+    return a.kind == b.kind && a.triangles == b.triangles && a.samples == b.samples;
 }
 
 /// Whether another eye image of the same mesh has smaller errors at about the same cost, or no larger ones at
@@ -41,20 +41,45 @@ std::string figures_of(const TechniqueResult& technique) {
                        mean.sixteen_rays.rmse);
 }
 
-Verdict judge_level(const SetUpResult& result, const TechniqueResult& level) {
+bool errs_no_more_by(Dominance by, const TechniqueResult& a, const TechniqueResult& b) {
+    const PictureError& x = a.error.mean;
+    const PictureError& y = b.error.mean;
+    return by == Dominance::Shape
+               ? x.silhouette_percent <= y.silhouette_percent && x.geometric_mean_mm <= y.geometric_mean_mm
+               : x.sixteen_rays.rmse <= y.sixteen_rays.rmse;
+}
+
+/// Whose pictures a level's are held against.
+std::vector<const TechniqueResult*> rivals(const SetUpResult& result, const TechniqueResult& level,
+                                           Dominance by) {
+    std::vector<const TechniqueResult*> found;
+    for (const TechniqueResult& peer : result.techniques) {
+        if (is_judged_peer(peer.kind) && (by == Dominance::Colour || peer.samples == level.samples)) {
+            found.push_back(&peer);
+        }
+    }
+    return found;
+}
+
+bool is_cheaper(const TechniqueResult& peer, const TechniqueResult& level) {
+    return peer.times_floor * (1.0 + cost_tolerance) < level.times_floor;
+}
+
+void append(std::string& list, const std::string& more) {
+    list += (list.empty() ? "" : "; ") + more;
+}
+
+Verdict judge_level(const SetUpResult& result, const TechniqueResult& level, Dominance by) {
     std::string dominating;
     std::string tied;
-    const auto append = [](std::string& list, const std::string& more) {
-        list += (list.empty() ? "" : "; ") + more;
-    };
-    for (const TechniqueResult& peer : result.techniques) {
-        if (!is_judged_peer(peer.kind) || !errs_no_more(peer, level)) {
+    for (const TechniqueResult* peer : rivals(result, level, by)) {
+        if (!errs_no_more_by(by, *peer, level)) {
             continue;
         }
-        if (peer.times_floor * (1.0 + cost_tolerance) < level.times_floor) {
-            append(dominating, figures_of(peer));
-        } else if (peer.times_floor <= level.times_floor * (1.0 + cost_tolerance)) {
-            append(tied, figures_of(peer));
+        if (is_cheaper(*peer, level)) {
+            append(dominating, figures_of(*peer));
+        } else if (peer->times_floor <= level.times_floor * (1.0 + cost_tolerance)) {
+            append(tied, figures_of(*peer));
         }
     }
     std::string found = dominating.empty() ? "none" : dominating;
@@ -62,21 +87,31 @@ Verdict judge_level(const SetUpResult& result, const TechniqueResult& level) {
     if (!tied.empty()) {
         found += fmt::format("; within {:g} % of its cost: {}", 100.0 * cost_tolerance, tied);
     }
-    return {fmt::format("{}: no peer dominates it", level.name), found, dominating.empty()};
+    return {by == Dominance::Shape ? fmt::format("{}: no peer of {} samples a pixel dominates its shape",
+                                                 level.name, level.samples)
+                                   : fmt::format("{}: no peer dominates its colour", level.name),
+            found, dominating.empty()};
 }
 
 } // namespace
 
 bool is_judged_peer(TechniqueKind kind) {
-    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel &&
-           kind != TechniqueKind::RayCast && kind != TechniqueKind::ReliefCast;
+    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel && kind != TechniqueKind::Auto &&
+           kind != TechniqueKind::ReliefCast;
 }
 
 bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b) {
-    const PictureError& x = a.error.mean;
-    const PictureError& y = b.error.mean;
-    return x.silhouette_percent <= y.silhouette_percent && x.geometric_mean_mm <= y.geometric_mean_mm &&
-           x.sixteen_rays.rmse <= y.sixteen_rays.rmse;
+    return errs_no_more_by(Dominance::Shape, a, b) && errs_no_more_by(Dominance::Colour, a, b);
+}
+
+std::string dominated_by(const SetUpResult& result, const TechniqueResult& level, Dominance by) {
+    std::string names;
+    for (const TechniqueResult* peer : rivals(result, level, by)) {
+        if (errs_no_more_by(by, *peer, level) && is_cheaper(*peer, level)) {
+            append(names, peer->name);
+        }
+    }
+    return names;
 }
 
 std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result) {
@@ -91,13 +126,14 @@ std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result
 
 std::vector<Verdict> judge_dominance(const SetUpResult& result) {
     std::vector<Verdict> verdicts;
-    if (std::none_of(result.techniques.begin(), result.techniques.end(),
-                     [](const TechniqueResult& technique) { return is_judged_peer(technique.kind); })) {
-        return verdicts;
-    }
     for (const TechniqueResult& technique : result.techniques) {
-        if (technique.kind == TechniqueKind::PackLevel) {
-            verdicts.push_back(judge_level(result, technique));
+        if (technique.kind != TechniqueKind::PackLevel) {
+            continue;
+        }
+        for (const Dominance by : {Dominance::Shape, Dominance::Colour}) {
+            if (!rivals(result, technique, by).empty()) {
+                verdicts.push_back(judge_level(result, technique, by));
+            }
         }
     }
     return verdicts;

@@ -1,5 +1,5 @@
-/// Is anything else cheaper and no worse? Pareto dominance over four figures: cost, and mean silhouette,
-/// geometric and colour error (16 rays).
+/// Is anything else cheaper and no worse? Judged twice: by shape, mean silhouette and geometric error, among pictures of as many
+/// samples a pixel; and, apart from that, by colour (16 rays), among all.
 ///
 /// Tolerance  times are noisy: a peer dominates only if it is cheaper by more than `cost_tolerance`; a peer
 ///            with no larger errors at about the same cost is only named.
@@ -8,21 +8,28 @@
 
 #include "app/bench/measures/verdicts.h"
 
+#include <string>
 #include <vector>
 
 namespace frustumscreen {
 
 inline constexpr double cost_tolerance = 0.05;
 
-/// False for the pack's own levels, our own relief, the floor, and the ray cast, which is a reference.
+/// False for the pack's own levels, what `auto` takes, our own relief and the floor.
 [[nodiscard]] bool is_judged_peer(TechniqueKind kind);
+/// In silhouette, geometry and colour.
 [[nodiscard]] bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b);
+
+enum class Dominance { Shape, Colour };
+/// The names of those that dominate a level, with "; " between; empty = none does.
+[[nodiscard]] std::string dominated_by(const SetUpResult& result, const TechniqueResult& level, Dominance by);
 
 /// Every technique, but of one mesh's two-pass pictures only the one with the best eye image: the cheapest
 /// that no other betters at about the same cost.
 [[nodiscard]] std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result);
 
-/// One verdict for each level of the pack; none without peers. Every eye image counts here.
+/// Two verdicts for each level of the pack; none without peers, and none by shape where no peer has as many samples. Every eye
+/// image counts here.
 [[nodiscard]] std::vector<Verdict> judge_dominance(const SetUpResult& result);
 
 } // namespace frustumscreen

@@ -20,7 +20,8 @@ int rounds_of(const ErrorTimeOptions& options) {
 Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
                              std::uint32_t level) {
     std::size_t k = 0;
-    while (set.results()[k].level != static_cast<int>(level)) {
+    while (set.results()[k].kind != TechniqueKind::PackLevel ||
+           set.results()[k].level != static_cast<int>(level)) {
         ++k;
     }
     const std::vector<PictureError>& errors = set.results()[k].errors;
@@ -36,14 +37,17 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
 }
 
 Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth, const Pack& pack,
-                       const glm::dmat4& prop_from_artifact, const PeerChoice& choice) {
+                       const glm::dmat4& prop_from_artifact, PeerChoice choice) {
+    if (choice.samples.empty()) {
+        choice.samples = pack.samples > 1 ? std::vector{1, pack.samples} : std::vector{1};
+    }
     Result<void> added;
     if (choice.mesh || choice.two_pass) {
         added = set.add_peers(mesh, prop_from_artifact, choice.mesh,
-                              choice.two_pass ? choice.eye_pixels : std::vector<int>{});
+                              choice.two_pass ? choice.eye_pixels : std::vector<int>{}, choice.samples);
     }
     if (added && choice.ray_cast) {
-        added = set.add_ray_cast(truth);
+        added = set.add_ray_cast(truth, choice.samples);
     }
     if (added && (choice.lod || choice.two_pass_lod)) {
         added = set.add_levels_of_detail(mesh, prop_from_artifact, choice);
@@ -69,7 +73,9 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         return tl::unexpected<Error>(opened.error());
     }
     auto& [set, poses, truth, prop_from_artifact] = *opened;
-    Result<void> ready = add_peers(*set, *mesh, truth, pack, prop_from_artifact, options.peers);
+    Result<void> ready = set->add_auto(pack, options.picture).and_then([&] {
+        return add_peers(*set, *mesh, truth, pack, prop_from_artifact, options.peers);
+    });
     progress(set_up.name + ": meshes", 1.0);
     progress(set_up.name + ": errors", 0.0);
     if (ready) {
@@ -103,9 +109,11 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const PeerChoice& peers = options.peers;
     const auto eye_images = static_cast<double>(peers.eye_pixels.size());
     const auto details = static_cast<double>(peers.lod_triangles.size());
-    const double full = (peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0);
-    const double small = static_cast<double>(pack.levels.size()) + (peers.ray_cast ? 1.0 : 0.0) +
-                         (peers.lod ? details : 0.0) + (peers.two_pass_lod ? details * eye_images : 0.0);
+    const auto times = static_cast<double>(std::max<std::size_t>(peers.samples.size(), 2));
+    const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
+    const double small = static_cast<double>(pack.levels.size()) + 1.0 +
+                         times * ((peers.ray_cast ? 1.0 : 0.0) + (peers.lod ? details : 0.0) +
+                                  (peers.two_pass_lod ? details * eye_images : 0.0));
     const auto triangles = static_cast<double>(mesh.triangles.size());
     const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
     return {

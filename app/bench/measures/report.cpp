@@ -41,6 +41,7 @@ nlohmann::json json_of(const TechniqueResult& technique) {
     nlohmann::json json = {{"name", technique.name},
                            {"kind", name_of(technique.kind)},
                            {"triangles", technique.triangles},
+                           {"samples", technique.samples},
                            {"median_ms", technique.time_ms.median},
                            {"p10_ms", technique.time_ms.p10},
                            {"p90_ms", technique.time_ms.p90},
@@ -66,24 +67,30 @@ nlohmann::json json_of(std::span<const Verdict> verdicts) {
     return json;
 }
 
+/// Some names have a comma.
+std::string field(const std::string& text) {
+    return text.find(',') != std::string::npos ? quoted(text) : text;
+}
+
 } // namespace
 
 std::string summary_csv(std::span<const SetUpResult> results) {
     std::string csv =
-        "set_up,technique,kind,triangles,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
+        "set_up,technique,kind,triangles,samples,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
     for (const char* which : {"mean", "worst"}) {
         for (const Figure& figure : figures) {
             csv += fmt::format(",{}_{}", which, figure.name);
         }
     }
-    csv += ",worst_pose,best_eye_image\n";
+    csv += ",worst_pose,best_eye_image,dominated_in_shape_by,dominated_in_colour_by\n";
     for (const SetUpResult& result : results) {
         const std::vector<const TechniqueResult*> best = at_best_eye_images(result);
         for (const TechniqueResult& technique : result.techniques) {
-            csv += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
-                               technique.name, name_of(technique.kind), technique.triangles,
-                               technique.time_ms.median, technique.time_ms.p10, technique.time_ms.p90,
-                               technique.times_floor, technique.cpu_ms, technique.cpu_times_floor);
+            csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
+                               field(technique.name), name_of(technique.kind), technique.triangles,
+                               technique.samples, technique.time_ms.median, technique.time_ms.p10,
+                               technique.time_ms.p90, technique.times_floor, technique.cpu_ms,
+                               technique.cpu_times_floor);
             for (const PictureError* error : {&technique.error.mean, &technique.error.worst}) {
                 for (const Figure& figure : figures) {
                     csv += technique.errors.empty() ? std::string(",")
@@ -92,7 +99,12 @@ std::string summary_csv(std::span<const SetUpResult> results) {
             }
             csv +=
                 technique.errors.empty() ? std::string(",") : fmt::format(",{}", technique.error.worst_pose);
-            csv += std::find(best.begin(), best.end(), &technique) != best.end() ? ",1\n" : ",0\n";
+            csv += std::find(best.begin(), best.end(), &technique) != best.end() ? ",1" : ",0";
+            for (const Dominance by : {Dominance::Shape, Dominance::Colour}) {
+                const bool judged = technique.kind == TechniqueKind::PackLevel;
+                csv += "," + field(judged ? dominated_by(result, technique, by) : std::string());
+            }
+            csv += "\n";
         }
     }
     return csv;
@@ -121,7 +133,7 @@ std::string poses_csv(std::span<const SetUpResult> results) {
         for (const TechniqueResult& technique : result.techniques) {
             for (std::size_t k = 0; k < technique.errors.size(); ++k) {
                 csv += fmt::format("{},{},{},{},{},{}", result.name, k, pose_fields(result.poses[k]),
-                                   technique.name, technique.errors[k].truth_pixels,
+                                   field(technique.name), technique.errors[k].truth_pixels,
                                    technique.errors[k].outline_pixels);
                 for (const Figure& figure : figures) {
                     csv += fmt::format(",{:.6f}", figure.of(technique.errors[k]));
@@ -169,12 +181,12 @@ std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const V
 
 std::string console_table(const SetUpResult& result) {
     std::string table =
-        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<23}{:>10}{:>9}{:>15}{:>9}{:>10}  "
+        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<32}{:>10}{:>9}{:>15}{:>9}{:>10}  "
                     "{:<17}{:<17}{:<18}{:<15}\n",
                     result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor",
                     "CPU x fl.", "silhouette %", "outline px", "geometric mm", "RMSE 16 rays");
     for (const TechniqueResult& technique : result.techniques) {
-        table += fmt::format("{:<23}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
+        table += fmt::format("{:<32}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
                              technique.triangles, technique.time_ms.median,
                              fmt::format("{:.1f}..{:.1f}", technique.time_ms.p10, technique.time_ms.p90),
                              technique.times_floor, technique.cpu_times_floor);

@@ -6,6 +6,7 @@
 #include "app/bench/techniques/relief/relief_peers.h"
 #include "app/bench/techniques/relief_cast.h"
 #include "app/render/read_back.h"
+#include "app/scene/scene_plan.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/display/surfaceless_display.h"
 
@@ -20,9 +21,10 @@ namespace frustumscreen {
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 9> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 10> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
+    {TechniqueKind::Auto, "auto"},
     {TechniqueKind::FullMesh, "full mesh"},
     {TechniqueKind::TwoPass, "two-pass"},
     {TechniqueKind::RayCast, "ray cast"},
@@ -83,19 +85,58 @@ Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, Tec
     return {};
 }
 
+Result<void> TechniqueSet::add_sampled(const MakePeer& make, const TechniqueResult& result,
+                                       const std::vector<int>& samples) {
+    for (const int each : samples) {
+        TechniqueResult sampled = result;
+        sampled.samples = each;
+        if (const Result<void> added =
+                add(each > 1 ? make_supersampled(stage_, each, make) : make(stage_), std::move(sampled));
+            !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
 Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& usual) {
     PictureOptions options = usual;
+    options.samples = options.samples > 0 ? options.samples : pack.samples;
     if (level + 1 == pack.levels.size()) {
         options.samples =
             std::max(options.samples, finest_samples); // as `render --technique finest` draws it
     }
-    return add(
-        make_pack_level(stage_, pack, level, options, level_name(pack, level)),
-        described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3));
+    TechniqueResult result =
+        described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3);
+    result.samples = options.samples;
+    return add(make_pack_level(stage_, pack, level, options, level_name(pack, level)), std::move(result));
+}
+
+Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& options) {
+    SceneRequest request;
+    request.light = options.lit;
+    request.samples = options.samples;
+    const Result<ScenePlan> plan = plan_scene(stage_.settings, outline_of(pack), request);
+    if (!plan) {
+        return tl::unexpected<Error>(plan.error());
+    }
+    // Of meshes: whether a relief is quicker, the exhibit measures.
+    const auto mesh =
+        std::find_if(plan->rungs.begin(), plan->rungs.end(), [](const Rung& each) { return !each.relief; });
+    const Rung& rung = *mesh;
+    PictureOptions taken = options;
+    taken.samples = rung.samples;
+    TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
+                                       pack.levels[rung.level].indices.size() / 3);
+    result.samples = rung.samples;
+    return add(make_pack_level(stage_, pack, rung.level, taken,
+                               fmt::format("auto ({})", level_name(pack, rung.level))),
+               std::move(result));
 }
 
 Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
-                                     bool full_mesh, const std::vector<int>& two_pass_pixels) {
+                                     bool full_mesh, const std::vector<int>& two_pass_pixels,
+                                     const std::vector<int>& samples) {
     const auto peer = PeerMesh::upload(mesh, prop_from_artifact);
     if (!peer) {
         return tl::unexpected<Error>(peer.error());
@@ -103,18 +144,21 @@ Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& p
     const std::uint64_t triangles = mesh.triangles.size();
     Result<void> added;
     if (full_mesh) {
-        added = add(make_full_mesh(stage_, *peer), described(TechniqueKind::FullMesh, -1, triangles));
+        added = add_sampled([&](const Stage& stage) { return make_full_mesh(stage, *peer); },
+                            described(TechniqueKind::FullMesh, -1, triangles), samples);
     }
     for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
-        added = add(make_two_pass(stage_, *peer, two_pass_pixels[k]),
-                    described(TechniqueKind::TwoPass, -1, triangles));
+        added =
+            add_sampled([&](const Stage& stage) { return make_two_pass(stage, *peer, two_pass_pixels[k]); },
+                        described(TechniqueKind::TwoPass, -1, triangles), samples);
     }
     return added;
 }
 
-Result<void> TechniqueSet::add_ray_cast(const Truth& truth) {
-    return add(make_ray_cast(stage_, truth.traced()),
-               described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size()));
+Result<void> TechniqueSet::add_ray_cast(const Truth& truth, const std::vector<int>& samples) {
+    return add_sampled([&](const Stage& stage) { return make_ray_cast(stage, truth.traced()); },
+                       described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size()),
+                       samples);
 }
 
 Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
@@ -128,11 +172,13 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
             return tl::unexpected<Error>(peer.error());
         }
         if (choice.lod) {
-            added = add(make_full_mesh(stage_, *peer, name), described(TechniqueKind::Lod, -1, triangles));
+            added = add_sampled([&](const Stage& stage) { return make_full_mesh(stage, *peer, name); },
+                                described(TechniqueKind::Lod, -1, triangles), choice.samples);
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
-            added = add(make_two_pass(stage_, *peer, choice.eye_pixels[k], name),
-                        described(TechniqueKind::TwoPassLod, -1, triangles));
+            added = add_sampled(
+                [&](const Stage& stage) { return make_two_pass(stage, *peer, choice.eye_pixels[k], name); },
+                described(TechniqueKind::TwoPassLod, -1, triangles), choice.samples);
         }
         if (!added) {
             return added;
@@ -159,8 +205,10 @@ Result<void> TechniqueSet::add_relief_casts(const SourceMesh& mesh, const Pack& 
     for (const int size : texels) {
         BlocksInBox blocks = blocks_of_source(mesh, pack, stage_.prop, size);
         const std::size_t count = blocks.relief.blocks.size();
-        if (Result<void> added = add(make_relief_cast(stage_, std::move(blocks), pack.samples),
-                                     described(TechniqueKind::ReliefCast, -1, count));
+        TechniqueResult result = described(TechniqueKind::ReliefCast, -1, count);
+        result.samples = pack.samples;
+        if (Result<void> added =
+                add(make_relief_cast(stage_, std::move(blocks), pack.samples), std::move(result));
             !added) {
             return added;
         }
@@ -175,26 +223,36 @@ Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
 
 Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
     Image8 colour = picture(k, pose);
+    Result<Drawn> made = places(k, pose);
+    if (made) {
+        made->colour = std::move(colour);
+    }
+    return made;
+}
+
+Result<Drawn> TechniqueSet::places(std::size_t k, const BenchPose& pose) {
     Result<ImageFloat> points = techniques_[k]->hit_points(pose);
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    return Drawn{std::move(colour), std::move(*points)};
+    return Drawn{Image8(stage_.width(), stage_.height()), std::move(*points)};
 }
 
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
-                                          std::size_t first, const Progress& progress) {
+                                          std::size_t first, const Progress& progress, Figures figures) {
+    const bool all = figures == Figures::All;
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-        const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), true);
+        const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), all);
         for (std::size_t k = first; k < techniques_.size(); ++k) {
             if (results_[k].kind == TechniqueKind::Floor) {
                 continue;
             }
-            const Result<Drawn> seen = drawn(k, poses[pose]);
+            const Result<Drawn> seen = all ? drawn(k, poses[pose]) : places(k, poses[pose]);
             if (!seen) {
                 return tl::unexpected<Error>(seen.error());
             }
             results_[k].errors.push_back(measure(cast, *seen));
+            results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
         }
         progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
     }

@@ -9,6 +9,7 @@
 #include "app/bench/techniques/pack_level.h"
 #include "app/bench/techniques/peer_choice.h"
 #include "app/bench/techniques/peers.h"
+#include "app/bench/techniques/supersampled.h"
 #include "app/pack/pack_file.h"
 #include "firmware_host/display/display.h"
 
@@ -28,6 +29,7 @@ struct SetUp {
 enum class TechniqueKind {
     Floor,
     PackLevel,
+    Auto, ///< the level that the exhibit's governor takes in this set-up while it is in time
     FullMesh,
     TwoPass,
     RayCast, ///< the reference: reported, not judged
@@ -42,9 +44,11 @@ enum class TechniqueKind {
 struct TechniqueResult {
     std::string name;
     TechniqueKind kind = TechniqueKind::PackLevel;
-    int level = -1;                   ///< PackLevel
-    std::uint64_t triangles = 0;      ///< of what is drawn
-    std::vector<PictureError> errors; ///< one for each pose; empty for the floor
+    int level = -1;                                      ///< PackLevel, Auto
+    std::uint64_t triangles = 0;                         ///< of what is drawn
+    int samples = 1;                                     ///< a pixel
+    std::vector<PictureError> errors;                    ///< one for each pose; empty for the floor
+    std::vector<std::optional<ErrorEstimate>> estimates; ///< what the exhibit says of each; nothing for peers
     ErrorSummary error;
     Spread time_ms;
     double times_floor = 0.0; ///< median / that of the faster floor
@@ -60,11 +64,14 @@ public:
     TechniqueSet& operator=(const TechniqueSet&) = delete;
 
     /// The pack must outlive the set.
+    [[nodiscard]] Result<void> add_auto(const Pack& pack, const PictureOptions& options);
     [[nodiscard]] Result<void> add_level(const Pack& pack, std::uint32_t level,
                                          const PictureOptions& options);
+    /// `samples` here and below: a pixel; each peer is there once with each.
     [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
-                                         bool full_mesh, const std::vector<int>& two_pass_pixels);
-    [[nodiscard]] Result<void> add_ray_cast(const Truth& truth);
+                                         bool full_mesh, const std::vector<int>& two_pass_pixels,
+                                         const std::vector<int>& samples = {1});
+    [[nodiscard]] Result<void> add_ray_cast(const Truth& truth, const std::vector<int>& samples = {1});
     /// Adds the simplified source, drawn through the collineation and by two passes, as the choice says.
     [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
                                                     const glm::dmat4& prop_from_artifact,
@@ -83,9 +90,12 @@ public:
 
     [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
 
-    /// Draws `poses` with techniques [first, end) and measures each picture against the truth.
+    /// Draws `poses` with techniques [first, end) and measures each picture against the truth. `Shape`: its places
+    /// alone; errors of colour mean nothing then.
+    enum class Figures { All, Shape };
     [[nodiscard]] Result<void> measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
-                                              std::size_t first, const Progress& progress);
+                                              std::size_t first, const Progress& progress,
+                                              Figures figures = Figures::All);
     void measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress);
 
     [[nodiscard]] const Stage& stage() const { return stage_; }
@@ -95,7 +105,11 @@ public:
 private:
     TechniqueSet(std::unique_ptr<Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
+    /// Without colour.
+    [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
+    [[nodiscard]] Result<void> add_sampled(const MakePeer& make, const TechniqueResult& result,
+                                           const std::vector<int>& samples);
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;

@@ -111,6 +111,9 @@ std::vector<Verdict> judge(const SetUpResult& result) {
             add("default level", judge(technique, default_level_limits));
             add("default level, pushed", judge(technique, pushed_default_limits));
         }
+        if (technique.kind == TechniqueKind::Auto) {
+            add(technique.name, judge(technique, default_level_limits));
+        }
         if (technique.kind == TechniqueKind::PackLevel &&
             technique.level == static_cast<int>(result.finest_level)) {
             add("finest level", judge(technique, finest_level_limits));

@@ -25,7 +25,7 @@ public:
 private:
     void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
         const PeerView view = peer_view(stage_, pose);
-        begin_picture(framebuffer, stage_.width(), stage_.height());
+        begin_picture(framebuffer, stage_.width(), stage_.height(), PictureOf::Codes);
         mark_faces(view);
         visible_.find(mesh_->triangles(), view);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -37,11 +37,12 @@ private:
                 collineation(view.faces[k]->plane, view.eye_m, view.clip_from_prop, mesh_->box());
             if (clip) {
                 glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
-                mesh_->draw(*clip, output, GL_CW, visible_, k);
+                mesh_->draw({*clip, {stage_.width(), stage_.height()}, output, GL_CW}, visible_, k);
             }
         }
         glDisable(GL_STENCIL_TEST);
         glDisable(GL_DEPTH_TEST);
+        end_codes();
     }
 
     void mark_faces(const PeerView& view) {

@@ -1,6 +1,7 @@
 #include "app/bench/techniques/pack_level.h"
 
 #include "app/render/hit_points.h"
+#include "app/scene/error_estimate.h"
 #include "app/scene/exposure.h"
 #include "app/scene/frame_plan.h"
 
@@ -34,9 +35,9 @@ Light light_of(const Stage& stage, const Pack& pack, const SceneLevel& level, co
 
 class PackLevelTechnique final : public Technique {
 public:
-    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, const Light& light,
-                       std::string name, Parts parts)
-        : stage_(stage), placed_(placed_level), light_(light), name_(std::move(name)),
+    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, SeenLevel seen,
+                       const Light& light, std::string name, Parts parts)
+        : stage_(stage), placed_(placed_level), seen_(std::move(seen)), light_(light), name_(std::move(name)),
           parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
@@ -49,17 +50,20 @@ public:
         return parts_.hit_points.draw(plan_, parts_.renderer.store());
     }
 
+    [[nodiscard]] std::optional<ErrorEstimate> estimate(const BenchPose& pose) override {
+        plan(pose);
+        return estimate_error(seen_, stage_.prop, placed_, view_of(pose), plan_);
+    }
+
 private:
-    void plan(const BenchPose& pose) {
+    [[nodiscard]] PlanView view_of(const BenchPose& pose) const {
         const ProjectorSettings& projector = stage_.settings.projector;
-        plan_frame(stage_.prop, placed_,
-                   {projector.pinhole,
-                    projector.table_from_projector,
-                    pose.table_from_prop,
-                    {&pose.eye_m, 1},
-                    light_.compensation,
-                    light_.exposure},
-                   plan_);
+        return {projector.pinhole,    projector.table_from_projector,
+                pose.table_from_prop, {&pose.eye_m, 1},
+                light_.compensation,  light_.exposure};
+    }
+    void plan(const BenchPose& pose) {
+        plan_frame(stage_.prop, placed_, view_of(pose), plan_);
         if (!light_.feathered) {
             plan_.feathers.clear();
         }
@@ -67,6 +71,7 @@ private:
 
     const Stage& stage_;
     PlacedLevel placed_;
+    SeenLevel seen_;
     Light light_;
     std::string name_;
     Parts parts_;
@@ -77,6 +82,10 @@ private:
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
                                                    const PictureOptions& options, std::string name) {
+    const Result<std::vector<SeenLevel>> seen = seen_levels(outline_of(pack));
+    if (!seen) {
+        return tl::unexpected<Error>(seen.error());
+    }
     const SceneLevel whole = whole_level(pack, level);
     ShaderKey shader;
     shader.cut_out = whole.cut_out;
@@ -98,8 +107,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    return std::make_unique<PackLevelTechnique>(stage, shown, light_of(stage, pack, whole, options),
-                                                std::move(name),
+    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level],
+                                                light_of(stage, pack, whole, options), std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 

@@ -2,7 +2,7 @@
 ///
 /// mesh          the full mesh through the collineation
 /// two-pass      the full mesh by the two-pass method
-/// ray-cast      the full mesh by a ray cast on the CPU; a reference, not judged
+/// ray-cast      the full mesh by a ray cast on the CPU
 /// lod           simplified meshes through the collineation
 /// two-pass-lod  simplified meshes by the two-pass method
 /// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
@@ -28,6 +28,8 @@ struct PeerChoice {
     bool two_pass_lod = true;
     bool relief = true;
     bool relief_cast = true;
+    /// A pixel; each peer but the relief's is there once with each. None: one, and what the pack asks for.
+    std::vector<int> samples;
     std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods
     std::vector<std::size_t> lod_triangles = {10'000, 20'000, 40'000, 80'000};
     int relief_texels = 512; ///< a side of each relief image

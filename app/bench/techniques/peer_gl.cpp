@@ -48,18 +48,21 @@ void begin(GLuint framebuffer, int width, int height) {
 
 } // namespace
 
-void begin_picture(GLuint framebuffer, int width, int height) {
+void begin_picture(GLuint framebuffer, int width, int height, PictureOf what) {
     begin(framebuffer, width, height);
+    if (what == PictureOf::Codes) {
+        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    }
     glDepthMask(GL_TRUE);
     glStencilMask(0xFF);
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-void begin_codes(GLuint framebuffer, int width, int height) {
+void begin_codes(GLuint framebuffer, int width, int height, float alpha) {
     begin(framebuffer, width, height);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
-    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClearColor(0.0F, 0.0F, 0.0F, alpha);
     glClear(GL_COLOR_BUFFER_BIT);
 }
 

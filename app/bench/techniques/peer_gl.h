@@ -26,11 +26,11 @@ struct OffscreenTarget {
 };
 [[nodiscard]] Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format);
 
+enum class PictureOf { Light, Codes }; ///< what the shader writes; after codes comes end_codes
 /// Binds and clears a picture, with every test and mask as a new context has it.
-void begin_picture(GLuint framebuffer, int width, int height);
+void begin_picture(GLuint framebuffer, int width, int height, PictureOf what = PictureOf::Light);
 /// As the exhibit begins its picture, for what writes codes as they are: colour alone is cleared.
-void begin_codes(GLuint framebuffer, int width, int height);
-/// The others write linear light.
+void begin_codes(GLuint framebuffer, int width, int height, float alpha = 1.0F);
 void end_codes();
 
 enum class Output { Colour, Point }; ///< Point: the hit's place in the prop's frame, alpha 1

@@ -6,7 +6,9 @@
 #pragma once
 
 #include "app/bench/truth/poses.h"
+#include "app/scene/error_estimate.h"
 
+#include <optional>
 #include <string>
 
 namespace frustumscreen {
@@ -29,6 +31,10 @@ public:
     virtual void draw(const BenchPose& pose) = 0;
     /// Each pixel's hit point in the prop's frame, metres; NaN = no hit.
     [[nodiscard]] virtual Result<ImageFloat> hit_points(const BenchPose& pose) = 0;
+    /// What the exhibit says of its own picture's error; nothing: the technique says nothing, or shows nothing.
+    [[nodiscard]] virtual std::optional<ErrorEstimate> estimate(const BenchPose& /*pose*/) {
+        return std::nullopt;
+    }
 };
 
 } // namespace frustumscreen

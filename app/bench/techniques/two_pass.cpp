@@ -20,7 +20,7 @@ void main() {
     gl_Position = clip_from_prop * vec4(position, 1.0);
 })";
 
-/// Colours are bilinear in linear light; coverage (alpha) decides the silhouette, so that it stays sharp.
+/// Colours are bilinear between codes; coverage (alpha) decides the silhouette, so that it stays sharp.
 /// Points are blended over those of the four neighbours that lie on the same surface as the nearest.
 constexpr std::string_view project_fragment = R"(
 in vec4 at_eye;
@@ -69,7 +69,8 @@ void main() {
 #endif
 })";
 
-/// The eye's picture: a perspective from the eye, cropped to the visible faces; w = distance along the axis.
+/// The eye's picture: a perspective from the eye, cropped to what of the artifact's box the visible faces show; w = distance
+/// along the axis. Beside it everything is black, as the picture's edge is.
 glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
     glm::dvec3 middle(0.0);
     for (const PropFace* face : view.faces) {
@@ -92,6 +93,8 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
             high = glm::max(high, slope);
         }
     }
+    glm::dvec2 box_low(std::numeric_limits<double>::infinity());
+    glm::dvec2 box_high(-std::numeric_limits<double>::infinity());
     double near = std::numeric_limits<double>::infinity();
     double far = 0.0;
     for (unsigned k = 0; k < 8; ++k) {
@@ -101,6 +104,15 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
         const double depth = glm::dot(corner - view.eye_m, forward);
         near = std::fmin(near, depth);
         far = std::fmax(far, depth);
+        const glm::dvec3 to = corner - view.eye_m;
+        const glm::dvec2 slope = glm::dvec2(glm::dot(to, right), glm::dot(to, up)) / std::fmax(depth, 1e-9);
+        box_low = glm::min(box_low, slope);
+        box_high = glm::max(box_high, slope);
+    }
+    if (near > 0.0) {
+        const glm::dvec2 margin = 0.01 * (box_high - box_low); // some pixels stay black around it
+        low = glm::max(low, box_low - margin);
+        high = glm::max(glm::min(high, box_high + margin), low + 1e-9);
     }
     far *= 1.01;
     near = std::fmax(0.99 * near, 1e-3 * far);
@@ -139,19 +151,21 @@ private:
             glActiveTexture(GL_TEXTURE1);
             glBindTexture(GL_TEXTURE_2D, eye_[1].colour.get());
         }
-        from_projector(framebuffer, program, view, eye);
+        from_projector(framebuffer, output, view, eye);
     }
 
     void from_eye(const OffscreenTarget& target, const glm::dmat4& eye, Output output) {
-        begin_picture(target.framebuffer.get(), target.width, target.height);
+        begin_picture(target.framebuffer.get(), target.width, target.height, PictureOf::Codes);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
-        mesh_->draw(eye, output, GL_CCW);
+        mesh_->draw({eye, {target.width, target.height}, output, GL_CCW});
         glDisable(GL_DEPTH_TEST);
+        end_codes();
     }
 
-    void from_projector(GLuint framebuffer, GLuint program, const PeerView& view, const glm::dmat4& eye) {
-        begin_picture(framebuffer, stage_.width(), stage_.height());
+    void from_projector(GLuint framebuffer, Output output, const PeerView& view, const glm::dmat4& eye) {
+        const GLuint program = project_[static_cast<std::size_t>(output)].get();
+        begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
         const glm::mat4 clip(view.clip_from_prop);
         const glm::mat4 eye_clip_from_prop(eye);
         glUseProgram(program);
@@ -165,6 +179,7 @@ private:
         for (std::size_t k = 0; k < view.faces.size(); ++k) {
             quads_.draw(k);
         }
+        end_codes();
     }
 
     std::shared_ptr<const PeerMesh> mesh_;
@@ -181,7 +196,7 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared
     if (!project) {
         return tl::unexpected<Error>(project.error());
     }
-    Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_SRGB8_ALPHA8);
+    Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_RGBA8);
     Result<OffscreenTarget> eye_points = make_target(eye_pixels, eye_pixels, GL_RGBA32F);
     Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
     for (const Result<OffscreenTarget>* target : {&colours, &eye_points, &points}) {

@@ -120,12 +120,21 @@ BenchCommand error_time_command(CLI::App& app) {
         })
         ->capture_default_str();
     command
+        ->add_option(
+            "--peer-samples", arguments->options.peers.samples,
+            "samples a pixel that peers are drawn with, some of 1, 2, 4, 8, with commas between (default: 1 "
+            "and what the pack asks for)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({1, 2, 4, 8}));
+    command
         ->add_option("--limits", arguments->limits,
                      "all: exit with 1 when a limit of the table is missed; none: only measure")
         ->check(CLI::IsMember({"all", "none"}))
         ->capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
+                std::vector<int> samples = std::move(arguments->options.peers.samples);
                 arguments->options.peers = *parse_peers(arguments->peers); // checked above
+                arguments->options.peers.samples = std::move(samples);
                 return run(*arguments, progress);
             }};
 }

@@ -21,7 +21,7 @@ int run(int argc, char** argv) {
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
                                  counts_command(app),     latency_command(app),   setup_command(app),
-                                 guidance_command(app),   ladder_command(app)};
+                                 guidance_command(app),   ladder_command(app),    estimate_command(app)};
     if (const auto end = end_of_arguments(app, argc, argv)) {
         return *end;
     }

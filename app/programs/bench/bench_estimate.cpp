@@ -1,0 +1,95 @@
+#include "app/bench/measures/coverage.h"
+#include "app/programs/bench/bench_command.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    BenchPlace place;
+    std::vector<std::filesystem::path> packs, meshes;
+    EstimateOptions options;
+    std::string limits = "all";
+};
+
+/// Measures one pack in every set-up, prints its table and each pose's figures go to `poses`.
+Result<std::vector<NamedCoverage>> measure(const BenchArtifact& named, const std::vector<SetUp>& set_ups,
+                                           const EstimateOptions& options, BenchProgress& progress,
+                                           std::string& poses) {
+    const Result<LoadedArtifact> artifact = load_artifact(named);
+    if (!artifact) {
+        return tl::unexpected<Error>(artifact.error());
+    }
+    const std::string name = named.pack.stem().string();
+    std::vector<NamedCoverage> rows;
+    for (const SetUp& set_up : set_ups) {
+        const Result<SetUpResult> result =
+            measure_estimates(set_up, *artifact->pack, artifact->mesh, options,
+                              [&](const std::string& step, double done) { progress.show(step, done); });
+        if (!result) {
+            return tl::unexpected<Error>(result.error());
+        }
+        const std::vector<NamedCoverage> more = coverages_of(name, *result);
+        rows.insert(rows.end(), more.begin(), more.end());
+        poses += estimates_csv(name, *result);
+    }
+    progress.clear();
+    fmt::print("{}\n", coverage_table(rows));
+    std::fflush(stdout);
+    return rows;
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    if (arguments.packs.size() != arguments.meshes.size()) {
+        return bad_input(
+            fmt::format("there are {} packs and {} meshes; give each --pack its --mesh, in the same order",
+                        arguments.packs.size(), arguments.meshes.size()));
+    }
+    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
+    if (!set_ups) {
+        return tl::unexpected<Error>(set_ups.error());
+    }
+    std::vector<NamedCoverage> rows;
+    std::string poses(estimates_csv_header);
+    for (std::size_t k = 0; k < arguments.packs.size(); ++k) {
+        const Result<std::vector<NamedCoverage>> more =
+            measure({arguments.packs[k], arguments.meshes[k]}, *set_ups, arguments.options, progress, poses);
+        if (!more) {
+            return tl::unexpected<Error>(more.error());
+        }
+        rows.insert(rows.end(), more->begin(), more->end());
+    }
+    const Verdict verdict = judge(rows);
+    fmt::print("{}", lines_of(std::span(&verdict, 1)));
+    Result<void> written =
+        write_all(arguments.place.out, {{"estimate.csv", coverage_csv(rows)}, {"estimate_poses.csv", poses}});
+    if (written && !verdict.held && arguments.limits == "all") {
+        return fail(ErrorKind::Internal,
+                    fmt::format("{} ({}); --limits none only measures", verdict.what, verdict.found));
+    }
+    return written;
+}
+
+} // namespace
+
+BenchCommand estimate_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "estimate", "what the exhibit says of its pictures' errors, level by level, against a ray cast");
+    const auto arguments = std::make_shared<Arguments>();
+    add_place_options(*command, arguments->place);
+    command->add_option("--pack", arguments->packs, "one or several packs")->required();
+    command->add_option("--mesh", arguments->meshes, "for each pack the file that it was baked from")
+        ->required();
+    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    command
+        ->add_option("--limits", arguments->limits,
+                     "all: exit with 1 when too few poses are covered; none: only measure")
+        ->check(CLI::IsMember({"all", "none"}))
+        ->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,96 @@
+// The estimate of a frame's error against the ray cast, on shapes that it was not made with; and what counts as covered.
+
+#include "app/bench/measures/coverage.h"
+#include "assets_baked/bake/bake.h"
+#include "tests/bake/shapes.h"
+#include "tests/bench/near_stage.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+TechniqueResult technique_of(std::vector<double> true_mm,
+                             std::vector<std::optional<ErrorEstimate>> estimates) {
+    TechniqueResult technique;
+    technique.name = "mesh 0";
+    for (const double mm : true_mm) {
+        PictureError error;
+        error.truth_pixels = 100;
+        error.geometric_mean_mm = mm;
+        technique.errors.push_back(error);
+    }
+    technique.estimates = std::move(estimates);
+    return technique;
+}
+
+TEST(Coverage, CountsThePosesWhoseTruthIsNearTheEstimateAndBelowItsP95) {
+    const ErrorEstimate one{1.0, 3.0};
+    const Coverage coverage =
+        coverage_of(technique_of({0.69, 0.71, 1.0, 1.39, 1.41, 1.2, 5.0},
+                                 {one, one, one, one, one, ErrorEstimate{1.0, 1.1}, std::nullopt}));
+    EXPECT_EQ(coverage.poses, 6U);
+    EXPECT_EQ(coverage.covered, 3U);
+    EXPECT_EQ(coverage.below_p95, 5U);
+    EXPECT_NEAR(coverage.ratio.median, 1.0, 0.2);
+    EXPECT_EQ(coverage_of(technique_of({1.0}, {})).poses, 0U); // a peer says nothing
+}
+
+TEST(Coverage, IsHeldAtNineOfTenPosesOfAllTogether) {
+    const auto with = [](std::size_t covered) {
+        return std::vector<NamedCoverage>{{"a", "near", "mesh 0", {10, 10, 10, {}}},
+                                          {"b, c", "kiosk", "mesh 1", {10, covered, 10, {}}}};
+    };
+    EXPECT_TRUE(judge(with(8)).held);
+    EXPECT_FALSE(judge(with(7)).held);
+    EXPECT_FALSE(judge(std::vector<NamedCoverage>{}).held); // nothing was measured
+    EXPECT_NE(coverage_csv(with(8)).find("\"b, c\",\"kiosk\",\"mesh 1\",10,8,10,"), std::string::npos);
+}
+
+/// A ball, a box and a thin plate, apart: convex, with edges that hide each other.
+std::shared_ptr<SourceMesh> things() {
+    auto mesh = std::make_shared<SourceMesh>(test::empty_mesh());
+    test::add_sphere(*mesh, {-0.2, 0.0, 0.3}, 0.25, 40);
+    test::add_box(*mesh, {0.15, -0.1, 0.05}, {0.4, 0.3, 0.6});
+    test::add_box(*mesh, {-0.3, -0.35, 0.05}, {0.3, -0.34, 0.4});
+    return mesh;
+}
+
+void expect_covered(const std::shared_ptr<const SourceMesh>& mesh) {
+    BakeOptions options;
+    options.size = 64;
+    options.unlit = true;
+    const Pack pack = bake(*mesh, options).value();
+    SetUp set_up{"near", near_settings()};
+    set_up.settings.projector.pinhole = set_up.settings.projector.pinhole.scaled_to(1280, 800);
+    const SetUpResult result =
+        measure_estimates(set_up, pack, mesh, {12, 7}, [](const std::string&, double) {}).value();
+    const std::vector<NamedCoverage> rows = coverages_of("shape", result);
+    EXPECT_EQ(rows.size(), pack.levels.size() + 1); // and what `auto` takes
+    double poses = 0.0;
+    double covered = 0.0;
+    for (const NamedCoverage& row : rows) {
+        EXPECT_EQ(row.coverage.poses, 12U) << row.level;
+        EXPECT_GT(row.coverage.ratio.median, least_of_estimate) << row.level;
+        EXPECT_LT(row.coverage.ratio.median, most_of_estimate) << row.level;
+        poses += static_cast<double>(row.coverage.poses);
+        covered += static_cast<double>(row.coverage.covered);
+    }
+    // A small shape has a few pixels on the edges that hide something, and each is much of the mean. What scans must reach,
+    // `frustumscreen-bench estimate` holds.
+    EXPECT_GT(covered, 0.6 * poses) << coverage_table(rows);
+}
+
+TEST(Coverage, HoldsForARing) {
+    expect_covered(ring());
+}
+
+TEST(Coverage, HoldsForThingsThatHideEachOther) {
+    expect_covered(things());
+}
+
+} // namespace
+} // namespace frustumscreen
