@@ -63,7 +63,7 @@ Facing facing_of(const ReliefBlock& block, const glm::vec3& eye) {
 
 struct Path {
     Search search = Search::March;
-    float reach = 0.0F;
+    float reach = 0.0F, early = 0.0F; ///< as BlockItem has them
 };
 
 /// Newton's step contracts by about falls / rises - 1 times what is left; so many steps leave some hundredths of a texel.
@@ -83,7 +83,7 @@ Path path_of(const ReliefBlock& block, const Facing& facing) {
     const Search search = contraction * shift < one_step_below ? Search::Newton1
                           : contraction < two_steps_below      ? Search::Newton2
                                                                : Search::Newton3;
-    return {search, 1.1F * shift + 0.05F};
+    return {search, 1.1F * shift + 0.05F, 1.1F * residual / -facing.rises + 1e-4F};
 }
 
 struct Bounds {
@@ -204,24 +204,28 @@ std::uint8_t bin_of(const ReliefBlock& block, const glm::vec3& eye, const Range&
     return static_cast<std::uint8_t>(std::clamp(bin, 0.0F, static_cast<float>(bins - 1)));
 }
 
-void sort_by_bin(BlockItems& items) {
-    std::array<std::uint32_t, bins + 1> first{};
-    for (const BlockItem& item : items.unsorted) {
-        ++first[item.bin + std::size_t{1}];
-    }
-    for (std::size_t k = 0; k < bins; ++k) {
-        first[k + 1] += first[k];
-    }
-    items.sorted.resize(items.unsorted.size());
-    for (const BlockItem& item : items.unsorted) {
-        items.sorted[first[item.bin]++] = item;
+/// Of one block, in the pixels of every face that may show it.
+void list_block(std::vector<BlockItem>& list, const BlockItems& items, const CastView& view,
+                const ReliefBlock& block, BlockItem item) {
+    for (std::size_t f = 0; f < view.faces.size(); ++f) {
+        const Bounds bounds = bounds_of(block, items.grids[f][item.direction], view.faces[f]);
+        const Place place = place_of(bounds, view.faces[f]);
+        item.face = static_cast<std::uint8_t>(f);
+        item.inside = place == Place::Inside;
+        if (place != Place::Outside && set_tiles(item, bounds, view.faces[f].lit)) {
+            list.push_back(item);
+        }
+        if (item.inside) {
+            break; // faces share no pixels
+        }
     }
 }
 
+constexpr std::size_t blocks_of_part = 1024;
+
 } // namespace
 
-void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view) {
-    items.unsorted.clear();
+void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
     items.grids.resize(view.faces.size());
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
         for (std::size_t d = 0; d < relief.grids.size(); ++d) {
@@ -229,44 +233,65 @@ void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& v
                                           view.faces[f], view.eye_box);
         }
     }
+    items.parts.resize((relief.blocks.size() + blocks_of_part - 1) / blocks_of_part);
+}
+
+void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part) {
+    std::vector<BlockItem>& list = items.parts[part];
+    list.clear();
     if (view.faces.empty()) {
-        items.sorted.clear();
         return;
     }
     const Range range = range_of(view, static_cast<double>(relief.texel_box));
-    for (std::size_t d = 0; d < relief.grids.size(); ++d) {
-        const glm::vec3 eye = items.grids[0][d].eye;
-        for (std::uint32_t k = relief.first_block[d]; k < relief.first_block[d + 1]; ++k) {
-            const ReliefBlock& block = relief.blocks[k];
-            const Facing facing = facing_of(block, eye);
-            if (facing.falls > 0.0F) {
-                continue;
-            }
-            const Path path = path_of(block, facing);
-            BlockItem item{k,
-                           {},
-                           {},
-                           0,
-                           static_cast<std::uint8_t>(d),
-                           path.search,
-                           false,
-                           bin_of(block, eye, range),
-                           path.reach};
-            for (std::size_t f = 0; f < view.faces.size(); ++f) {
-                const Bounds bounds = bounds_of(block, items.grids[f][d], view.faces[f]);
-                const Place place = place_of(bounds, view.faces[f]);
-                item.face = static_cast<std::uint8_t>(f);
-                item.inside = place == Place::Inside;
-                if (place != Place::Outside && set_tiles(item, bounds, view.faces[f].lit)) {
-                    items.unsorted.push_back(item);
-                }
-                if (item.inside) {
-                    break; // faces share no pixels
-                }
-            }
+    const std::size_t end = std::min((part + 1) * blocks_of_part, relief.blocks.size());
+    std::size_t direction = 0;
+    for (std::size_t k = part * blocks_of_part; k < end; ++k) {
+        while (k >= relief.first_block[direction + 1]) {
+            ++direction;
+        }
+        const glm::vec3& eye = items.grids[0][direction].eye;
+        const ReliefBlock& block = relief.blocks[k];
+        const Facing facing = facing_of(block, eye);
+        if (facing.falls > 0.0F) {
+            continue;
+        }
+        const Path path = path_of(block, facing);
+        BlockItem item;
+        item.block = static_cast<std::uint32_t>(k);
+        item.direction = static_cast<std::uint8_t>(direction);
+        item.search = path.search;
+        item.bin = bin_of(block, eye, range);
+        item.reach = path.reach;
+        item.early = path.early;
+        list_block(list, items, view, block, item);
+    }
+}
+
+/// By bins; in a bin as the blocks are.
+void end_list(BlockItems& items) {
+    std::array<std::uint32_t, bins + 1> first{};
+    for (const std::vector<BlockItem>& part : items.parts) {
+        for (const BlockItem& item : part) {
+            ++first[item.bin + std::size_t{1}];
         }
     }
-    sort_by_bin(items);
+    for (std::size_t k = 0; k < bins; ++k) {
+        first[k + 1] += first[k];
+    }
+    items.sorted.resize(first[bins]);
+    for (const std::vector<BlockItem>& part : items.parts) {
+        for (const BlockItem& item : part) {
+            items.sorted[first[item.bin]++] = item;
+        }
+    }
+}
+
+void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view) {
+    begin_list(items, relief, view);
+    for (std::size_t part = 0; part < items.parts.size(); ++part) {
+        list_part(items, relief, view, part);
+    }
+    end_list(items);
 }
 
 } // namespace frustumscreen

@@ -48,16 +48,22 @@ struct BlockItem {
     bool inside = false; ///< no edge of the face comes near
     std::uint8_t bin = 0;
     float reach = 0.0F; ///< cells by which a ray may stray in the block between its plane and its surface
+    float early = 0.0F; ///< share of the way to its plane by which a ray may meet its surface before
 };
 
 /// Lists are kept from frame to frame: nothing is allocated once they are large enough.
 struct BlockItems {
     std::vector<std::array<GridView, 6>> grids; ///< [face][direction]
-    std::vector<BlockItem> unsorted;
-    std::vector<BlockItem> sorted; ///< front to back, roughly
+    std::vector<std::vector<BlockItem>> parts;  ///< of some thousand blocks each
+    std::vector<BlockItem> sorted;              ///< front to back, roughly
 };
 
-/// Of `relief` as `view` shows it.
+/// A list in three steps, of which the middle one may be made for several parts at once: as many as `begin_list` leaves.
+void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view);
+void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part);
+void end_list(BlockItems& items);
+
+/// All three: of `relief` as `view` shows it.
 void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view);
 
 } // namespace frustumscreen

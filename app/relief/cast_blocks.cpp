@@ -4,6 +4,7 @@
 #include "app/relief/lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace frustumscreen {
@@ -87,8 +88,8 @@ FRUSTUMSCREEN_INLINE Meeting meeting_of(const ReadyItem& ready, const Rays& rays
         const Floats u = meeting.t * rays.du;
         const Floats v = meeting.t * rays.dv;
         const float reach = ready.item.reach;
-        meeting.met =
-            (u >= u_low - reach) & (u <= u_high + reach) & (v >= v_low - reach) & (v <= v_high + reach);
+        meeting.met = (u >= u_low - reach) & (u <= u_high + reach) & (v >= v_low - reach) &
+                      (v <= v_high + reach) & (meeting.t * (1.0F - ready.item.early) < before);
     } else {
         constexpr float slack = 0.04F; // cells
         end = before;
@@ -242,24 +243,33 @@ void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const
     cast_by(instructions, rays, relief, view, items);
 }
 
+namespace {
+
+/// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 - share and share.
+std::uint32_t blend(std::uint32_t from, std::uint32_t to, std::uint32_t share) {
+    constexpr std::uint32_t half = 0x00800080U;
+    return (from * (256 - share) + to * share + half) >> 8U & 0x00FF00FFU;
+}
+
+} // namespace
+
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {
     constexpr std::uint32_t unit = CastPicture::places_per_cell;
     constexpr std::uint32_t end = block_cells * unit - 1;
     const std::uint32_t u = std::min(place & 0xFFFFU, end);
     const std::uint32_t v = std::min(place >> 16U, end);
-    const std::uint32_t fu = u % unit;
-    const std::uint32_t fv = v % unit;
+    const std::uint32_t share_u = u % unit / (unit / 256);
+    const std::uint32_t share_v = v % unit / (unit / 256);
     const glm::u8vec4* const corner = &relief.colours[std::size_t{block} * block_corners * block_corners +
                                                       (v / unit) * block_corners + u / unit];
-    glm::u8vec4 colour;
-    for (int channel = 0; channel < 4; ++channel) {
-        const std::uint32_t low = corner[0][channel] * (unit - fu) + corner[1][channel] * fu;
-        const std::uint32_t high =
-            corner[block_corners][channel] * (unit - fu) + corner[block_corners + 1][channel] * fu;
-        colour[channel] =
-            static_cast<std::uint8_t>((low * (unit - fv) + high * fv + unit * unit / 2) / (unit * unit));
-    }
-    return colour;
+    const auto mean = [&](unsigned shift) {
+        const auto channels = [&](int at) {
+            return std::bit_cast<std::uint32_t>(corner[at]) >> shift & 0x00FF00FFU;
+        };
+        return blend(blend(channels(0), channels(1), share_u),
+                     blend(channels(block_corners), channels(block_corners + 1), share_u), share_v);
+    };
+    return std::bit_cast<glm::u8vec4>(mean(0) | mean(8) << 8U);
 }
 
 } // namespace frustumscreen

@@ -47,19 +47,26 @@ void LitCodes::begin(const PixelRectangle& lit) {
     stride_ = static_cast<std::size_t>(lit.width) + 2 * rim;
     stride_ += (lanes - stride_ % lanes) % lanes + lanes;
     codes_.assign(stride_ * static_cast<std::size_t>(lit.height + 2), glm::u8vec4(0));
+    extents_.assign(static_cast<std::size_t>(lit.height + 2), {lit.width, 0});
 }
 
-void LitCodes::find_busy(int y, std::vector<std::int32_t>& busy) {
+LitCodes::Extent LitCodes::find_busy(int y, std::vector<std::int32_t>& busy) {
+    Extent around{lit_.width, 0};
+    for (int k = y - 1; k <= y + 1; ++k) {
+        around = {std::min(around.first, extent(k).first), std::max(around.end, extent(k).end)};
+    }
+    around = {std::max(around.first - 1, 0) / tile_width * tile_width, std::min(around.end + 1, lit_.width)};
     const glm::u8vec4* const here = row(y);
     const glm::u8vec4* const above = here - stride_;
     const glm::u8vec4* const below = here + stride_;
     busy.resize(static_cast<std::size_t>(lit_.width) + lanes);
-    for (int x = 0; x < lit_.width; x += lanes) {
+    for (int x = around.first; x < around.end; x += lanes) {
         const Codes at = load_codes(here + x);
         store(&busy[static_cast<std::size_t>(x)],
               far(at, load_codes(here + x - 1)) | far(at, load_codes(here + x + 1)) |
                   far(at, load_codes(above + x)) | far(at, load_codes(below + x)));
     }
+    return around;
 }
 
 SampleLight::SampleLight() {
@@ -80,14 +87,17 @@ void FineBand::gather(LitCodes& codes, TileBand band, int samples) {
     pixels_.clear();
     for (int row = band.first; row < band.end; ++row) {
         const int rows = std::min(tile_height, lit.y + lit.height - row * tile_height);
+        std::array<LitCodes::Extent, tile_height> extents;
         for (int j = 0; j < rows; ++j) {
-            codes.find_busy(row * tile_height + j, busy_[static_cast<std::size_t>(j)]);
+            const auto of = static_cast<std::size_t>(j);
+            extents[of] = codes.find_busy(row * tile_height + j, busy_[of]);
         }
         for (int column = 0; column < columns; ++column) {
             rays_.first.push_back(static_cast<std::uint32_t>(rays_.x.size() / lanes));
             for (int j = 0; j < rows; ++j) {
-                const int end = std::min(column * tile_width + tile_width, lit.width);
-                for (int x = column * tile_width; x < end; ++x) {
+                const LitCodes::Extent& extent = extents[static_cast<std::size_t>(j)];
+                const int end = std::min(column * tile_width + tile_width, extent.end);
+                for (int x = std::max(column * tile_width, extent.first); x < end; ++x) {
                     if (busy_[static_cast<std::size_t>(j)][static_cast<std::size_t>(x)] == 0) {
                         continue;
                     }

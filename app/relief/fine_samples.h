@@ -25,8 +25,14 @@ public:
     [[nodiscard]] glm::u8vec4* row(int y) {
         return &codes_[static_cast<std::size_t>(y - lit_.y + 1) * stride_ + rim];
     }
-    /// For each pixel of a row, not zero where it differs from one of its four neighbours: an outline, or busy texture.
-    void find_busy(int y, std::vector<std::int32_t>& busy);
+    /// Columns from `lit().x` on that hold something, the last one excluded; whoever writes a row says so.
+    struct Extent {
+        int first = 0, end = 0;
+    };
+    [[nodiscard]] Extent& extent(int y) { return extents_[static_cast<std::size_t>(y - lit_.y + 1)]; }
+    /// For each pixel of a row, not zero where it differs from one of its four neighbours: an outline, or busy texture. Pixels outside
+    /// of the extent that is returned do not, and are not written.
+    Extent find_busy(int y, std::vector<std::int32_t>& busy);
 
 private:
     static constexpr std::size_t rim = 8; ///< texels at either end of a row: as many as are compared at once
@@ -34,6 +40,7 @@ private:
     PixelRectangle lit_;
     std::size_t stride_ = 0;
     std::vector<glm::u8vec4> codes_;
+    std::vector<Extent> extents_; ///< of the rows, and of the rim above and below
 };
 
 /// Mean light of a pixel's samples.

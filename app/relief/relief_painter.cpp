@@ -45,7 +45,10 @@ void ReliefPainter::cast_picture(const BlockRelief& relief, const CastView& view
         cast_.rows != (height + tile_height - 1) / tile_height) {
         cast_.resize(width, height);
     }
-    list_blocks(items_, relief, view);
+    begin_list(items_, relief, view);
+    workers_.share(static_cast<int>(items_.parts.size()),
+                   [&](int k) { list_part(items_, relief, view, static_cast<std::size_t>(k)); });
+    end_list(items_);
     first_row_ = view.lit.y / tile_height;
     end_row_ = std::min((view.lit.y + view.lit.height + tile_height - 1) / tile_height, cast_.rows);
 }
@@ -64,10 +67,12 @@ void ReliefPainter::shade(const BlockRelief& relief, const TileBand& band) {
     const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
     for (int y = band.first * tile_height; y < bottom; ++y) {
         glm::u8vec4* const row = codes_.row(y);
+        LitCodes::Extent& extent = codes_.extent(y);
         for (int x = 0; x < lit.width; ++x) {
             const std::size_t at = cast_.at(lit.x + x, y);
             if (cast_.t[at] < std::numeric_limits<float>::infinity()) {
                 row[x] = colour_at(relief, cast_.block[at], cast_.place[at]);
+                extent = {std::min(extent.first, x), x + 1};
             }
         }
     }
