@@ -25,7 +25,7 @@ struct SeenPatch {
 struct SeenEye {
     glm::dvec3 towards{0.0, 0.0, 1.0}; ///< unit, from the box's middle
     /// By how much what a ray meets moves along the surface, and over edges onto what these hide, when the ray moves: over
-    /// the ray's own way. 1 for a plane that faces the eye; 2 for a ball.
+    /// the ray's own way. 1 for a plane that faces the eye; pi / 2 for a ball and endless rays.
     float steepness = 1.0F;
     std::array<SeenPatch, seen_patches> patches{};
 };

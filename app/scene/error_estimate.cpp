@@ -73,7 +73,7 @@ Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, d
 SeenLevel derived(const LevelError& error, const glm::dvec3& box_size) {
     constexpr float along_the_ray = 2.0F;
     SeenEye eye;
-    eye.steepness = along_the_ray;
+    eye.steepness = 1.5F; // about that of a ball
     eye.patches[0] = {{0.0, 0.0, 0.5 * box_size.z}, 1.0};
     SeenError seen{along_the_ray * error.mean_box, along_the_ray * error.p95_box, error.mean_box, 0.0F, {}};
     seen.patches_box.fill(seen.mean_box);
