@@ -364,7 +364,9 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
     ReliefAtlas atlas;
     TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
-    put_reliefs(pack, bakery.reliefs(meshes));
+    if (options.relief) {
+        put_reliefs(pack, bakery.reliefs(meshes));
+    }
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;

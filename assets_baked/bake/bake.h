@@ -37,6 +37,7 @@ struct BakedProp {
 struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096
     bool unlit = false;
+    bool relief = true; ///< the pack keeps layered relief to be cast (measured_reliefs.h)
     BakedProp prop = baked_frustum();
     std::string up;        ///< empty: the format's own
     double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h

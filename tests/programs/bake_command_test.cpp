@@ -169,6 +169,19 @@ TEST_F(BakeCommand, ClearsAwayWhatAKilledRunLeft) {
     EXPECT_FALSE(fs::exists(folder / left));
 }
 
+TEST_F(BakeCommand, KeepsARelief) {
+    ASSERT_EQ(bake_to("with.fspack"), 0) << text("err.txt");
+    ASSERT_EQ(bake_to("without.fspack", "--no-relief"), 0) << text("err.txt");
+    for (const std::string name : {"with", "without"}) {
+        ASSERT_EQ(run("frustumscreen-pack verify " + name + ".fspack"), 0) << text("err.txt");
+    }
+    const auto holds_relief = [this](const char* pack) {
+        return as_text(*read_file(folder / pack)).find("relief_blocks/") != std::string_view::npos;
+    };
+    EXPECT_TRUE(holds_relief("with.fspack"));
+    EXPECT_FALSE(holds_relief("without.fspack"));
+}
+
 TEST_F(BakeCommand, ThePreviewShowsFourSides) {
     ASSERT_EQ(bake_to("scan.fspack", "--unlit"), 0) << text("err.txt");
     ASSERT_EQ(run("frustumscreen-pack preview scan.fspack -o sides.png"), 0) << text("err.txt");

@@ -12,6 +12,8 @@ void add_bake_options(CLI::App& app, BakeArguments& arguments) {
         ->check(CLI::Range(16, 4096));
     app.add_flag("--unlit", arguments.unlit,
                  "base colour alone, no museum light: for colours that already contain light");
+    app.add_flag("--no-relief", arguments.no_relief,
+                 "no layered relief: a smaller pack, of which the exhibit draws meshes alone");
     app.add_option("--prop", arguments.prop,
                    "prop whose directions the relief is made for (default: frustum)")
         ->check(CLI::IsMember({"frustum", "cube"}));
@@ -63,6 +65,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     add_flag("--force", arguments.force);
     add_number("--size", arguments.size);
     add_flag("--unlit", arguments.unlit);
+    add_flag("--no-relief", arguments.no_relief);
     add_text("--prop", arguments.prop.value_or(""));
     add_text("--up", arguments.up.value_or(""));
     add_number("--turn", arguments.turn_deg);

@@ -63,6 +63,7 @@ BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file)
     BakeOptions options;
     options.size = arguments.size.value_or(file.size);
     options.unlit = arguments.unlit || file.unlit;
+    options.relief = !arguments.no_relief;
     options.prop = arguments.prop.value_or(file.prop) == "cube" ? baked_cube() : baked_frustum();
     options.up = arguments.up.value_or(file.up);
     options.scale = arguments.scale.value_or(file.scale);

@@ -27,6 +27,7 @@ struct BakeArguments {
     bool strict = false;              ///< what is lost is an error
     bool json = false;
     bool unlit = false;
+    bool no_relief = false;
     std::optional<int> size;
     std::optional<std::string> prop;
     std::optional<std::string> up;
