@@ -1,5 +1,7 @@
 #include "app/relief/frame_workers.h"
 
+#include "firmware_host/base/device_thread.h"
+
 namespace frustumscreen {
 
 FrameWorkers::FrameWorkers(int threads) {
@@ -42,6 +44,7 @@ void FrameWorkers::take(const Work& work, int count) {
 }
 
 void FrameWorkers::work_until_closed() {
+    begin_device_thread("relief");
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex_);
     for (;;) {
