@@ -75,6 +75,25 @@ Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPictu
     return errors;
 }
 
+/// Pixels of all poses; the mean of their means.
+Errors errors_over(const Subject& subject, const BlockRelief& relief, const Settings& settings,
+                   const PropShape& prop, const std::vector<BenchPose>& poses) {
+    Errors sum;
+    Frame frame;
+    for (const BenchPose& pose : poses) {
+        draw(frame, subject, relief, settings, prop, pose);
+        const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
+        const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
+        sum.truth += one.truth;
+        sum.missing += one.missing;
+        sum.extra += one.extra;
+        sum.far += one.far;
+        sum.mean_mm += one.mean_mm / static_cast<double>(poses.size());
+        sum.colour_rmse += one.colour_rmse / static_cast<double>(poses.size());
+    }
+    return sum;
+}
+
 TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
     const Subject subject;
     const Settings settings = near_settings();
@@ -87,19 +106,7 @@ TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
     for (const auto& [texels, wrong_share, mean_mm] :
          {Size{128, 0.006, 0.06}, Size{256, 0.003, 0.02}, Size{512, 0.0015, 0.01}}) {
         const BlockRelief relief = subject.relief(texels);
-        Errors sum;
-        Frame frame;
-        for (const BenchPose& pose : poses) {
-            draw(frame, subject, relief, settings, prop, pose);
-            const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
-            const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
-            sum.truth += one.truth;
-            sum.missing += one.missing;
-            sum.extra += one.extra;
-            sum.far += one.far;
-            sum.mean_mm += one.mean_mm / static_cast<double>(poses.size());
-            sum.colour_rmse += one.colour_rmse / static_cast<double>(poses.size());
-        }
+        const Errors sum = errors_over(subject, relief, settings, prop, poses);
         std::printf("%d texels: %zu blocks, %d pixels, missing %.3f %%, extra %.3f %%, far %.3f %%, %.5f mm, "
                     "RMSE %.2f\n",
                     texels, relief.blocks.size(), sum.truth, 100.0 * sum.missing / sum.truth,
@@ -134,18 +141,7 @@ TEST(Cast, SharpEdgesAreCutWhereTheyEnd) {
     const BlockRelief relief = subject.relief(96);
     EXPECT_FALSE(relief.covers.empty());
     const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
-    Errors sum;
-    for (const BenchPose& pose : poses) {
-        Frame frame;
-        draw(frame, subject, relief, settings, prop, pose);
-        const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
-        const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
-        sum.truth += one.truth;
-        sum.missing += one.missing;
-        sum.extra += one.extra;
-        sum.far += one.far;
-        sum.mean_mm += one.mean_mm / static_cast<double>(poses.size());
-    }
+    const Errors sum = errors_over(subject, relief, settings, prop, poses);
     std::printf("%zu blocks, %zu covers, %d pixels, missing %d, extra %d, far %d, %.5f mm\n",
                 relief.blocks.size(), relief.covers.size(), sum.truth, sum.missing, sum.extra, sum.far,
                 sum.mean_mm);
