@@ -279,8 +279,11 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
     } else {
         plan_frame(prop, placed(shown_), view, plan_);
     }
-    error_ = estimate(prop, view);
-    return renderer.draw(plan_, target, redraw);
+    const DrawResult result = renderer.draw(plan_, target, redraw);
+    if (result.drawn) { // else the picture before stays on show, and its error with it
+        error_ = estimate(prop, view);
+    }
+    return result;
 }
 
 void RunLevels::record_time(MonotonicTime now, double ms) {
