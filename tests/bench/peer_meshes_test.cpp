@@ -74,7 +74,7 @@ TEST_F(PeerMeshes, ASimplifiedMeshLiesWithinTheSimplifiersError) {
         EXPECT_GT(level.mesh.triangles.size(), level.target / 2);
         const auto peer = PeerMesh::upload(level.mesh, glm::dmat4(1.0));
         ASSERT_TRUE(peer);
-        const auto drawn = make_full_mesh(stage_, *peer, "LOD");
+        const auto drawn = make_full_mesh(stage_, *peer, nullptr, "LOD");
         ASSERT_TRUE(drawn);
         EXPECT_EQ((*drawn)->name(), "LOD");
         for (const BenchPose& pose : poses_) {

@@ -1,9 +1,11 @@
 #include "app/bench/techniques/peers.h"
-#include "app/bench/techniques/supersampled.h"
+#include "app/bench/techniques/ray_cast.h"
 #include "tests/bench/drawn_near.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace frustumscreen {
 namespace {
@@ -54,8 +56,9 @@ TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
     auto one = make_full_mesh(stage_, peer_);
     ASSERT_TRUE(one);
     for (const int samples : {2, 4, 8}) {
-        const Result<std::unique_ptr<Technique>> several = make_supersampled(
-            stage_, samples, [&](const Stage& stage) { return make_full_mesh(stage, peer_); });
+        const auto grid = PeerSamples::create(stage_, samples);
+        ASSERT_TRUE(grid);
+        const Result<std::unique_ptr<Technique>> several = make_full_mesh(stage_, peer_, *grid);
         ASSERT_TRUE(several);
         EXPECT_NE((*several)->name().find(std::to_string(samples)), std::string::npos);
         for (const BenchPose& pose : *poses) {
@@ -66,6 +69,48 @@ TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
             EXPECT_LT(b.picture_shift_px, 0.05) << samples;
             EXPECT_EQ(b.geometric_mean_mm, a.geometric_mean_mm);
             EXPECT_EQ(b.mismatched_pixels, a.mismatched_pixels);
+        }
+    }
+}
+
+/// Only what is lit is cleared: nothing of the pose before may stay.
+TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
+    const auto poses = draw_poses(stage_.settings, stage_.prop, 3, 9);
+    ASSERT_TRUE(poses);
+    const auto grid = PeerSamples::create(stage_, 4);
+    ASSERT_TRUE(grid);
+    for (const auto& samples : {std::shared_ptr<const PeerSamples>(), *grid}) {
+        const auto full = [&] { return make_full_mesh(stage_, peer_, samples).value(); };
+        const auto two = [&] { return make_two_pass(stage_, peer_, 256, samples).value(); };
+        const std::array used = {full(), two()};
+        for (const BenchPose& pose : *poses) {
+            const std::array fresh = {full(), two()};
+            for (std::size_t k = 0; k < used.size(); ++k) {
+                used[k]->draw(pose);
+                const Image8 after_others = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                fresh[k]->draw(pose);
+                const Image8 alone = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                EXPECT_TRUE(after_others.texels == alone.texels) << used[k]->name();
+            }
+        }
+    }
+}
+
+TEST_F(Peers, TheRayCastsSamplesComeNearerToSixteenRays) {
+    const auto poses = draw_poses(stage_.settings, stage_.prop, 2, 8);
+    ASSERT_TRUE(poses);
+    for (const BenchPose& pose : *poses) {
+        const TruthPicture truth = ray_cast(truth_, pose);
+        double before = 1e9;
+        for (const int samples : {1, 2, 4, 8}) {
+            const auto cast = make_ray_cast(stage_, truth_.traced(), samples);
+            ASSERT_TRUE(cast);
+            const PictureError error = error_of(**cast, pose, truth);
+            EXPECT_LT(error.sixteen_rays.rmse, 0.85 * before) << samples;
+            if (samples > 1) { // one ray a pixel tells too little of a place between pixels
+                EXPECT_LT(error.picture_shift_px, 0.05) << samples;
+            }
+            before = error.sixteen_rays.rmse;
         }
     }
 }

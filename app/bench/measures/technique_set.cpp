@@ -88,11 +88,17 @@ Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, Tec
 Result<void> TechniqueSet::add_sampled(const MakePeer& make, const TechniqueResult& result,
                                        const std::vector<int>& samples) {
     for (const int each : samples) {
+        std::shared_ptr<const PeerSamples>& shared = peer_samples_[each];
+        if (each > 1 && !shared) {
+            auto made = PeerSamples::create(stage_, each);
+            if (!made) {
+                return tl::unexpected<Error>(made.error());
+            }
+            shared = std::move(*made);
+        }
         TechniqueResult sampled = result;
         sampled.samples = each;
-        if (const Result<void> added =
-                add(each > 1 ? make_supersampled(stage_, each, make) : make(stage_), std::move(sampled));
-            !added) {
+        if (const Result<void> added = add(make(shared), std::move(sampled)); !added) {
             return added;
         }
     }
@@ -144,21 +150,26 @@ Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& p
     const std::uint64_t triangles = mesh.triangles.size();
     Result<void> added;
     if (full_mesh) {
-        added = add_sampled([&](const Stage& stage) { return make_full_mesh(stage, *peer); },
+        added = add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, *peer, sampled); },
                             described(TechniqueKind::FullMesh, -1, triangles), samples);
     }
     for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
-        added =
-            add_sampled([&](const Stage& stage) { return make_two_pass(stage, *peer, two_pass_pixels[k]); },
-                        described(TechniqueKind::TwoPass, -1, triangles), samples);
+        added = add_sampled(
+            [&](const auto& sampled) { return make_two_pass(stage_, *peer, two_pass_pixels[k], sampled); },
+            described(TechniqueKind::TwoPass, -1, triangles), samples);
     }
     return added;
 }
 
 Result<void> TechniqueSet::add_ray_cast(const Truth& truth, const std::vector<int>& samples) {
-    return add_sampled([&](const Stage& stage) { return make_ray_cast(stage, truth.traced()); },
-                       described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size()),
-                       samples);
+    Result<void> added;
+    for (std::size_t k = 0; added && k < samples.size(); ++k) {
+        TechniqueResult result =
+            described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size());
+        result.samples = samples[k];
+        added = add(make_ray_cast(stage_, truth.traced(), samples[k]), std::move(result));
+    }
+    return added;
 }
 
 Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
@@ -172,12 +183,15 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
             return tl::unexpected<Error>(peer.error());
         }
         if (choice.lod) {
-            added = add_sampled([&](const Stage& stage) { return make_full_mesh(stage, *peer, name); },
-                                described(TechniqueKind::Lod, -1, triangles), choice.samples);
+            added =
+                add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, *peer, sampled, name); },
+                            described(TechniqueKind::Lod, -1, triangles), choice.samples);
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
             added = add_sampled(
-                [&](const Stage& stage) { return make_two_pass(stage, *peer, choice.eye_pixels[k], name); },
+                [&](const auto& sampled) {
+                    return make_two_pass(stage_, *peer, choice.eye_pixels[k], sampled, name);
+                },
                 described(TechniqueKind::TwoPassLod, -1, triangles), choice.samples);
         }
         if (!added) {

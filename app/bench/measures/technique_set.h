@@ -9,10 +9,11 @@
 #include "app/bench/techniques/pack_level.h"
 #include "app/bench/techniques/peer_choice.h"
 #include "app/bench/techniques/peers.h"
-#include "app/bench/techniques/supersampled.h"
 #include "app/pack/pack_file.h"
 #include "firmware_host/display/display.h"
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -108,11 +109,14 @@ private:
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
+    using MakePeer =
+        std::function<Result<std::unique_ptr<Technique>>(const std::shared_ptr<const PeerSamples>&)>;
     [[nodiscard]] Result<void> add_sampled(const MakePeer& make, const TechniqueResult& result,
                                            const std::vector<int>& samples);
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;
+    std::map<int, std::shared_ptr<const PeerSamples>> peer_samples_; ///< by their number; none for one
     std::vector<std::unique_ptr<Technique>> techniques_;
     std::vector<TechniqueResult> results_; ///< one for each technique
 };

@@ -15,62 +15,71 @@ constexpr std::string_view mark_fragment = R"(
 out vec4 result;
 void main() { result = vec4(0.0); })";
 
-class FullMesh final : public PeerTechnique {
+class FullMesh final : public SampledPeer {
 public:
-    FullMesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, std::string name, GlProgram mark,
-             OffscreenTarget points)
-        : PeerTechnique(stage, std::move(name), std::move(points)), mesh_(std::move(mesh)),
+    FullMesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
+             std::shared_ptr<const PeerSamples> samples, GlProgram mark, OffscreenTarget points)
+        : SampledPeer(stage, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
           mark_(std::move(mark)) {}
 
 private:
-    void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
-        const PeerView view = peer_view(stage_, pose);
-        begin_picture(framebuffer, stage_.width(), stage_.height(), PictureOf::Codes);
-        mark_faces(view);
-        visible_.find(mesh_->triangles(), view);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-        for (std::size_t k = 0; k < view.faces.size(); ++k) {
-            const std::optional<glm::dmat4> clip =
-                collineation(view.faces[k]->plane, view.eye_m, view.clip_from_prop, mesh_->box());
-            if (clip) {
-                glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
-                mesh_->draw({*clip, {stage_.width(), stage_.height()}, output, GL_CW}, visible_, k);
-            }
-        }
-        glDisable(GL_STENCIL_TEST);
-        glDisable(GL_DEPTH_TEST);
-        end_codes();
+    const LitTiles& prepare(const BenchPose& pose, Output /*output*/) override {
+        view_ = peer_view(stage_, pose);
+        visible_.find(mesh_->triangles(), mesh_->box(), view_);
+        return visible_.lit();
     }
 
-    void mark_faces(const PeerView& view) {
-        quads_.set(view.faces);
+    void paint(const Raster& raster, Output output) override {
+        const glm::ivec2 picture(stage_.width(), stage_.height());
+        set_viewport(picture, raster);
         glEnable(GL_STENCIL_TEST);
+        glEnable(GL_SCISSOR_TEST);
+        mark_faces(raster);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        for (std::size_t k = 0; k < visible_.faces().size(); ++k) {
+            const PeerFace& face = visible_.faces()[k];
+            glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
+            set_scissor(face.bounds, raster);
+            mesh_->draw({face.clip_from_prop, picture * raster.fragments, output, GL_CW}, visible_, k);
+        }
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_STENCIL_TEST);
         glDisable(GL_DEPTH_TEST);
+    }
+
+    void mark_faces(const Raster& raster) {
+        quads_.set(visible_.faces());
+        glDisable(GL_DEPTH_TEST);
+        glDepthMask(GL_FALSE);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         glStencilOp(GL_REPLACE, GL_REPLACE, GL_REPLACE);
         glUseProgram(mark_.get());
-        const glm::mat4 clip(view.clip_from_prop);
-        glUniformMatrix4fv(glGetUniformLocation(mark_.get(), "clip_from_prop"), 1, GL_FALSE,
-                           glm::value_ptr(clip));
-        for (std::size_t k = 0; k < view.faces.size(); ++k) {
+        const glm::mat4 clip(view_.clip_from_prop);
+        glUniformMatrix4fv(clip_from_prop_, 1, GL_FALSE, glm::value_ptr(clip));
+        for (std::size_t k = 0; k < visible_.faces().size(); ++k) {
             glStencilFunc(GL_ALWAYS, static_cast<GLint>(k + 1), 0xFF);
+            set_scissor(visible_.faces()[k].bounds, raster);
             quads_.draw(k);
         }
+        glDepthMask(GL_TRUE);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     }
 
     std::shared_ptr<const PeerMesh> mesh_;
     GlProgram mark_;
+    GLint clip_from_prop_ = glGetUniformLocation(mark_.get(), "clip_from_prop");
     FaceQuads quads_;
+    PeerView view_;
     VisibleParts visible_;
 };
 
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
-                                                  std::string name) {
+                                                  std::shared_ptr<const PeerSamples> samples,
+                                                  const std::string& name) {
     Result<GlProgram> mark = make_program("", mark_vertex, mark_fragment);
     if (!mark) {
         return tl::unexpected<Error>(mark.error());
@@ -79,7 +88,7 @@ Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, std::share
     if (!points) {
         return tl::unexpected<Error>(points.error());
     }
-    return std::make_unique<FullMesh>(stage, std::move(mesh), std::move(name), std::move(*mark),
+    return std::make_unique<FullMesh>(stage, std::move(mesh), name, std::move(samples), std::move(*mark),
                                       std::move(*points));
 }
 

@@ -1,8 +1,10 @@
 #include "app/bench/techniques/peer_culling.h"
 
+#include "app/scene/face_view.h"
 #include "assets_baked/bake/clusters.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -18,17 +20,26 @@ void face_everywhere(LevelTriangles& level) {
     }
 }
 
-/// The pyramid eye -> face.
-FaceVolume pyramid_of(const PropFace& face, const PeerTriangles& mesh, const glm::dvec3& eye_box) {
-    FaceVolume volume;
-    for (std::size_t k = 0; k < face.corners.size(); ++k) {
-        const glm::dvec3 a = (face.corners[k] - mesh.low_m) / mesh.metres_per_box - eye_box;
-        const glm::dvec3 b =
-            (face.corners[(k + 1) % face.corners.size()] - mesh.low_m) / mesh.metres_per_box - eye_box;
-        const glm::dvec3 inward = glm::cross(b, a);
-        volume.add(glm::dvec4(inward, -glm::dot(inward, eye_box)));
+/// The pixels around triangles, with one to spare on each side; all of `within` if a corner is not in front.
+PixelRectangle pixels_around(const LevelTriangles& level, std::span<const std::uint32_t> indices,
+                             const glm::mat4& clip_from_box, const Pinhole& projector,
+                             const PixelRectangle& within) {
+    glm::vec2 low(std::numeric_limits<float>::infinity());
+    glm::vec2 high(-std::numeric_limits<float>::infinity());
+    for (const std::uint32_t index : indices) {
+        const glm::vec4 clip = clip_from_box * glm::vec4(level.positions[index], 1.0F);
+        if (!(clip.w > 0.0F)) {
+            return within;
+        }
+        const glm::vec2 at = glm::vec2(clip) / clip.w;
+        low = glm::min(low, at);
+        high = glm::max(high, at);
     }
-    return volume;
+    const glm::vec2 size(projector.width, projector.height);
+    low = glm::clamp(glm::floor((0.5F * low + 0.5F) * size) - 1.0F, glm::vec2(0.0F), size);
+    high = glm::clamp(glm::ceil((0.5F * high + 0.5F) * size) + 1.0F, glm::vec2(0.0F), size);
+    const glm::ivec2 extent(high - low);
+    return intersected(within, {static_cast<int>(low.x), static_cast<int>(low.y), extent.x, extent.y});
 }
 
 } // namespace
@@ -36,12 +47,11 @@ FaceVolume pyramid_of(const PropFace& face, const PeerTriangles& mesh, const glm
 PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& box,
                              std::span<const std::span<std::uint32_t>> parts, bool closed) {
     PeerTriangles mesh;
-    mesh.low_m = box.low;
     const glm::dvec3 size = box.high - box.low;
     mesh.metres_per_box = std::max({size.x, size.y, size.z, 1e-12});
     LevelTriangles& all = mesh.triangles;
     for (const glm::vec3& position : positions_m) {
-        all.positions.emplace_back((glm::dvec3(position) - mesh.low_m) / mesh.metres_per_box);
+        all.positions.emplace_back(glm::dvec3(position) / mesh.metres_per_box);
     }
     for (const std::span<std::uint32_t> part : parts) {
         mesh.first_cluster.push_back(all.clusters.size());
@@ -55,22 +65,44 @@ PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& 
     return mesh;
 }
 
-void VisibleParts::find(const PeerTriangles& mesh, const PeerView& view) {
-    const glm::dvec3 eye_box = (view.eye_m - mesh.low_m) / mesh.metres_per_box;
+void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerView& view) {
+    const LevelTriangles& level = mesh.triangles;
     front_.forget();
-    front_.update(mesh.triangles, eye_box);
+    front_.update(level, view.eye_m / mesh.metres_per_box);
     indices_.clear();
-    ranges_.assign(view.faces.size(), {});
-    for (std::size_t face = 0; face < view.faces.size(); ++face) {
-        const FaceVolume volume = pyramid_of(*view.faces[face], mesh, eye_box);
+    faces_.clear();
+    ranges_.clear();
+    lit_.begin(view.projector.width, view.projector.height);
+    for (PeerFace& face : faces_before(box, view)) {
+        glm::dmat4 clip_from_box = face.clip_from_prop;
+        for (int axis = 0; axis < 3; ++axis) {
+            clip_from_box[axis] *= mesh.metres_per_box;
+        }
+        const FaceVolume volume = volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box);
+        const glm::mat4 clip(clip_from_box);
+        std::vector<IndexRange> ranges;
+        PixelRectangle bounds;
         for (std::size_t part = 0; part + 1 < mesh.first_cluster.size(); ++part) {
-            const auto first = static_cast<std::uint32_t>(indices_.size());
+            const std::size_t first = indices_.size();
             for (std::size_t k = mesh.first_cluster[part]; k < mesh.first_cluster[part + 1]; ++k) {
-                append_visible(volume, mesh.triangles, front_, k, indices_);
+                const std::size_t begin = indices_.size();
+                if (append_visible(volume, level, front_, k, indices_) > 0) {
+                    const PixelRectangle pixels = pixels_around(level, std::span(indices_).subspan(begin),
+                                                                clip, view.projector, face.bounds);
+                    lit_.light(pixels);
+                    bounds = united(bounds, pixels);
+                }
             }
-            ranges_[face].push_back({first, static_cast<std::uint32_t>(indices_.size()) - first});
+            ranges.push_back(
+                {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(indices_.size() - first)});
+        }
+        if (!bounds.empty()) {
+            face.bounds = bounds;
+            faces_.push_back(face);
+            ranges_.push_back(std::move(ranges));
         }
     }
+    lit_.finish();
     glBindVertexArray(0); // a bound vertex array would store the next binding
     bind();
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices_.size() * sizeof(std::uint32_t)),

@@ -1,7 +1,7 @@
 /// What a peer's mesh shows on each face, found on the CPU exactly as for the exhibit's own levels
 /// (visible_triangles.h): the peers get the same help.
 ///
-/// Frame    prop frame outside, the mesh's own box (longest edge 1, corner at 0) inside.
+/// Frame    prop frame outside, over the box's longest edge inside.
 /// Threads  PeerTriangles: pure. VisibleParts: the one whose context is current.
 #pragma once
 
@@ -18,7 +18,6 @@ namespace frustumscreen {
 struct PeerTriangles {
     LevelTriangles triangles;
     std::vector<std::size_t> first_cluster; ///< of each part (material); one more for the end
-    glm::dvec3 low_m{0.0};
     double metres_per_box = 1.0;
 };
 /// Sorts the indices of each part into clusters, in place. Triangles of a mesh that is not closed are seen
@@ -30,18 +29,24 @@ struct PeerTriangles {
 class VisibleParts {
 public:
     VisibleParts() : buffer_(GlBuffer::generate()) {}
-    void find(const PeerTriangles& mesh, const PeerView& view);
+    void find(const PeerTriangles& mesh, const Box& box, const PeerView& view);
     void bind() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.get()); }
-    /// The triangles of a part on the view's face number `face`.
+    /// Those that show anything; their bounds are around what they show.
+    [[nodiscard]] const std::vector<PeerFace>& faces() const { return faces_; }
+    /// The triangles of a part on face number `face` of these.
     [[nodiscard]] const IndexRange& range(std::size_t face, std::size_t part) const {
         return ranges_[face][part];
     }
+    /// Every pixel that they may light.
+    [[nodiscard]] const LitTiles& lit() const { return lit_; }
 
 private:
     GlBuffer buffer_;
     FrontTriangles front_;
     std::vector<std::uint32_t> indices_;
+    std::vector<PeerFace> faces_;
     std::vector<std::vector<IndexRange>> ranges_; ///< [face][part]
+    LitTiles lit_;
 };
 
 } // namespace frustumscreen

@@ -1,11 +1,14 @@
 #include "app/bench/techniques/peer_gl.h"
 
+#include "app/scene/face_view.h"
 #include "firmware_host/gl/gl_program.h"
 
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace frustumscreen {
@@ -70,6 +73,15 @@ void end_codes() {
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
+void clear_depth_stencil(const PixelRectangle& part) {
+    glDepthMask(GL_TRUE);
+    glStencilMask(0xFF);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part.x, part.y, std::max(part.width, 0), std::max(part.height, 0));
+    glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
                                      std::string_view fragment) {
     OutputPrograms programs;
@@ -100,8 +112,10 @@ Result<ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
 
 PeerView peer_view(const Stage& stage, const BenchPose& pose) {
     const TruthView view = view_of(stage.settings, pose);
-    PeerView result{
-        view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(), view.eye_m, {}};
+    PeerView result{view.projector,
+                    view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(),
+                    view.eye_m,
+                    {}};
     for (const PropFace& face : stage.prop.faces) {
         if (face.plane.distance(view.eye_m) > 0.0 &&
             face.plane.distance(view.prop_from_projector.translation) > 0.0) {
@@ -109,6 +123,22 @@ PeerView peer_view(const Stage& stage, const BenchPose& pose) {
         }
     }
     return result;
+}
+
+std::vector<PeerFace> faces_before(const Box& box, const PeerView& view) {
+    std::vector<PeerFace> faces;
+    for (const PropFace* face : view.faces) {
+        const std::optional<glm::dmat4> clip =
+            collineation(face->plane, view.eye_m, view.clip_from_prop, box);
+        if (!clip) {
+            continue;
+        }
+        const PixelRectangle bounds = face_bounds(*face, box, view.clip_from_prop, *clip, view.projector);
+        if (!bounds.empty()) {
+            faces.push_back({face, *clip, bounds});
+        }
+    }
+    return faces;
 }
 
 FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {
@@ -119,10 +149,10 @@ FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::ge
     glBindVertexArray(0);
 }
 
-void FaceQuads::set(const std::vector<const PropFace*>& faces) {
+void FaceQuads::set(const std::vector<PeerFace>& faces) {
     std::vector<glm::vec3> corners;
-    for (const PropFace* face : faces) {
-        corners.insert(corners.end(), face->corners.begin(), face->corners.end());
+    for (const PeerFace& each : faces) {
+        corners.insert(corners.end(), each.face->corners.begin(), each.face->corners.end());
     }
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec3)), corners.data(),

@@ -5,6 +5,8 @@
 #pragma once
 
 #include "app/bench/techniques/technique.h"
+#include "app/geometry/collineation.h"
+#include "firmware_host/base/pixel_rectangle.h"
 #include "firmware_host/gl/gl_handle.h"
 
 #include <glm/glm.hpp>
@@ -32,6 +34,8 @@ void begin_picture(GLuint framebuffer, int width, int height, PictureOf what = P
 /// As the exhibit begins its picture, for what writes codes as they are: colour alone is cleared.
 void begin_codes(GLuint framebuffer, int width, int height, float alpha = 1.0F);
 void end_codes();
+/// Far and stencil 0, in a part of the framebuffer that is bound.
+void clear_depth_stencil(const PixelRectangle& part);
 
 enum class Output { Colour, Point }; ///< Point: the hit's place in the prop's frame, alpha 1
 /// One program for each output; POINT is defined for points.
@@ -61,18 +65,28 @@ private:
 
 /// A pose as the peers' passes need it.
 struct PeerView {
+    Pinhole projector;
     glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero
     glm::dvec3 eye_m{0.0};              ///< prop frame
     std::vector<const PropFace*> faces; ///< turned to the eye and lit
 };
 [[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
 
-/// Four corners of each visible face in one buffer, drawn as fans.
+/// A face through which the eye sees some of a mesh.
+struct PeerFace {
+    const PropFace* face = nullptr;
+    glm::dmat4 clip_from_prop{1.0}; ///< the face's collineation
+    PixelRectangle bounds;
+};
+/// Of the view's faces those through which the eye sees some of the box.
+[[nodiscard]] std::vector<PeerFace> faces_before(const Box& box, const PeerView& view);
+
+/// Four corners of each face in one buffer, drawn as fans.
 class FaceQuads {
 public:
     FaceQuads();
     /// Positions are attribute 0, prop frame.
-    void set(const std::vector<const PropFace*>& faces);
+    void set(const std::vector<PeerFace>& faces);
     void draw(std::size_t face) const;
 
 private:

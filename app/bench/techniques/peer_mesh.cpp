@@ -46,7 +46,6 @@ void main() {
 constexpr std::string_view fragment_source = R"(
 in vec2 at_uv;
 uniform sampler2D base;
-uniform float mip_level;
 #ifdef TINTED
 in vec4 at_colour;
 #endif
@@ -59,7 +58,7 @@ uniform float cutoff;
 out vec4 result;
 void main() {
 #if !defined(POINT) || defined(MASKED)
-    vec4 colour = textureLod(base, at_uv, mip_level);
+    vec4 colour = texture(base, at_uv);
 #ifdef TINTED
     colour *= at_colour;
 #endif
@@ -85,7 +84,8 @@ GLint gl_wrap(Wrap wrap) {
     return wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-/// In codes; coarser levels are averaged in linear light.
+/// In codes; coarser levels are averaged in linear light. Each draw takes one, its GL_TEXTURE_BASE_LEVEL, as the exhibit's do; one
+/// texel needs no filter.
 GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -98,8 +98,9 @@ GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
         }
         image = half_size(image);
     }
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    const GLint filter = finest.width == 1 && finest.height == 1 ? GL_NEAREST : GL_LINEAR;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, gl_wrap(wrap_u));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, gl_wrap(wrap_v));
     return texture;
@@ -127,6 +128,11 @@ Image8 coloured(const Image8& image, const glm::vec4& base_colour) {
 
 } // namespace
 
+PeerMesh::Program::Program(GlProgram made)
+    : program(std::move(made)), clip_from_unit(glGetUniformLocation(program.get(), "clip_from_unit")),
+      cutoff(glGetUniformLocation(program.get(), "cutoff")), low(glGetUniformLocation(program.get(), "low")),
+      extent(glGetUniformLocation(program.get(), "extent")) {}
+
 Result<std::shared_ptr<const PeerMesh>>
 PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside) {
     std::shared_ptr<PeerMesh> peer(new PeerMesh());
@@ -137,7 +143,9 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
         if (!programs) {
             return tl::unexpected<Error>(programs.error());
         }
-        peer->programs_[masked] = std::move(*programs);
+        for (std::size_t output = 0; output < programs->size(); ++output) {
+            peer->programs_[masked][output] = Program(std::move((*programs)[output]));
+        }
     }
     peer->array_ = GlVertexArray::generate();
     glBindVertexArray(peer->array_.get());
@@ -296,18 +304,14 @@ void PeerMesh::draw_part(const Part& part, const IndexRange& range, const PeerPa
     picture.width = pass.size.x;
     picture.height = pass.size.y;
     const double pixels_per_m = pixels_per_unit(pass.clip_from_prop, 0.5 * (box_.low + box_.high), picture);
-    const GLuint program =
-        programs_[part.cutoff >= 0.0F ? 1 : 0][static_cast<std::size_t>(pass.output)].get();
-    const auto place = [program](const char* name) { return glGetUniformLocation(program, name); };
-    glUseProgram(program);
-    glUniformMatrix4fv(place("clip_from_unit"), 1, GL_FALSE, glm::value_ptr(clip));
-    glUniform1f(place("mip_level"), static_cast<float>(mip_level(part.texels_per_m, pixels_per_m)));
-    glUniform1f(place("cutoff"), part.cutoff);
-    if (pass.output == Output::Point) {
-        glUniform3fv(place("low"), 1, glm::value_ptr(glm::vec3(box_.low)));
-        glUniform3fv(place("extent"), 1, glm::value_ptr(glm::vec3(extent)));
-    }
+    const Program& program = programs_[part.cutoff >= 0.0F ? 1 : 0][static_cast<std::size_t>(pass.output)];
+    glUseProgram(program.program.get());
+    glUniformMatrix4fv(program.clip_from_unit, 1, GL_FALSE, glm::value_ptr(clip));
+    glUniform1f(program.cutoff, part.cutoff);
+    glUniform3fv(program.low, 1, glm::value_ptr(glm::vec3(box_.low)));
+    glUniform3fv(program.extent, 1, glm::value_ptr(glm::vec3(extent)));
     glBindTexture(GL_TEXTURE_2D, textures_[part.texture].get());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, mip_level(part.texels_per_m, pixels_per_m));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                    // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                    reinterpret_cast<const void*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));

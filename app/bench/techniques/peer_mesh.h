@@ -49,6 +49,13 @@ private:
         IndexRange all;            ///< of the mesh's own indices
     };
 
+    struct Program { ///< with its uniforms' places
+        Program() = default;
+        explicit Program(GlProgram made);
+        GlProgram program;
+        GLint clip_from_unit = -1, cutoff = -1, low = -1, extent = -1;
+    };
+
     PeerMesh() = default;
     /// Positions as they were uploaded.
     std::vector<glm::vec3> upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
@@ -64,7 +71,7 @@ private:
     std::vector<Part> parts_;
     GlBuffer indices_;
     PeerTriangles triangles_;
-    std::array<OutputPrograms, 2> programs_; ///< [masked]
+    std::array<std::array<Program, 2>, 2> programs_; ///< [masked][output]
 };
 
 } // namespace frustumscreen

@@ -5,10 +5,12 @@
 ///             square picture cropped to the prop, then that picture projected from the eye onto the prop's
 ///             faces.
 ///
+/// Samples  of the projector's picture; none: one a pixel.
 /// Threads  the one whose context is current; the stage must outlive the technique.
 #pragma once
 
 #include "app/bench/techniques/peer_mesh.h"
+#include "app/bench/techniques/sampled_peer.h"
 
 #include <memory>
 #include <string>
@@ -16,10 +18,11 @@
 namespace frustumscreen {
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, std::string name = "full mesh");
+make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
+               std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& name = "full mesh");
 /// `eye_pixels`: side of the eye's picture. `of_mesh` follows its number in the name.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage,
-                                                               std::shared_ptr<const PeerMesh> mesh,
-                                                               int eye_pixels, std::string of_mesh = "");
+[[nodiscard]] Result<std::unique_ptr<Technique>>
+make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, int eye_pixels,
+              std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& of_mesh = "");
 
 } // namespace frustumscreen

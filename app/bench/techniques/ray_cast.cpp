@@ -3,13 +3,16 @@
 #include "app/bench/techniques/memory_picture.h"
 #include "app/bench/truth/truth.h"
 #include "app/geometry/face_rays.h"
+#include "app/render/sample_grid.h"
 #include "firmware_host/base/parallel.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -45,47 +48,11 @@ struct Span {
     int begin = 0, end = 0;
 };
 
-struct PixelRect {
-    int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
-};
-
-/// A face as the projector's pixels see it.
-struct CastFace {
-    FaceRays rays;
-    PixelRect pixels; ///< that may show the artifact
-};
-
-/// The pixels that the box may light through this face; all if a part of it is behind the eye.
-PixelRect pixels_of(const Box& box, const std::optional<glm::dmat4>& clip, int width, int height) {
-    const PixelRect all{0, 0, width, height};
-    if (!clip) {
-        return {};
-    }
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    for (unsigned k = 0; k < 8; ++k) {
-        const glm::dvec4 at =
-            *clip * glm::dvec4((k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
-                               (k & 4U) != 0 ? box.high.z : box.low.z, 1.0);
-        if (!(at.w > 0.0)) {
-            return all;
-        }
-        const glm::dvec2 pixel = (0.5 * glm::dvec2(at) / at.w + 0.5) * glm::dvec2(width, height);
-        low = glm::min(low, pixel);
-        high = glm::max(high, pixel);
-    }
-    const auto clamped = [](double value, int size) {
-        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
-    };
-    return {clamped(std::floor(low.x) - 1.0, width), clamped(std::floor(low.y) - 1.0, height),
-            clamped(std::ceil(high.x) + 1.0, width), clamped(std::ceil(high.y) + 1.0, height)};
-}
-
-/// The part of row `y` whose pixels' centres lie in the face.
-Span span_of(const CastFace& cast, std::size_t face, int y) {
-    double begin = cast.pixels.left;
-    double end = cast.pixels.right;
-    for (const glm::dvec3& edge : cast.rays.edges) {
+/// The part of row `y` of the bounds whose pixels' centres lie in the face.
+Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t face, int y) {
+    double begin = bounds.x;
+    double end = bounds.x + bounds.width;
+    for (const glm::dvec3& edge : rays.edges) {
         const double rest = edge.y * (y + 0.5) + edge.z; // edge.x u + rest <= 0
         if (edge.x > 0.0) {
             end = std::fmin(end, std::floor(-rest / edge.x - 0.5) + 1.0);
@@ -95,23 +62,29 @@ Span span_of(const CastFace& cast, std::size_t face, int y) {
             end = begin;
         }
     }
-    begin = std::fmin(begin, cast.pixels.right); // an edge along the row may be met anywhere
+    begin = std::fmin(begin, bounds.x + bounds.width); // an edge along the row may be met anywhere
     return {face, y, static_cast<int>(begin), static_cast<int>(std::fmax(begin, end))};
 }
 
 class RayCast final : public Technique {
 public:
-    RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, MemoryPicture picture)
-        : stage_(stage), mesh_(std::move(mesh)), picture_(std::move(picture)) {}
+    RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, int samples, MemoryPicture picture)
+        : stage_(stage), mesh_(std::move(mesh)), samples_(SampleGrid::of(samples)),
+          picture_(std::move(picture)) {}
 
-    [[nodiscard]] std::string name() const override { return "ray cast"; }
+    [[nodiscard]] std::string name() const override {
+        const int samples = samples_.x * samples_.y;
+        return samples > 1 ? fmt::format("ray cast ({} samples)", samples) : "ray cast";
+    }
     void draw(const BenchPose& pose) override {
         set_up(pose);
-        cast([this](int x, int y, const glm::dvec3&, const RTCRayHit8& hits, int lane) {
-            picture_.codes.at(x, y) = codes_.of(surface_colour(mesh_->mesh(), hits.hit.primID[lane],
-                                                               static_cast<double>(hits.hit.u[lane]),
-                                                               static_cast<double>(hits.hit.v[lane]))
-                                                    .linear);
+        parallel_for(spans_.size(), 8, [&](std::size_t begin, std::size_t end) {
+            std::vector<glm::vec3> light;
+            for (std::size_t k = begin; k < end; ++k) {
+                light.assign(static_cast<std::size_t>(spans_[k].end - spans_[k].begin), glm::vec3(0.0F));
+                add_light(spans_[k], light);
+                write_codes(spans_[k], light);
+            }
         });
         picture_.show(stage_, lit_);
     }
@@ -119,8 +92,14 @@ public:
         set_up(pose);
         ImageFloat points(stage_.width(), stage_.height(),
                           glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-        cast([&](int x, int y, const glm::dvec3& direction, const RTCRayHit8& hits, int lane) {
-            points.at(x, y) = glm::vec3(view_.eye_m + static_cast<double>(hits.ray.tfar[lane]) * direction);
+        parallel_for(spans_.size(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                cast(spans_[k], glm::dvec2(0.5),
+                     [&](int x, const glm::dvec3& direction, const RTCRayHit8& hits, int lane) {
+                         points.at(x, spans_[k].y) =
+                             glm::vec3(view_.eye_m + static_cast<double>(hits.ray.tfar[lane]) * direction);
+                     });
+            }
         });
         return points;
     }
@@ -128,47 +107,63 @@ public:
 private:
     void set_up(const BenchPose& pose) {
         view_ = view_of(stage_.settings, pose);
-        const PeerView faces = peer_view(stage_, pose);
-        faces_.clear();
+        const PeerView view = peer_view(stage_, pose);
+        rays_.clear();
         spans_.clear();
         lit_ = {};
-        for (const PropFace* face : faces.faces) {
-            const CastFace cast{
-                face_rays(*face, view_.projector, view_.prop_from_projector, view_.eye_m),
-                pixels_of(mesh_->box(),
-                          collineation(face->plane, view_.eye_m, faces.clip_from_prop, mesh_->box()),
-                          stage_.width(), stage_.height())};
-            for (int y = cast.pixels.top; y < cast.pixels.bottom; ++y) {
-                const Span span = span_of(cast, faces_.size(), y);
+        for (const PeerFace& face : faces_before(mesh_->box(), view)) {
+            const FaceRays rays =
+                face_rays(*face.face, view_.projector, view_.prop_from_projector, view_.eye_m);
+            for (int y = face.bounds.y; y < face.bounds.y + face.bounds.height; ++y) {
+                const Span span = span_of(rays, face.bounds, rays_.size(), y);
                 if (span.begin < span.end) {
                     spans_.push_back(span);
                     lit_ = united(lit_, {span.begin, y, span.end - span.begin, 1});
                 }
             }
-            faces_.push_back(cast);
+            rays_.push_back(rays);
         }
     }
 
-    /// Calls found(x, y, direction, hits, lane) for each pixel that shows the artifact, on every core.
-    template <typename Found> void cast(const Found& found) const {
-        parallel_for(spans_.size(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                for (int x = spans_[k].begin; x < spans_[k].end; x += lanes) {
-                    cast_packet(spans_[k], x, found);
-                }
-            }
-        });
+    /// Of every sample of the span's pixels, linear; one that meets nothing adds none.
+    void add_light(const Span& span, std::vector<glm::vec3>& light) const {
+        for (int sample = 0; sample < samples_.x * samples_.y; ++sample) {
+            const glm::dvec2 at =
+                (glm::dvec2(sample % samples_.x, sample / samples_.x) + 0.5) / glm::dvec2(samples_);
+            cast(span, at, [&](int x, const glm::dvec3&, const RTCRayHit8& hits, int lane) {
+                light[static_cast<std::size_t>(x - span.begin)] +=
+                    surface_colour(mesh_->mesh(), hits.hit.primID[lane],
+                                   static_cast<double>(hits.hit.u[lane]),
+                                   static_cast<double>(hits.hit.v[lane]))
+                        .linear;
+            });
+        }
     }
 
-    template <typename Found> void cast_packet(const Span& span, int left, const Found& found) const {
+    void write_codes(const Span& span, const std::vector<glm::vec3>& light) {
+        const float share = 1.0F / static_cast<float>(samples_.x * samples_.y);
+        for (int x = span.begin; x < span.end; ++x) {
+            picture_.codes.at(x, span.y) = codes_.of(share * light[static_cast<std::size_t>(x - span.begin)]);
+        }
+    }
+
+    /// Calls found(x, direction, hits, lane) for each pixel of the span whose ray, at this place in the pixel, meets the artifact.
+    template <typename Found> void cast(const Span& span, const glm::dvec2& at, const Found& found) const {
+        for (int x = span.begin; x < span.end; x += lanes) {
+            cast_packet(span, x, at, found);
+        }
+    }
+
+    template <typename Found>
+    void cast_packet(const Span& span, int left, const glm::dvec2& at, const Found& found) const {
         alignas(32) std::array<int, lanes> valid{};
         alignas(32) RTCRayHit8 packet; // NOLINT(cppcoreguidelines-pro-type-member-init): lanes below
         std::array<glm::dvec3, lanes> directions;
-        const glm::dmat3& direction = faces_[span.face].rays.direction;
+        const glm::dmat3& direction = rays_[span.face].direction;
         for (int lane = 0; lane < lanes; ++lane) {
             const auto k = static_cast<std::size_t>(lane);
             valid[k] = left + lane < span.end ? -1 : 0;
-            directions[k] = direction * glm::dvec3(left + lane + 0.5, span.y + 0.5, 1.0);
+            directions[k] = direction * glm::dvec3(left + lane + at.x, span.y + at.y, 1.0);
             packet.ray.org_x[lane] = static_cast<float>(view_.eye_m.x);
             packet.ray.org_y[lane] = static_cast<float>(view_.eye_m.y);
             packet.ray.org_z[lane] = static_cast<float>(view_.eye_m.z);
@@ -190,29 +185,31 @@ private:
         rtcIntersect8(valid.data(), mesh_->scene(), &context, &packet);
         for (int lane = 0; lane < lanes && left + lane < span.end; ++lane) {
             if (packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) {
-                found(left + lane, span.y, directions[static_cast<std::size_t>(lane)], packet, lane);
+                found(left + lane, directions[static_cast<std::size_t>(lane)], packet, lane);
             }
         }
     }
 
     const Stage& stage_;
     std::shared_ptr<const TracedMesh> mesh_;
+    glm::ivec2 samples_; ///< along a pixel's sides
     MemoryPicture picture_;
     CodeTable codes_;
     TruthView view_;
-    std::vector<CastFace> faces_;
+    std::vector<FaceRays> rays_; ///< of the faces that show anything
     std::vector<Span> spans_;
     PixelRectangle lit_;
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh) {
+Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh,
+                                                 int samples) {
     Result<MemoryPicture> picture = MemoryPicture::create(stage);
     if (!picture) {
         return tl::unexpected<Error>(picture.error());
     }
-    return std::make_unique<RayCast>(stage, std::move(mesh), std::move(*picture));
+    return std::make_unique<RayCast>(stage, std::move(mesh), samples, std::move(*picture));
 }
 
 } // namespace frustumscreen

@@ -129,69 +129,95 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
                                      depth));
 }
 
-class TwoPass final : public PeerTechnique {
+class TwoPass final : public SampledPeer {
 public:
-    TwoPass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, std::string name,
-            OutputPrograms project, std::array<OffscreenTarget, 2> eye, OffscreenTarget points)
-        : PeerTechnique(stage, std::move(name), std::move(points)), mesh_(std::move(mesh)),
-          project_(std::move(project)), eye_(std::move(eye)) {}
-
-private:
-    void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
-        const PeerView view = peer_view(stage_, pose);
-        const glm::dmat4 eye = eye_clip(view, mesh_->box());
-        from_eye(eye_[0], eye, Output::Colour);
-        const GLuint program = project_[static_cast<std::size_t>(output)].get();
-        if (output == Output::Point) {
-            from_eye(eye_[1], eye, Output::Point);
-            glUseProgram(program);
-            glUniform1i(glGetUniformLocation(program, "eye_points"), 1);
-            const double texel_m = glm::distance(mesh_->box().low, mesh_->box().high) / eye_[1].width;
-            glUniform1f(glGetUniformLocation(program, "same_surface"), static_cast<float>(4.0 * texel_m));
-            glActiveTexture(GL_TEXTURE1);
-            glBindTexture(GL_TEXTURE_2D, eye_[1].colour.get());
+    TwoPass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
+            std::shared_ptr<const PeerSamples> samples, OutputPrograms project,
+            std::array<OffscreenTarget, 2> eye, OffscreenTarget points)
+        : SampledPeer(stage, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
+          project_(std::move(project)), eye_(std::move(eye)) {
+        for (std::size_t k = 0; k < places_.size(); ++k) {
+            const GLuint program = project_[k].get();
+            places_[k] = {glGetUniformLocation(program, "clip_from_prop"),
+                          glGetUniformLocation(program, "eye_clip_from_prop")};
         }
-        from_projector(framebuffer, output, view, eye);
+        const GLuint points_program = project_[static_cast<std::size_t>(Output::Point)].get();
+        const double texel_m = glm::distance(mesh_->box().low, mesh_->box().high) / eye_[1].width;
+        glUseProgram(points_program);
+        glUniform1i(glGetUniformLocation(points_program, "eye_points"), 1);
+        glUniform1f(glGetUniformLocation(points_program, "same_surface"), static_cast<float>(4.0 * texel_m));
     }
 
-    void from_eye(const OffscreenTarget& target, const glm::dmat4& eye, Output output) {
+private:
+    const LitTiles& prepare(const BenchPose& pose, Output output) override {
+        view_ = peer_view(stage_, pose);
+        eye_clip_ = eye_clip(view_, mesh_->box());
+        from_eye(eye_[0], Output::Colour);
+        if (output == Output::Point) {
+            from_eye(eye_[1], Output::Point);
+        }
+        faces_ = faces_before(mesh_->box(), view_);
+        lit_.begin(stage_.width(), stage_.height());
+        for (const PeerFace& face : faces_) {
+            lit_.light(face.bounds);
+        }
+        lit_.finish();
+        return lit_;
+    }
+
+    void from_eye(const OffscreenTarget& target, Output output) {
         begin_picture(target.framebuffer.get(), target.width, target.height, PictureOf::Codes);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
-        mesh_->draw({eye, {target.width, target.height}, output, GL_CCW});
+        mesh_->draw({eye_clip_, {target.width, target.height}, output, GL_CCW});
         glDisable(GL_DEPTH_TEST);
         end_codes();
     }
 
-    void from_projector(GLuint framebuffer, Output output, const PeerView& view, const glm::dmat4& eye) {
-        const GLuint program = project_[static_cast<std::size_t>(output)].get();
-        begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
-        const glm::mat4 clip(view.clip_from_prop);
-        const glm::mat4 eye_clip_from_prop(eye);
-        glUseProgram(program);
-        glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_prop"), 1, GL_FALSE,
-                           glm::value_ptr(clip));
-        glUniformMatrix4fv(glGetUniformLocation(program, "eye_clip_from_prop"), 1, GL_FALSE,
-                           glm::value_ptr(eye_clip_from_prop));
+    void paint(const Raster& raster, Output output) override {
+        const auto k = static_cast<std::size_t>(output);
+        const glm::mat4 clip(view_.clip_from_prop);
+        const glm::mat4 eye_clip_from_prop(eye_clip_);
+        glUseProgram(project_[k].get());
+        glUniformMatrix4fv(places_[k].clip_from_prop, 1, GL_FALSE, glm::value_ptr(clip));
+        glUniformMatrix4fv(places_[k].eye_clip_from_prop, 1, GL_FALSE, glm::value_ptr(eye_clip_from_prop));
+        if (output == Output::Point) {
+            glActiveTexture(GL_TEXTURE1);
+            glBindTexture(GL_TEXTURE_2D, eye_[1].colour.get());
+        }
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, eye_[0].colour.get());
-        quads_.set(view.faces);
-        for (std::size_t k = 0; k < view.faces.size(); ++k) {
-            quads_.draw(k);
+        set_viewport({stage_.width(), stage_.height()}, raster);
+        glEnable(GL_SCISSOR_TEST);
+        quads_.set(faces_);
+        for (std::size_t face = 0; face < faces_.size(); ++face) {
+            set_scissor(faces_[face].bounds, raster);
+            quads_.draw(face);
         }
-        end_codes();
+        glDisable(GL_SCISSOR_TEST);
     }
+
+    struct Places {
+        GLint clip_from_prop = -1;
+        GLint eye_clip_from_prop = -1;
+    };
 
     std::shared_ptr<const PeerMesh> mesh_;
     OutputPrograms project_;
+    std::array<Places, 2> places_;       ///< by output
     std::array<OffscreenTarget, 2> eye_; ///< by output
+    PeerView view_;
+    glm::dmat4 eye_clip_{1.0};
+    std::vector<PeerFace> faces_;
+    LitTiles lit_;
     FaceQuads quads_;
 };
 
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
-                                                 int eye_pixels, std::string of_mesh) {
+                                                 int eye_pixels, std::shared_ptr<const PeerSamples> samples,
+                                                 const std::string& of_mesh) {
     Result<OutputPrograms> project = make_programs("", project_vertex, project_fragment);
     if (!project) {
         return tl::unexpected<Error>(project.error());
@@ -209,8 +235,8 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return std::make_unique<TwoPass>(
         stage, std::move(mesh),
-        fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh), std::move(*project),
-        std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
+        fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh), std::move(samples),
+        std::move(*project), std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
 }
 
 } // namespace frustumscreen

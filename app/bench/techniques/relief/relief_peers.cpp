@@ -32,7 +32,7 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         return tl::unexpected<Error>(warped.error());
     }
     Result<std::unique_ptr<Technique>> warp =
-        make_full_mesh(stage, std::move(*warped), fmt::format("relief warp {}", texels));
+        make_full_mesh(stage, std::move(*warped), nullptr, fmt::format("relief warp {}", texels));
     if (!warp) {
         return tl::unexpected<Error>(warp.error());
     }

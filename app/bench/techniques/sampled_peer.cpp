@@ -1,0 +1,61 @@
+#include "app/bench/techniques/sampled_peer.h"
+
+#include <GLES2/gl2ext.h>
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stage, int samples) {
+    Result<SampleGrid> grid = SampleGrid::create(stage.width(), stage.height(), samples);
+    if (!grid) {
+        return tl::unexpected<Error>(grid.error());
+    }
+    ShaderCache shaders;
+    if (const Result<void> ready =
+            shaders.prepare({{ShaderKey::Pass::TileClear}, {ShaderKey::Pass::TileAverage}});
+        !ready) {
+        return tl::unexpected<Error>(ready.error());
+    }
+    return std::shared_ptr<const PeerSamples>(new PeerSamples(samples, std::move(*grid), std::move(shaders)));
+}
+
+Raster PeerSamples::begin(const LitTiles& tiles) const {
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    const Raster raster = grid_.raster(tiles, count_);
+    grid_.begin(tiles, raster, shaders_);
+    return raster;
+}
+
+void PeerSamples::average(const LitTiles& tiles, const Raster& raster) const {
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
+    grid_.average(tiles, raster, shaders_);
+}
+
+SampledPeer::SampledPeer(const Stage& stage, const std::string& name,
+                         std::shared_ptr<const PeerSamples> samples, OffscreenTarget points)
+    : PeerTechnique(stage, samples ? fmt::format("{} ({} samples)", name, samples->count()) : name,
+                    std::move(points)),
+      samples_(std::move(samples)) {}
+
+void SampledPeer::draw(const BenchPose& pose) {
+    if (!samples_) {
+        draw_into(stage_.framebuffer, pose, Output::Colour);
+        return;
+    }
+    const LitTiles& lit = prepare(pose, Output::Colour);
+    const Raster raster = samples_->begin(lit);
+    paint(raster, Output::Colour);
+    begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
+    samples_->average(lit, raster);
+}
+
+void SampledPeer::draw_into(GLuint framebuffer, const BenchPose& pose, Output output) {
+    const LitTiles& lit = prepare(pose, output);
+    begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
+    clear_depth_stencil(lit.bounds());
+    paint({}, output);
+    end_codes();
+}
+
+} // namespace frustumscreen
