@@ -137,13 +137,17 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
     return blocks;
 }
 
+Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
+    return decode(relief, pack.section_parts.at(relief.part));
+}
+
 Result<void> check_reliefs(const Pack& pack) {
     const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
     if (!reliefs) {
         return tl::unexpected<Error>(reliefs.error());
     }
     for (const ReliefOutline& relief : *reliefs) {
-        if (const Result<BlockRelief> good = decode(relief, pack.section_parts.at(relief.part)); !good) {
+        if (const Result<BlockRelief> good = relief_of(pack, relief); !good) {
             return tl::unexpected<Error>(good.error());
         }
     }

@@ -42,6 +42,9 @@ void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs);
 /// The one of this outline; nothing else is read but the manifest.
 [[nodiscard]] Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief);
 
+/// The one of this outline, of a pack that was read whole.
+[[nodiscard]] Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief);
+
 /// Holds the section against FORMAT.md; `pack` was read whole.
 [[nodiscard]] Result<void> check_reliefs(const Pack& pack);
 

@@ -254,17 +254,6 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
     return area > 0.0 ? pixels / area * distance_m / shared.view.projector.fx : 1.0;
 }
 
-/// The bake chooses the samples for pictures of at least half that density.
-int samples_at(double density, int samples) {
-    constexpr double least_density = 0.5;
-    constexpr int most = 16;
-    while (samples > 0 && samples < most && density > 0.0 && density < least_density) {
-        samples *= 2;
-        density *= std::numbers::sqrt2;
-    }
-    return samples;
-}
-
 /// Those of the first; 1 where reliefs alone are drawn.
 int samples_of_meshes(std::span<const Part> parts) {
     const auto mesh =
@@ -350,6 +339,16 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 }
 
 } // namespace
+
+int samples_at(double density, int samples) {
+    constexpr double least_density = 0.5;
+    constexpr int most = 16;
+    while (samples > 0 && samples < most && density > 0.0 && density < least_density) {
+        samples *= 2;
+        density *= std::numbers::sqrt2;
+    }
+    return samples;
+}
 
 PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief, double metres_per_box,
                    const Drawable& drawable) {

@@ -89,6 +89,20 @@ TEST(Dominance, ShapeIsJudgedAmongPicturesOfAsManySamples) {
     EXPECT_EQ(dominated_by(result, result.techniques[1], Dominance::Shape), "");
 }
 
+TEST(Dominance, ThePacksReliefsAreJudgedAndNoPeersOfItsLevels) {
+    const TechniqueResult relief = technique("relief96", TechniqueKind::PackRelief, 3.5, middling);
+    EXPECT_TRUE(judge_dominance(with({relief})).empty()); // cheaper than the level, and no worse
+    const TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 3.0, {0.2, 0.1, 9.0});
+    const SetUpResult result = with({relief, peer});
+    const std::vector<Verdict> verdicts = judge_dominance(result);
+    ASSERT_EQ(verdicts.size(), 4U);
+    EXPECT_NE(verdicts[2].what.find("relief96"), std::string::npos);
+    EXPECT_FALSE(verdicts[2].held);
+    EXPECT_TRUE(verdicts[3].held);
+    EXPECT_EQ(dominated_by(result, result.techniques[2], Dominance::Shape), "LOD");
+    EXPECT_NE(summary_csv({{result}}).find("relief96,pack relief"), std::string::npos);
+}
+
 TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
     for (const double cost : {3.85, 4.0, 4.15}) {
         for (const Verdict& verdict :

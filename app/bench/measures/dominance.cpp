@@ -96,8 +96,12 @@ Verdict judge_level(const SetUpResult& result, const TechniqueResult& level, Dom
 } // namespace
 
 bool is_judged_peer(TechniqueKind kind) {
-    return kind != TechniqueKind::Floor && kind != TechniqueKind::PackLevel && kind != TechniqueKind::Auto &&
+    return kind != TechniqueKind::Floor && !is_judged_level(kind) && kind != TechniqueKind::Auto &&
            kind != TechniqueKind::ReliefCast;
+}
+
+bool is_judged_level(TechniqueKind kind) {
+    return kind == TechniqueKind::PackLevel || kind == TechniqueKind::PackRelief;
 }
 
 bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b) {
@@ -127,7 +131,7 @@ std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result
 std::vector<Verdict> judge_dominance(const SetUpResult& result) {
     std::vector<Verdict> verdicts;
     for (const TechniqueResult& technique : result.techniques) {
-        if (technique.kind != TechniqueKind::PackLevel) {
+        if (!is_judged_level(technique.kind)) {
             continue;
         }
         for (const Dominance by : {Dominance::Shape, Dominance::Colour}) {

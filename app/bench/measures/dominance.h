@@ -15,8 +15,10 @@ namespace frustumscreen {
 
 inline constexpr double cost_tolerance = 0.05;
 
-/// False for the pack's own levels, what `auto` takes, our own relief and the floor.
+/// False for the pack's own levels and reliefs, what `auto` takes, our own relief of other resolutions and the floor.
 [[nodiscard]] bool is_judged_peer(TechniqueKind kind);
+/// The pack's levels and reliefs.
+[[nodiscard]] bool is_judged_level(TechniqueKind kind);
 /// In silhouette, geometry and colour.
 [[nodiscard]] bool errs_no_more(const TechniqueResult& a, const TechniqueResult& b);
 
@@ -28,7 +30,7 @@ enum class Dominance { Shape, Colour };
 /// that no other betters at about the same cost.
 [[nodiscard]] std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result);
 
-/// Two verdicts for each level of the pack; none without peers, and none by shape where no peer has as many samples. Every eye
+/// Two verdicts for each level and relief of the pack; none without peers, and none by shape where no peer has as many samples. Every eye
 /// image counts here.
 [[nodiscard]] std::vector<Verdict> judge_dominance(const SetUpResult& result);
 

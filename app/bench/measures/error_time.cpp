@@ -1,6 +1,7 @@
 #include "app/bench/measures/error_time.h"
 
 #include "app/bench/measures/side_by_side.h"
+#include "app/pack/pack_relief.h"
 
 #include <algorithm>
 #include <numeric>
@@ -37,7 +38,8 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
 }
 
 Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth, const Pack& pack,
-                       const glm::dmat4& prop_from_artifact, PeerChoice choice) {
+                       const glm::dmat4& prop_from_artifact, PeerChoice choice,
+                       const PictureOptions& picture) {
     if (choice.samples.empty()) {
         choice.samples = pack.samples > 1 ? std::vector{1, pack.samples} : std::vector{1};
     }
@@ -56,7 +58,7 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
         added = set.add_relief_peers(truth, mesh, prop_from_artifact, choice.relief_texels);
     }
     if (added && choice.relief_cast) {
-        added = set.add_relief_casts(mesh, pack, choice.cast_texels);
+        added = set.add_relief_casts(pack, choice.cast_texels, picture);
     }
     return added;
 }
@@ -73,9 +75,12 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         return tl::unexpected<Error>(opened.error());
     }
     auto& [set, poses, truth, prop_from_artifact] = *opened;
-    Result<void> ready = set->add_auto(pack, options.picture).and_then([&] {
-        return add_peers(*set, *mesh, truth, pack, prop_from_artifact, options.peers);
-    });
+    Result<void> ready = set->add_auto(pack, options.picture)
+                             .and_then([&] { return set->add_reliefs(pack, options.picture); })
+                             .and_then([&] {
+                                 return add_peers(*set, *mesh, truth, pack, prop_from_artifact, options.peers,
+                                                  options.picture);
+                             });
     progress(set_up.name + ": meshes", 1.0);
     progress(set_up.name + ": errors", 0.0);
     if (ready) {
@@ -111,7 +116,9 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const auto details = static_cast<double>(peers.lod_triangles.size());
     const auto times = static_cast<double>(std::max<std::size_t>(peers.samples.size(), 2));
     const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
-    const double small = static_cast<double>(pack.levels.size()) + 1.0 +
+    const double small = static_cast<double>(pack.levels.size() +
+                                             reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size()) +
+                         1.0 +
                          times * ((peers.ray_cast ? 1.0 : 0.0) + (peers.lod ? details : 0.0) +
                                   (peers.two_pass_lod ? details * eye_images : 0.0));
     const auto triangles = static_cast<double>(mesh.triangles.size());

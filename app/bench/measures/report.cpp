@@ -101,7 +101,7 @@ std::string summary_csv(std::span<const SetUpResult> results) {
                 technique.errors.empty() ? std::string(",") : fmt::format(",{}", technique.error.worst_pose);
             csv += std::find(best.begin(), best.end(), &technique) != best.end() ? ",1" : ",0";
             for (const Dominance by : {Dominance::Shape, Dominance::Colour}) {
-                const bool judged = technique.kind == TechniqueKind::PackLevel;
+                const bool judged = is_judged_level(technique.kind);
                 csv += "," + field(judged ? dominated_by(result, technique, by) : std::string());
             }
             csv += "\n";

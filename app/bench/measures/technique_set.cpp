@@ -5,6 +5,7 @@
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
 #include "app/bench/techniques/relief_cast.h"
+#include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/scene_plan.h"
 #include "firmware_host/base/quantile.h"
@@ -21,9 +22,10 @@ namespace frustumscreen {
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 10> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 11> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
+    {TechniqueKind::PackRelief, "pack relief"},
     {TechniqueKind::Auto, "auto"},
     {TechniqueKind::FullMesh, "full mesh"},
     {TechniqueKind::TwoPass, "two-pass"},
@@ -214,15 +216,41 @@ Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh
     return {};
 }
 
-Result<void> TechniqueSet::add_relief_casts(const SourceMesh& mesh, const Pack& pack,
-                                            const std::vector<int>& texels) {
+Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,
+                                      const std::optional<SeenLevel>& seen, const PictureOptions& options,
+                                      const std::string& name) {
+    TechniqueResult result = described(kind, -1, relief.blocks.size());
+    result.samples = options.samples > 0 ? options.samples : pack.samples;
+    return add(make_pack_relief(stage_, pack, std::make_shared<const BlockRelief>(std::move(relief)), seen,
+                                options, name),
+               std::move(result));
+}
+
+Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
+    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
+    if (!reliefs) {
+        return tl::unexpected<Error>(reliefs.error());
+    }
+    for (const ReliefOutline& outline : *reliefs) {
+        Result<BlockRelief> relief = relief_of(pack, outline);
+        if (!relief) {
+            return tl::unexpected<Error>(relief.error());
+        }
+        const std::string name = name_of(Rung{outline.texels, pack.samples, false, true});
+        if (const Result<void> added = add_relief(pack, TechniqueKind::PackRelief, *std::move(relief),
+                                                  derived(outline.error, pack.box_size), options, name);
+            !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
+Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,
+                                            const PictureOptions& options) {
     for (const int size : texels) {
-        BlocksInBox blocks = blocks_of_source(mesh, pack, stage_.prop, size);
-        const std::size_t count = blocks.relief.blocks.size();
-        TechniqueResult result = described(TechniqueKind::ReliefCast, -1, count);
-        result.samples = pack.samples;
-        if (Result<void> added =
-                add(make_relief_cast(stage_, std::move(blocks), pack.samples), std::move(result));
+        if (const Result<void> added = add_relief(pack, TechniqueKind::ReliefCast, blocks_of_pack(pack, size),
+                                                  std::nullopt, options, fmt::format("relief cast {}", size));
             !added) {
             return added;
         }

@@ -30,14 +30,15 @@ struct SetUp {
 enum class TechniqueKind {
     Floor,
     PackLevel,
-    Auto, ///< the level that the exhibit's governor takes in this set-up while it is in time
+    PackRelief, ///< the pack's layered relief at one resolution; its count is of blocks
+    Auto,       ///< the level that the exhibit's governor takes in this set-up while it is in time
     FullMesh,
     TwoPass,
     RayCast, ///< the reference: reported, not judged
     Lod,
     TwoPassLod,
     Relief,     ///< relief images, marched or warped
-    ReliefCast, ///< layered relief through blocks; its count is of blocks
+    ReliefCast, ///< layered relief that the pack does not hold; its count is of blocks
 };
 /// The name in tables and files.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
@@ -82,9 +83,11 @@ public:
     [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
                                                 const glm::dmat4& prop_from_artifact, int texels);
 
-    /// Adds our own layered relief, cast on the processor, one for each size.
-    [[nodiscard]] Result<void> add_relief_casts(const SourceMesh& mesh, const Pack& pack,
-                                                const std::vector<int>& texels);
+    /// The pack's reliefs, one for each resolution that it has. The pack must outlive the set.
+    [[nodiscard]] Result<void> add_reliefs(const Pack& pack, const PictureOptions& options);
+    /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
+    [[nodiscard]] Result<void> add_relief_casts(const Pack& pack, const std::vector<int>& texels,
+                                                const PictureOptions& options);
 
     /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
@@ -108,6 +111,9 @@ private:
         : display_(std::move(display)), stage_(std::move(stage)) {}
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
+    [[nodiscard]] Result<void> add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,
+                                          const std::optional<SeenLevel>& seen, const PictureOptions& options,
+                                          const std::string& name);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
     using MakePeer =
         std::function<Result<std::unique_ptr<Technique>>(const std::shared_ptr<const PeerSamples>&)>;

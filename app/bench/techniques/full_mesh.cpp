@@ -23,10 +23,10 @@ public:
           mark_(std::move(mark)) {}
 
 private:
-    const LitTiles& prepare(const BenchPose& pose, Output /*output*/) override {
+    Shown prepare(const BenchPose& pose, Output /*output*/) override {
         view_ = peer_view(stage_, pose);
         visible_.find(mesh_->triangles(), mesh_->box(), view_);
-        return visible_.lit();
+        return {visible_.lit(), pixel_density(visible_.faces(), mesh_->box(), view_)};
     }
 
     void paint(const Raster& raster, Output output) override {

@@ -23,19 +23,19 @@ struct Light {
     bool feathered = true;
 };
 
-Light light_of(const Stage& stage, const Pack& pack, const SceneLevel& level, const PictureOptions& options) {
+/// `exposure_of_code`: the factor that brings the artifact's brightest places to a code.
+template <typename Exposure>
+Light light_of(const Stage& stage, const PictureOptions& options, const Exposure& exposure_of_code) {
     if (!options.lit) {
         return {};
     }
-    return {light_compensation(stage.settings),
-            exposure_of(level.mesh, pack.box_size, pack.textures[level.mesh.texture],
-                        stage.settings.render.highlight_code),
+    return {light_compensation(stage.settings), exposure_of_code(stage.settings.render.highlight_code),
             options.feathered};
 }
 
 class PackLevelTechnique final : public Technique {
 public:
-    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, SeenLevel seen,
+    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::optional<SeenLevel> seen,
                        const Light& light, std::string name, Parts parts)
         : stage_(stage), placed_(placed_level), seen_(std::move(seen)), light_(light), name_(std::move(name)),
           parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
@@ -51,8 +51,11 @@ public:
     }
 
     [[nodiscard]] std::optional<ErrorEstimate> estimate(const BenchPose& pose) override {
+        if (!seen_) {
+            return std::nullopt;
+        }
         plan(pose);
-        return estimate_error(seen_, stage_.prop, placed_, view_of(pose), plan_);
+        return estimate_error(*seen_, stage_.prop, placed_, view_of(pose), plan_);
     }
 
 private:
@@ -71,7 +74,7 @@ private:
 
     const Stage& stage_;
     PlacedLevel placed_;
-    SeenLevel seen_;
+    std::optional<SeenLevel> seen_;
     Light light_;
     std::string name_;
     Parts parts_;
@@ -107,8 +110,36 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level],
-                                                light_of(stage, pack, whole, options), std::move(name),
+    const Light light = light_of(stage, options, [&](int code) {
+        return exposure_of(whole.mesh, pack.box_size, pack.textures[whole.mesh.texture], code);
+    });
+    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level], light, std::move(name),
+                                                Parts{std::move(*renderer), std::move(*hit_points)});
+}
+
+Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
+                                                    std::shared_ptr<const BlockRelief> relief,
+                                                    std::optional<SeenLevel> seen,
+                                                    const PictureOptions& options, std::string name) {
+    ShaderKey shader;
+    shader.pass = ShaderKey::Pass::Cast;
+    shader.even_light = options.lit;
+    RenderNeeds needs;
+    needs.draws = {shader, {ShaderKey::Pass::EdgeFeather}};
+    needs.casts = 1;
+    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    Result<HitPointRenderer> hit_points = HitPointRenderer::create(*renderer);
+    if (!hit_points) {
+        return tl::unexpected<Error>(hit_points.error());
+    }
+    const Light light = light_of(stage, options, [&](int code) { return exposure_of(*relief, code); });
+    const Drawable drawable = renderer->store().keep(relief);
+    PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, drawable);
+    shown.samples = options.samples > 0 ? options.samples : pack.samples;
+    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(seen), light, std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 

@@ -1,4 +1,4 @@
-/// A level of a pack through the exhibit's own plan and renderer, as the bench sees it.
+/// A level of a pack, or a relief, through the exhibit's own plan and renderer, as the bench sees it.
 ///
 /// Cost     the plan is made anew for every picture: it is part of the frame.
 /// Threads  the one whose context is current; the pack and stage must outlive the technique.
@@ -24,5 +24,10 @@ struct PictureOptions {
                                                                  std::uint32_t level,
                                                                  const PictureOptions& options,
                                                                  std::string name);
+
+/// A relief in the pack's box, cast as the exhibit casts it. `seen`: what the pack says of its errors; nothing: it says nothing.
+[[nodiscard]] Result<std::unique_ptr<Technique>>
+make_pack_relief(const Stage& stage, const Pack& pack, std::shared_ptr<const BlockRelief> relief,
+                 std::optional<SeenLevel> seen, const PictureOptions& options, std::string name);
 
 } // namespace frustumscreen

@@ -6,7 +6,7 @@
 /// lod           simplified meshes through the collineation
 /// two-pass-lod  simplified meshes by the two-pass method
 /// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
-/// relief-cast   layered relief through blocks on the processor: our own, on its way into the pack
+/// relief-cast   layered relief as the pack holds it, at sizes that it does not hold
 ///
 /// Threads  values; any.
 /// Errors   a name that is none of these.

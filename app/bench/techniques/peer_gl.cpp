@@ -115,6 +115,7 @@ PeerView peer_view(const Stage& stage, const BenchPose& pose) {
     PeerView result{view.projector,
                     view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(),
                     view.eye_m,
+                    view.prop_from_projector.translation,
                     {}};
     for (const PropFace& face : stage.prop.faces) {
         if (face.plane.distance(view.eye_m) > 0.0 &&
@@ -139,6 +140,19 @@ std::vector<PeerFace> faces_before(const Box& box, const PeerView& view) {
         }
     }
     return faces;
+}
+
+double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view) {
+    const glm::dvec3 middle = 0.5 * (box.low + box.high);
+    double pixels_per_m = 0.0;
+    double area = 0.0;
+    for (const PeerFace& face : faces) {
+        const double share = static_cast<double>(face.bounds.width) * face.bounds.height;
+        pixels_per_m += share * pixels_per_unit(face.clip_from_prop, middle, view.projector);
+        area += share;
+    }
+    return area > 0.0 ? pixels_per_m / area * glm::distance(middle, view.projector_m) / view.projector.fx
+                      : 1.0;
 }
 
 FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {

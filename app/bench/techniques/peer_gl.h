@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,7 @@ struct PeerView {
     Pinhole projector;
     glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero
     glm::dvec3 eye_m{0.0};              ///< prop frame
+    glm::dvec3 projector_m{0.0};        ///< prop frame
     std::vector<const PropFace*> faces; ///< turned to the eye and lit
 };
 [[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
@@ -80,6 +82,9 @@ struct PeerFace {
 };
 /// Of the view's faces those through which the eye sees some of the box.
 [[nodiscard]] std::vector<PeerFace> faces_before(const Box& box, const PeerView& view);
+/// Pixels along a metre at the box's middle, as a share of those on a surface there that faces the projector; a mean over the faces,
+/// by area: as the exhibit's plan has it for samples_at.
+[[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view);
 
 /// Four corners of each face in one buffer, drawn as fans.
 class FaceQuads {

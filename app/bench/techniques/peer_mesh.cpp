@@ -84,8 +84,8 @@ GLint gl_wrap(Wrap wrap) {
     return wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-/// In codes; coarser levels are averaged in linear light. Each draw takes one, its GL_TEXTURE_BASE_LEVEL, as the exhibit's do; one
-/// texel needs no filter.
+/// In codes; coarser levels are averaged in linear light. Each draw takes one, its GL_TEXTURE_BASE_LEVEL, as the exhibit's do. A
+/// source without a texture is filtered too: on the kiosk any technique's texture holds the baked light.
 GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -98,9 +98,8 @@ GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
         }
         image = half_size(image);
     }
-    const GLint filter = finest.width == 1 && finest.height == 1 ? GL_NEAREST : GL_LINEAR;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, gl_wrap(wrap_u));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, gl_wrap(wrap_v));
     return texture;

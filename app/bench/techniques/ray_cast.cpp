@@ -4,6 +4,7 @@
 #include "app/bench/truth/truth.h"
 #include "app/geometry/face_rays.h"
 #include "app/render/sample_grid.h"
+#include "app/scene/frame_plan.h"
 #include "firmware_host/base/parallel.h"
 
 #include <fmt/format.h>
@@ -69,12 +70,10 @@ Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t fac
 class RayCast final : public Technique {
 public:
     RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, int samples, MemoryPicture picture)
-        : stage_(stage), mesh_(std::move(mesh)), samples_(SampleGrid::of(samples)),
-          picture_(std::move(picture)) {}
+        : stage_(stage), mesh_(std::move(mesh)), samples_(samples), picture_(std::move(picture)) {}
 
     [[nodiscard]] std::string name() const override {
-        const int samples = samples_.x * samples_.y;
-        return samples > 1 ? fmt::format("ray cast ({} samples)", samples) : "ray cast";
+        return samples_ > 1 ? fmt::format("ray cast ({} samples)", samples_) : "ray cast";
     }
     void draw(const BenchPose& pose) override {
         set_up(pose);
@@ -111,7 +110,10 @@ private:
         rays_.clear();
         spans_.clear();
         lit_ = {};
-        for (const PeerFace& face : faces_before(mesh_->box(), view)) {
+        const std::vector<PeerFace> faces = faces_before(mesh_->box(), view);
+        grid_ =
+            SampleGrid::of(samples_ > 1 ? samples_at(pixel_density(faces, mesh_->box(), view), samples_) : 1);
+        for (const PeerFace& face : faces) {
             const FaceRays rays =
                 face_rays(*face.face, view_.projector, view_.prop_from_projector, view_.eye_m);
             for (int y = face.bounds.y; y < face.bounds.y + face.bounds.height; ++y) {
@@ -127,9 +129,8 @@ private:
 
     /// Of every sample of the span's pixels, linear; one that meets nothing adds none.
     void add_light(const Span& span, std::vector<glm::vec3>& light) const {
-        for (int sample = 0; sample < samples_.x * samples_.y; ++sample) {
-            const glm::dvec2 at =
-                (glm::dvec2(sample % samples_.x, sample / samples_.x) + 0.5) / glm::dvec2(samples_);
+        for (int sample = 0; sample < grid_.x * grid_.y; ++sample) {
+            const glm::dvec2 at = (glm::dvec2(sample % grid_.x, sample / grid_.x) + 0.5) / glm::dvec2(grid_);
             cast(span, at, [&](int x, const glm::dvec3&, const RTCRayHit8& hits, int lane) {
                 light[static_cast<std::size_t>(x - span.begin)] +=
                     surface_colour(mesh_->mesh(), hits.hit.primID[lane],
@@ -141,7 +142,7 @@ private:
     }
 
     void write_codes(const Span& span, const std::vector<glm::vec3>& light) {
-        const float share = 1.0F / static_cast<float>(samples_.x * samples_.y);
+        const float share = 1.0F / static_cast<float>(grid_.x * grid_.y);
         for (int x = span.begin; x < span.end; ++x) {
             picture_.codes.at(x, span.y) = codes_.of(share * light[static_cast<std::size_t>(x - span.begin)]);
         }
@@ -192,7 +193,8 @@ private:
 
     const Stage& stage_;
     std::shared_ptr<const TracedMesh> mesh_;
-    glm::ivec2 samples_; ///< along a pixel's sides
+    int samples_;
+    glm::ivec2 grid_{1, 1}; ///< samples along the sides of this picture's pixels
     MemoryPicture picture_;
     CodeTable codes_;
     TruthView view_;

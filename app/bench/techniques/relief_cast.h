@@ -1,31 +1,16 @@
-/// Layered relief cast through blocks on every core, by the exhibit's own painter: what relief textures cost without triangles.
+/// Layered relief at resolutions that the pack does not hold, made as the bake makes the pack's own: from the finest mesh level, whose
+/// triangles are those that somebody sees, turned to who sees them.
 ///
-/// Colour   of the surface, unlit; sRGB codes, bilinear between the relief's texels.
-/// Threads  the one whose context is current; the stage must outlive the technique.
+/// Frame    box.
+/// Threads  uses every core.
 #pragma once
 
-#include "app/bench/techniques/technique.h"
-#include "app/pack/pack.h"
+#include "app/pack/pack_file.h"
 #include "app/relief/block_relief.h"
-#include "assets_baked/bake/source_mesh.h"
-
-#include <memory>
-#include <vector>
 
 namespace frustumscreen {
 
-struct BlocksInBox {
-    BlockRelief relief;
-    glm::dvec3 box_size{1.0};
-    glm::dmat4 prop_from_box{1.0};
-};
-
-/// Errors: the driver has no memory.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_relief_cast(const Stage& stage, BlocksInBox blocks,
-                                                                  int samples);
-
-/// The source's front sides in the directions of a frustum's faces. `texels` along the longest edge.
-[[nodiscard]] BlocksInBox blocks_of_source(const SourceMesh& mesh, const PackDescription& pack,
-                                           const PropShape& prop, int texels);
+/// In the directions of a frustum's faces. `texels` along the longest edge.
+[[nodiscard]] BlockRelief blocks_of_pack(const Pack& pack, int texels);
 
 } // namespace frustumscreen

@@ -1,5 +1,7 @@
 #include "app/bench/techniques/sampled_peer.h"
 
+#include "app/scene/frame_plan.h"
+
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
@@ -19,10 +21,10 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stag
     return std::shared_ptr<const PeerSamples>(new PeerSamples(samples, std::move(*grid), std::move(shaders)));
 }
 
-Raster PeerSamples::begin(const LitTiles& tiles) const {
+Raster PeerSamples::begin(const LitTiles& tiles, double density) const {
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    const Raster raster = grid_.raster(tiles, count_);
+    const Raster raster = grid_.raster(tiles, samples_at(density, count_));
     grid_.begin(tiles, raster, shaders_);
     return raster;
 }
@@ -43,15 +45,15 @@ void SampledPeer::draw(const BenchPose& pose) {
         draw_into(stage_.framebuffer, pose, Output::Colour);
         return;
     }
-    const LitTiles& lit = prepare(pose, Output::Colour);
-    const Raster raster = samples_->begin(lit);
+    const auto [lit, density] = prepare(pose, Output::Colour);
+    const Raster raster = samples_->begin(lit, density);
     paint(raster, Output::Colour);
     begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
     samples_->average(lit, raster);
 }
 
 void SampledPeer::draw_into(GLuint framebuffer, const BenchPose& pose, Output output) {
-    const LitTiles& lit = prepare(pose, output);
+    const LitTiles& lit = prepare(pose, output).lit;
     begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
     clear_depth_stencil(lit.bounds());
     paint({}, output);

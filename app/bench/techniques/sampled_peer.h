@@ -1,5 +1,6 @@
 /// A peer with one or several samples a pixel, which gets what the exhibit's own levels get: only where the artifact may show is
-/// depth cleared, and are several samples cleared, drawn larger and averaged in linear light, by the exhibit's own sample grid.
+/// depth cleared, and are several samples cleared, drawn larger and averaged in linear light, by the exhibit's own sample grid. Several
+/// become more where the exhibit takes more: in slanting views.
 ///
 /// Places   those of one sample at the pixel's centre, as for every technique.
 /// Threads  the one whose context is current; the stage must outlive the technique.
@@ -21,8 +22,8 @@ public:
     [[nodiscard]] static Result<std::shared_ptr<const PeerSamples>> create(const Stage& stage, int samples);
 
     [[nodiscard]] int count() const { return count_; }
-    /// Binds the larger picture, in which the tiles are clear, for codes.
-    [[nodiscard]] Raster begin(const LitTiles& tiles) const;
+    /// Binds the larger picture, in which the tiles are clear, for codes. As the exhibit's, a picture of so low a density takes more.
+    [[nodiscard]] Raster begin(const LitTiles& tiles, double density) const;
     /// Averages the tiles into the framebuffer that is bound.
     void average(const LitTiles& tiles, const Raster& raster) const;
 
@@ -42,8 +43,12 @@ protected:
     /// `samples`: none for one a pixel. `points`: a float target of the stage's size.
     SampledPeer(const Stage& stage, const std::string& name, std::shared_ptr<const PeerSamples> samples,
                 OffscreenTarget points);
-    /// Does what comes before the picture, and says which of its pixels may be lit.
-    [[nodiscard]] virtual const LitTiles& prepare(const BenchPose& pose, Output output) = 0;
+    struct Shown {
+        const LitTiles& lit;  ///< every pixel that may be
+        double density = 1.0; ///< pixel_density
+    };
+    /// Does what comes before the picture, and says what it will be.
+    [[nodiscard]] virtual Shown prepare(const BenchPose& pose, Output output) = 0;
     /// Draws what was prepared into the framebuffer that is bound, whose tiles are clear: black, far, stencil 0.
     virtual void paint(const Raster& raster, Output output) = 0;
 

@@ -149,7 +149,7 @@ public:
     }
 
 private:
-    const LitTiles& prepare(const BenchPose& pose, Output output) override {
+    Shown prepare(const BenchPose& pose, Output output) override {
         view_ = peer_view(stage_, pose);
         eye_clip_ = eye_clip(view_, mesh_->box());
         from_eye(eye_[0], Output::Colour);
@@ -162,7 +162,7 @@ private:
             lit_.light(face.bounds);
         }
         lit_.finish();
-        return lit_;
+        return {lit_, pixel_density(faces_, mesh_->box(), view_)};
     }
 
     void from_eye(const OffscreenTarget& target, Output output) {

@@ -1,0 +1,75 @@
+// A pack's own reliefs as the bench draws them: against the ray cast of what was baked.
+
+#include "app/bench/measures/technique_set.h"
+#include "app/bench/techniques/relief_cast.h"
+#include "app/pack/pack_relief.h"
+#include "assets_baked/bake/bake.h"
+#include "tests/bench/drawn_near.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+class PackRelief : public DrawnNear {
+protected:
+    void SetUp() override {
+        BakeOptions options;
+        options.size = 192;
+        options.unlit = true;
+        mesh_->default_up = 'z';
+        Result<Pack> pack = bake(*mesh_, options);
+        ASSERT_TRUE(pack) << pack.error().message;
+        pack_ = std::move(*pack);
+    }
+
+    std::shared_ptr<SourceMesh> mesh_ = ring();
+    Pack pack_;
+};
+
+TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
+    Result<Comparison> opened = open_comparison({"near", stage_.settings}, pack_, {}, mesh_, {{}, 4, 3});
+    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened->set->add_reliefs(pack_, {}));
+    ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
+    std::vector<TechniqueResult> reliefs;
+    for (const TechniqueResult& result : opened->set->results()) {
+        if (result.kind == TechniqueKind::PackRelief) {
+            reliefs.push_back(result);
+        }
+    }
+    ASSERT_EQ(reliefs.size(), 2U);
+    EXPECT_EQ(reliefs[0].name, "relief96");
+    EXPECT_EQ(reliefs[1].name, "relief192");
+    const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+    for (std::size_t k = 0; k < reliefs.size(); ++k) {
+        EXPECT_EQ(reliefs[k].triangles, outlines[k].blocks);
+        EXPECT_EQ(reliefs[k].samples, pack_.samples);
+        EXPECT_GT(reliefs[k].error.mean.truth_pixels, 300);
+        EXPECT_GT(reliefs[k].error.mean.geometric_mean_mm, 0.0);
+        const double texel_mm = 1e3 * place(pack_, stage_.prop).metres_per_box / outlines[k].texels;
+        EXPECT_LT(reliefs[k].error.mean.geometric_mean_mm, 0.5 * texel_mm);
+        EXPECT_LT(reliefs[k].error.worst.outline_shift_px, 1.0);
+        for (const std::optional<ErrorEstimate>& estimate : reliefs[k].estimates) {
+            EXPECT_TRUE(estimate.has_value());
+        }
+    }
+    EXPECT_LT(reliefs[1].error.mean.geometric_mean_mm, reliefs[0].error.mean.geometric_mean_mm);
+    EXPECT_LT(reliefs[1].error.mean.sixteen_rays.rmse, reliefs[0].error.mean.sixteen_rays.rmse);
+}
+
+/// What the bench bakes by itself is what the bake puts into a pack.
+TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
+    const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+    for (const ReliefOutline& outline : outlines) {
+        const BlockRelief packed = relief_of(pack_, outline).value();
+        const BlockRelief baked = blocks_of_pack(pack_, static_cast<int>(outline.texels));
+        ASSERT_EQ(baked.blocks.size(), packed.blocks.size());
+        EXPECT_EQ(baked.corner_codes, packed.corner_codes);
+        EXPECT_EQ(baked.covers, packed.covers);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
