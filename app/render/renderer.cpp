@@ -59,8 +59,9 @@ Result<void> Renderer::prepare(const RenderNeeds& needs) {
     if (Result<void> ready = casts_.prepare(all.casts, width_, height_); !ready) {
         return ready;
     }
-    if (all.samples > needs_.samples) {
-        Result<SampleGrid> grid = SampleGrid::create(width_, height_, all.samples);
+    if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
+        const PixelSize picture{width_, height_};
+        Result<SampleGrid> grid = SampleGrid::create(picture, all.outline.value_or(picture), all.samples);
         if (!grid) {
             return tl::unexpected<Error>(grid.error());
         }
@@ -141,8 +142,10 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
 void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                      DrawResult& result) {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
-    const bool smooth = sample_grid_ && samples > 1 && !plan.faces.empty() && repaint.prop;
-    const Raster raster = smooth ? sample_grid_->raster(plan.lit, samples) : Raster{};
+    const Raster raster = sample_grid_ && !plan.faces.empty() && repaint.prop
+                              ? sample_grid_->raster(plan.lit.bounds(), plan.prop_bounds, samples)
+                              : Raster{};
+    const bool smooth = raster.fragments != glm::ivec2(1);
     if (repaint.prop) {
         casts_.paint(plan, store_);
     }

@@ -27,8 +27,9 @@ namespace frustumscreen {
 /// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on llvmpipe
 /// that takes half the time of the driver's own multisampling.
 ///
-/// The live exhibit has room for this many: a pack may ask for no more.
-inline constexpr int default_samples = 8;
+/// The live exhibit has room for this many on each pixel of the prop. An artifact that asks for more gets them where it takes less of
+/// the picture than the prop; a picture that there is no room for takes half as many, until there is.
+inline constexpr int default_samples = 4;
 /// For the finest level, where the cost does not matter.
 inline constexpr int finest_samples = 16;
 

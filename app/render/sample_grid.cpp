@@ -32,15 +32,15 @@ glm::ivec2 SampleGrid::of(int samples) {
     }
 }
 
-Result<SampleGrid> SampleGrid::create(int width, int height, int most_samples) {
-    SampleGrid made;
-    made.width_ = width;
-    made.height_ = height;
-    made.room_ = of(most_samples);
-    if (made.room_.x == 0) {
+Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize& part, int most_samples) {
+    const glm::ivec2 grid = of(most_samples);
+    if (grid.x == 0) {
         return fail(ErrorKind::BadConfiguration,
                     fmt::format("render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", most_samples));
     }
+    SampleGrid made;
+    made.picture_ = {picture.width, picture.height};
+    made.room_ = grid * glm::ivec2(part.width, part.height);
     if (Result<void> ready = made.make_target(); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
@@ -49,37 +49,34 @@ Result<SampleGrid> SampleGrid::create(int width, int height, int most_samples) {
 }
 
 Result<void> SampleGrid::make_target() {
-    const glm::ivec2 size = room_ * glm::ivec2(width_, height_);
-    const int samples = room_.x * room_.y;
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largest_viewport_.x);
-    if (std::max(size.x, size.y) > most) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("render: {} x {} pixels of {} samples; this driver draws up to {} on each side: "
-                        "use fewer samples",
-                        width_, height_, samples, most));
+    if (std::max(room_.x, room_.y) > most) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("render: {} x {} samples; this driver draws up to {} on each side: "
+                                "use fewer samples",
+                                room_.x, room_.y, most));
     }
     framebuffer_ = GlFramebuffer::generate();
     colour_ = GlTexture::generate();
     depth_stencil_ = GlRenderbuffer::generate();
     glBindTexture(GL_TEXTURE_2D, colour_.get());
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, size.x, size.y);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, room_.x, room_.y);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindRenderbuffer(GL_RENDERBUFFER, depth_stencil_.get());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.x, size.y);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, room_.x, room_.y);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.get(), 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               depth_stencil_.get());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: the driver cannot hold {} x {} pixels of {} samples; use 1 sample",
-                                width_, height_, samples));
+                    fmt::format("render: the driver cannot hold {} x {} samples; use 1 sample a pixel",
+                                room_.x, room_.y));
     }
     return {};
 }
@@ -89,7 +86,8 @@ std::uint64_t SampleGrid::bytes() const {
 }
 
 void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
-    glUniform2f(shader.location(Uniform::Picture), static_cast<float>(width_), static_cast<float>(height_));
+    glUniform2f(shader.location(Uniform::Picture), static_cast<float>(picture_.x),
+                static_cast<float>(picture_.y));
     std::array<glm::vec4, LitTiles::most_rectangles> corners{};
     std::size_t count = 0;
     for (const PixelRectangle& r : tiles.rectangles()) {
@@ -101,24 +99,29 @@ void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
     glBindVertexArray(0);
 }
 
-Raster SampleGrid::raster(const LitTiles& tiles, int samples) const {
-    const PixelRectangle part = tiles.bounds();
-    const glm::ivec2 picture(width_, height_);
-    const auto fits = [&](const glm::ivec2& grid) {
-        return glm::all(glm::lessThanEqual(glm::ivec2(part.width, part.height) * grid, room_ * picture)) &&
-               glm::all(glm::lessThanEqual(picture * grid, largest_viewport_));
+Raster SampleGrid::raster(const PixelRectangle& lit, const PixelRectangle& around, int samples) const {
+    const auto fits = [&](const PixelRectangle& part, const glm::ivec2& grid) {
+        return glm::all(glm::lessThanEqual(glm::ivec2(part.width, part.height) * grid, room_)) &&
+               glm::all(glm::lessThanEqual(picture_ * grid, largest_viewport_));
     };
-    const int most = room_.x * room_.y;
-    while (samples > most && !fits(of(samples))) {
-        samples /= 2;
+    const bool inside = intersected(lit, around) == lit;
+    for (; samples > 1; samples /= 2) {
+        const glm::ivec2 upright = of(samples);
+        for (const glm::ivec2& grid : {upright, glm::ivec2(upright.y, upright.x)}) {
+            if (inside && fits(around, grid)) {
+                return {grid, {around.x, around.y}};
+            }
+            if (fits(lit, grid)) {
+                return {grid, {lit.x, lit.y}};
+            }
+        }
     }
-    // If there is room for all, the picture stays in its place: fragments elsewhere round differently.
-    return {of(samples), samples > most ? glm::ivec2(part.x, part.y) : glm::ivec2(0)};
+    return {};
 }
 
 void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    set_viewport({width_, height_}, raster);
+    set_viewport(picture_, raster);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);

@@ -20,15 +20,18 @@ namespace frustumscreen {
 
 class SampleGrid {
 public:
-    /// Has room for `most_samples` a pixel, 2, 4, 8 or 16, in the whole picture; a smaller part of it may
-    /// have more.
-    [[nodiscard]] static Result<SampleGrid> create(int width, int height, int most_samples);
+    /// Has room for `most_samples` a pixel, 2, 4, 8 or 16, in a part of the picture of that size; a smaller part may have more,
+    /// a larger one has fewer.
+    [[nodiscard]] static Result<SampleGrid> create(const PixelSize& picture, const PixelSize& part,
+                                                   int most_samples);
 
     /// Samples along a pixel's sides; zero for a number that has no grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
-    /// How the tiles lie in the larger picture, with `samples` a pixel or as many as there is room for.
-    [[nodiscard]] Raster raster(const LitTiles& tiles, int samples) const;
+    /// How what is lit lies in the larger picture, with `samples` a pixel or as many as there is room for; one, and then nothing is
+    /// to be drawn larger, if there is no room at all. `around`: what the place is taken from if there is room for all of it, since
+    /// fragments elsewhere round differently, and pictures of one pose shall not depend on what a level lights.
+    [[nodiscard]] Raster raster(const PixelRectangle& lit, const PixelRectangle& around, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
     void begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
     /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
@@ -42,8 +45,8 @@ private:
     [[nodiscard]] Result<void> make_target();
     void draw_tiles(const LitTiles& tiles, const Shader& shader) const;
 
-    int width_ = 0, height_ = 0; ///< of the picture
-    glm::ivec2 room_{1, 1};      ///< samples along a pixel's sides, if all of the picture is drawn
+    glm::ivec2 picture_{0, 0};
+    glm::ivec2 room_{0, 0}; ///< of the larger picture, in fragments
     glm::ivec2 largest_viewport_{0, 0};
     GlFramebuffer framebuffer_;
     GlTexture colour_;

@@ -3,6 +3,7 @@
 #include "app/geometry/collineation.h"
 #include "app/scene/face_view.h"
 #include "app/scene/plan_hash.h"
+#include "app/scene/prop_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -397,6 +398,8 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.front.forget();
     plan.cast_count = 0;
     plan.lit.begin(view.projector.width, view.projector.height);
+    plan.prop_bounds =
+        prop_bounds(prop, view.projector, view.table_from_projector.inverse() * view.table_from_prop);
     plan_table(shared, plan);
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
         plan_parts(parts, shared, plan);

@@ -151,6 +151,7 @@ struct FramePlan {
     std::vector<Draw> draws; ///< in the order of drawing: on the table, then part by part in the prop
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
     LitTiles lit;                       ///< hold every pixel that the draws in the prop can light
+    PixelRectangle prop_bounds;         ///< around the prop, whatever it shows
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
     std::uint64_t prop_hash = 0;        ///< the same of what stands in the prop alone
     FrontTriangles front;               ///< of the part and the eye planned for last; not drawn

@@ -209,9 +209,14 @@ std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture) {
 std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     constexpr std::uint64_t bytes_per_sample = 4 + 4; // colour; depth and stencil
     constexpr std::uint64_t bytes_per_texel = 4;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    return pixels * (bytes_per_texel * needs.casts +
-                     (needs.samples > 1 ? bytes_per_sample * static_cast<std::uint64_t>(needs.samples) : 0));
+    const auto area = [](const PixelSize& size) {
+        return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+    };
+    const PixelSize picture{width, height};
+    const std::uint64_t samples =
+        needs.samples > 1 ? static_cast<std::uint64_t>(needs.samples) * area(needs.outline.value_or(picture))
+                          : 0;
+    return bytes_per_texel * needs.casts * area(picture) + bytes_per_sample * samples;
 }
 
 std::uint64_t caption_gpu_bytes(int width, int height) {

@@ -1,6 +1,7 @@
 #include "app/scene/scene_plan.h"
 
 #include "app/pack/pack_file.h"
+#include "app/scene/prop_outline.h"
 #include "app/settings/command.h"
 #include "app/settings/guided.h"
 
@@ -180,7 +181,9 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
     }
     for (const Rung& rung : plan.rungs) {
         needs.samples = rung.relief ? needs.samples // it takes its samples where it is cast
-                                    : std::max({needs.samples, rung.samples, request.room});
+                        : request.live && request.room > 1
+                            ? std::max(needs.samples, request.room)
+                            : std::max({needs.samples, rung.samples, request.room});
     }
     needs.casts = std::min<std::size_t>(plan.reliefs.size(), 2); // a fade shows two
     if (!plain) {
@@ -332,6 +335,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
                                     request.table_pictures || tells_of_sticks(settings)),
                    plan);
     choose_faces(plan);
+    plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
     return plan;
 }
 

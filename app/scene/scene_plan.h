@@ -63,7 +63,9 @@ struct SceneRequest {
     bool live = true; ///< the governor may choose among levels; else a technique is one level
     bool light = true;
     int samples = 0; ///< a pixel; 0 = what the pack asks for
-    int room = 1;    ///< samples a pixel that the renderer has room for at least, for slanting views
+    /// Samples a pixel that the renderer has room for wherever the prop stands; a smaller part of the picture may take more. Pictures
+    /// from poses have room for all that the pack asks for, and so has a room of 1.
+    int room = 1;
     unsigned economies = AllEconomies;
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can come to see
     bool table_pictures = false;       ///< other artifacts lie on the table

@@ -56,6 +56,11 @@ ShaderKey places_of(ShaderKey key) {
 
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.casts, b.casts)};
+    if (a.samples <= 1 || b.samples <= 1) { // one sample needs no room
+        both.outline = a.samples > 1 ? a.outline : b.outline;
+    } else if (a.outline && b.outline) {
+        both.outline = united(*a.outline, *b.outline);
+    }
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
 }

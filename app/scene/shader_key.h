@@ -4,9 +4,12 @@
 /// Threads  values; any.
 #pragma once
 
+#include "firmware_host/base/pixel_rectangle.h"
+
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -40,9 +43,11 @@ struct ShaderKey {
 
 /// What a renderer must be able to do.
 struct RenderNeeds {
-    int samples = 1;           ///< a pixel, that there is room for in the whole picture
+    int samples = 1;           ///< a pixel, that there is room for wherever the prop may stand
     std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
     std::size_t casts = 0;     ///< pictures that one plan may cast into memory
+    /// The largest rectangle around the prop in the picture (prop_outline.h); none: all of the picture.
+    std::optional<PixelSize> outline = std::nullopt;
 };
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings

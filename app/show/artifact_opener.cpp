@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/prop_note.h"
+#include "app/scene/prop_outline.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -157,9 +158,10 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
     return all;
 }
 
-RenderNeeds needs_of_any_pack(int samples) {
+RenderNeeds needs_of_any_pack(const Settings& settings, int samples) {
     RenderNeeds needs;
     needs.samples = samples;
+    needs.outline = largest_outline(settings, settings.projector.pinhole, visibility_of(settings));
     for (const bool dithered : {false, true}) {
         ShaderKey key;
         key.dithered = dithered;

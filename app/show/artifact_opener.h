@@ -50,7 +50,7 @@ struct OpenedArtifacts {
                                                      std::span<const std::filesystem::path> packs,
                                                      const OpenerOptions& options);
 /// What any pack that may come later needs of a renderer with room for so many samples a pixel.
-[[nodiscard]] RenderNeeds needs_of_any_pack(int samples);
+[[nodiscard]] RenderNeeds needs_of_any_pack(const Settings& settings, int samples);
 
 /// How texts are set on the settings' table.
 [[nodiscard]] TextStyle text_style(const Settings& settings);

@@ -46,7 +46,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     show->set_ = std::move(*set);
     show->needs_ = show->set_->needs;
     if (options.other_sets) {
-        show->needs_ = united(show->needs_, needs_of_any_pack(options.samples));
+        show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples));
         show->may_speak_ = settings.sound.kind != SoundKind::None;
     }
     if (Result<void> ready = show->renderer_.prepare(show->needs_); !ready) {

@@ -33,7 +33,7 @@ namespace frustumscreen {
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
     std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
-    int samples = default_samples;  ///< a pixel, that there is room for
+    int samples = default_samples;  ///< a pixel, that there is room for wherever the prop stands
     unsigned economies = AllEconomies;
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
     std::string packs_key = {}; ///< where the settings name the packs, for messages; empty: nowhere

@@ -3,6 +3,7 @@
 #include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/exposure.h"
+#include "app/scene/prop_outline.h"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,7 @@ Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pac
     Result<ScenePlan> plan = plan_scene(*settings, pack, request);
     if (plan && options.width > 0 && options.height > 0) {
         plan->projector = plan->projector.scaled_to(options.width, options.height);
+        plan->needs.outline = largest_outline(*settings, plan->projector, request.visibility);
     }
     return plan;
 }

@@ -1,4 +1,4 @@
-/// A rectangle of pixels.
+/// Rectangles of pixels and their sizes.
 ///
 /// Units    whole pixels; x counts columns from the left, y rows from the picture's first.
 /// Threads  values; any.
@@ -7,6 +7,15 @@
 #include <algorithm>
 
 namespace frustumscreen {
+
+struct PixelSize {
+    int width = 0, height = 0;
+    [[nodiscard]] bool operator==(const PixelSize&) const = default;
+};
+/// As wide as the wider and as high as the higher.
+[[nodiscard]] inline PixelSize united(const PixelSize& a, const PixelSize& b) {
+    return {std::max(a.width, b.width), std::max(a.height, b.height)};
+}
 
 struct PixelRectangle {
     int x = 0, y = 0, width = 0, height = 0;

@@ -8,12 +8,6 @@
 
 namespace frustumscreen {
 
-struct PixelSize {
-    int width = 0;
-    int height = 0;
-    [[nodiscard]] bool operator==(const PixelSize&) const = default;
-};
-
 /// Both sizes at least 1 x 1.
 [[nodiscard]] inline PixelRectangle letterbox(PixelSize picture, PixelSize screen) {
     const auto scaled = [](int length, int numerator, int denominator) {

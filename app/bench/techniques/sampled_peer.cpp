@@ -8,7 +8,8 @@
 namespace frustumscreen {
 
 Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stage, int samples) {
-    Result<SampleGrid> grid = SampleGrid::create(stage.width(), stage.height(), samples);
+    const PixelSize picture{stage.width(), stage.height()};
+    Result<SampleGrid> grid = SampleGrid::create(picture, picture, samples);
     if (!grid) {
         return tl::unexpected<Error>(grid.error());
     }
@@ -18,13 +19,14 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stag
         !ready) {
         return tl::unexpected<Error>(ready.error());
     }
-    return std::shared_ptr<const PeerSamples>(new PeerSamples(samples, std::move(*grid), std::move(shaders)));
+    return std::shared_ptr<const PeerSamples>(
+        new PeerSamples(samples, picture, std::move(*grid), std::move(shaders)));
 }
 
 Raster PeerSamples::begin(const LitTiles& tiles, double density) const {
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    const Raster raster = grid_.raster(tiles, samples_at(density, count_));
+    const Raster raster = grid_.raster(tiles.bounds(), picture_, samples_at(density, count_));
     grid_.begin(tiles, raster, shaders_);
     return raster;
 }

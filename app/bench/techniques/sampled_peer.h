@@ -28,9 +28,11 @@ public:
     void average(const LitTiles& tiles, const Raster& raster) const;
 
 private:
-    PeerSamples(int count, SampleGrid grid, ShaderCache shaders)
-        : count_(count), grid_(std::move(grid)), shaders_(std::move(shaders)) {}
+    PeerSamples(int count, const PixelSize& picture, SampleGrid grid, ShaderCache shaders)
+        : count_(count), picture_{0, 0, picture.width, picture.height}, grid_(std::move(grid)),
+          shaders_(std::move(shaders)) {}
     int count_;
+    PixelRectangle picture_;
     SampleGrid grid_;
     ShaderCache shaders_;
 };

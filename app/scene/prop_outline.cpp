@@ -1,0 +1,55 @@
+#include "app/scene/prop_outline.h"
+
+#include "app/scene/face_view.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace frustumscreen {
+
+PixelRectangle prop_bounds(const PropShape& prop, const Pinhole& projector,
+                           const RigidTransform& projector_from_prop) {
+    std::array<glm::dvec4, 16> clip{};
+    const std::size_t count = std::min(prop.corners.size(), clip.size());
+    for (std::size_t k = 0; k < count; ++k) {
+        clip[k] = projector.clip_from_point() * glm::dvec4(projector_from_prop.point(prop.corners[k]), 1.0);
+    }
+    return pixels_around(std::span(clip).first(count), projector);
+}
+
+std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole& projector,
+                                         const Visibility& visibility) {
+    constexpr int places = 13; // along each side of the table; with its middle and its corners
+    constexpr int yaws = 32;   // over a quarter of a turn
+    constexpr int margin = 16;
+    const PropShape prop = make_prop(settings.prop);
+    const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
+    PixelSize largest;
+    const auto add = [&](const RigidTransform& table_from_prop) {
+        const PixelRectangle part = prop_bounds(prop, projector, projector_from_table * table_from_prop);
+        largest = united(largest, {part.width, part.height});
+    };
+    if (!visibility.views.empty()) {
+        for (const KnownView& view : visibility.views) {
+            add(view.table_from_prop);
+        }
+    } else if (settings.prop.zone == PropZone::Hand) {
+        return std::nullopt;
+    } else {
+        for (int place = 0; place < places * places; ++place) {
+            const glm::dvec2 share = glm::dvec2(place % places, place / places) / (places - 1.0) - 0.5;
+            const glm::dvec3 at(share.x * settings.table.width_m, share.y * settings.table.depth_m, 0.0);
+            for (int yaw = 0; yaw < yaws; ++yaw) {
+                const double angle = yaw * std::numbers::pi / (2.0 * yaws);
+                add({glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0)), at});
+            }
+        }
+    }
+    return PixelSize{std::min(largest.width + margin, projector.width),
+                     std::min(largest.height + margin, projector.height)};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,53 @@
+// Several samples a pixel in a larger picture that has room for a part of the projector's alone.
+
+#include "app/render/sample_grid.h"
+#include "tests/render/comparison.h"
+#include "tests/render/rig.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
+    const auto display = SurfacelessDisplay::create(64, 64).value();
+    const SampleGrid grid = SampleGrid::create({1000, 800}, {300, 200}, 4).value(); // 600 x 400 fragments
+    const PixelRectangle prop{500, 300, 280, 190};
+    const auto raster = [&](const PixelRectangle& lit, const PixelRectangle& around, int samples) {
+        return grid.raster(lit, around, samples);
+    };
+    const Raster usual = raster({550, 350, 100, 90}, prop, 4);
+    EXPECT_EQ(usual.fragments, glm::ivec2(2, 2));
+    EXPECT_EQ(usual.corner, glm::ivec2(500, 300)) << "that of the prop, whatever is lit";
+    const Raster many = raster({550, 350, 100, 90}, prop, 8);
+    EXPECT_EQ(many.fragments, glm::ivec2(2, 4));
+    EXPECT_EQ(many.corner, glm::ivec2(550, 350)) << "all of the prop has no room with eight";
+    EXPECT_EQ(raster({550, 310, 100, 180}, prop, 8).fragments, glm::ivec2(4, 2)) << "too high for 2 x 4";
+    EXPECT_EQ(raster({550, 310, 200, 180}, prop, 8).fragments, glm::ivec2(2, 2)) << "too large for eight";
+    const PixelRectangle lifted{100, 100, 500, 390};
+    EXPECT_EQ(raster(lifted, lifted, 4).fragments, glm::ivec2(1, 1)) << "no room for two";
+    EXPECT_EQ(raster({100, 100, 500, 190}, lifted, 4).fragments, glm::ivec2(1, 2));
+    EXPECT_EQ(raster({550, 350, 100, 90}, prop, 1).fragments, glm::ivec2(1, 1));
+    EXPECT_EQ(grid.bytes(), 8U * 600U * 400U);
+}
+
+/// A prop that was lifted, say: what is drawn has fewer samples, and all of it is there.
+TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
+    Stage stage(256, 160);
+    const auto picture = [&](int samples, std::optional<PixelSize> outline) {
+        Rig rig(256, 160);
+        RenderNeeds all = needs(4);
+        all.outline = outline;
+        EXPECT_TRUE(rig.renderer->prepare(all));
+        rig.level.samples = samples;
+        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        EXPECT_EQ(rig.plan.samples, samples);
+        rig.draw(Redraw::Everything);
+        return rig.picture();
+    };
+    const Image8 four = picture(4, std::nullopt);
+    EXPECT_GT(lit_pixels(four), 900U);
+    EXPECT_EQ(picture(4, PixelSize{8, 8}).texels, picture(1, std::nullopt).texels);
+    EXPECT_EQ(picture(4, PixelSize{200, 150}).texels, four.texels);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
