@@ -16,6 +16,7 @@ class Anew(HilTest):
     """Tests that start the machine; what was on its disk stays."""
 
     def start_anew(self):
+        self.bench.machine.check("sync")  # a reset loses what is not on the disk yet, such as the settings of this class
         self.bench.machine.may_start_anew()
         self.bench.machine.monitor("system_reset")
         self.assertTrue(self.bench.machine.resets_within(SYSTEM_BACK_S), "the machine does not start anew")
