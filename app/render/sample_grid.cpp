@@ -142,7 +142,9 @@ void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const Shader
 }
 
 void SampleGrid::average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
-    const Shader* const average = shaders.find({ShaderKey::Pass::TileAverage});
+    const bool many = raster.fragments.x * raster.fragments.y > 4;
+    const Shader* const average =
+        shaders.find({many ? ShaderKey::Pass::TileAverageMany : ShaderKey::Pass::TileAverage});
     if (average == nullptr) {
         return;
     }

@@ -154,24 +154,28 @@ constexpr std::string_view black_fragment = R"(
 out vec4 result;
 void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
 )";
-// A bilinear fetch where four texels meet is their average; the sampler decodes sRGB before it. A pixel of
-// more than 2 x 2 samples takes one fetch for each 2 x 2.
+// A bilinear fetch where texels meet is their average; the sampler decodes sRGB before it. A pixel of more than 2 x 2 samples takes
+// one for each 2 x 2: a program of its own, since a software GPU spends more on a loop of one turn than on the fetch in it.
 constexpr std::string_view average_fragment = R"(
 uniform sampler2D image;
 uniform ivec4 raster; // samples along a pixel's sides, the pixel at the larger picture's corner
 out vec4 result;
 void main() {
     vec2 texel = 1.0 / vec2(textureSize(image, 0));
-    ivec2 fetches = max(raster.xy / 2, ivec2(1));
     vec2 middle = (gl_FragCoord.xy - vec2(raster.zw)) * vec2(raster.xy) * texel;
+#ifdef MANY
+    ivec2 fetches = raster.xy / 2;
     vec2 first = middle - vec2(fetches - 1) * texel;
     vec4 sum = vec4(0.0);
     for (int y = 0; y < fetches.y; ++y) {
         for (int x = 0; x < fetches.x; ++x) {
-            sum += textureLod(image, first + 2.0 * vec2(x, y) * texel, 0.0);
+            sum += texture(image, first + 2.0 * vec2(x, y) * texel);
         }
     }
     result = sum / float(fetches.x * fetches.y);
+#else
+    result = texture(image, middle);
+#endif
 }
 )";
 
@@ -208,6 +212,8 @@ ShaderSource source_of(const ShaderKey& key) {
         return {most_rectangles, tiles_vertex, black_fragment};
     case ShaderKey::Pass::TileAverage:
         return {most_rectangles, tiles_vertex, average_fragment};
+    case ShaderKey::Pass::TileAverageMany:
+        return {most_rectangles + "#define MANY\n", tiles_vertex, average_fragment};
     }
     return {};
 }

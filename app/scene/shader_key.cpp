@@ -38,6 +38,8 @@ std::string name_of(const ShaderKey& key) {
         return "clearing of tiles";
     case ShaderKey::Pass::TileAverage:
         return "averaging of samples";
+    case ShaderKey::Pass::TileAverageMany:
+        return "averaging of many samples";
     }
     return {};
 }
@@ -71,6 +73,7 @@ std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
     if (needs.samples > 1) {
         shaders.insert({ShaderKey::Pass::TileClear});
         shaders.insert({ShaderKey::Pass::TileAverage});
+        shaders.insert({ShaderKey::Pass::TileAverageMany}); // slanting views take more samples
     }
     return shaders;
 }

@@ -17,13 +17,14 @@ namespace frustumscreen {
 
 struct ShaderKey {
     enum class Pass : std::uint8_t {
-        Outline,      ///< marks a face of the prop
-        Surface,      ///< draws a mesh
-        Cast,         ///< shows what was cast into memory, on a face of the prop
-        EdgeFeather,  ///< dims a strip of a face
-        TablePicture, ///< draws a flat picture beside the prop
-        TileClear,    ///< blackens tiles of the larger picture that several samples a pixel need
-        TileAverage,  ///< averages these samples
+        Outline,         ///< marks a face of the prop
+        Surface,         ///< draws a mesh
+        Cast,            ///< shows what was cast into memory, on a face of the prop
+        EdgeFeather,     ///< dims a strip of a face
+        TablePicture,    ///< draws a flat picture beside the prop
+        TileClear,       ///< blackens tiles of the larger picture that several samples a pixel need
+        TileAverage,     ///< averages these samples, up to 2 x 2 a pixel
+        TileAverageMany, ///< the same of more
     };
     Pass pass = Pass::Surface;
     // Of surfaces alone, the last two of casts too:

@@ -176,7 +176,7 @@ TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
         EXPECT_EQ(full.rungs[k].level, lean.rungs[k].level);
         EXPECT_EQ(full.rungs[k].samples, lean.rungs[k].samples);
     }
-    EXPECT_EQ(shaders_of(full.needs).size(), 9U);
+    EXPECT_EQ(shaders_of(full.needs).size(), 10U);
     EXPECT_EQ(full.faces, 31U);
     EXPECT_EQ(full.captions.size(), 2U);
 }
@@ -217,9 +217,12 @@ TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
     ShaderKey fading;
     fading.dithered = true;
     const auto shaders = [&] { return shaders_of(plan_scene(settings, outline(), asked).value().needs); };
-    EXPECT_EQ(shaders(),
-              (std::set<ShaderKey>{
-                  {Pass::Outline}, even, {Pass::EdgeFeather}, {Pass::TileClear}, {Pass::TileAverage}}));
+    EXPECT_EQ(shaders(), (std::set<ShaderKey>{{Pass::Outline},
+                                              even,
+                                              {Pass::EdgeFeather},
+                                              {Pass::TileClear},
+                                              {Pass::TileAverage},
+                                              {Pass::TileAverageMany}}));
     asked.light = false;
     asked.samples = 1;
     EXPECT_EQ(shaders(), (std::set<ShaderKey>{{Pass::Outline}, {Pass::Surface}}));
@@ -241,11 +244,12 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
             keys.insert(key);
         }
     }
-    for (const ShaderKey::Pass pass : {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture,
-                                       ShaderKey::Pass::TileClear, ShaderKey::Pass::TileAverage}) {
+    for (const ShaderKey::Pass pass :
+         {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture, ShaderKey::Pass::TileClear,
+          ShaderKey::Pass::TileAverage, ShaderKey::Pass::TileAverageMany}) {
         keys.insert({pass});
     }
-    EXPECT_EQ(keys.size(), 20U); // places are the same in any light
+    EXPECT_EQ(keys.size(), 21U); // places are the same in any light
     std::set<std::string> names;
     std::set<std::uint32_t> numbers;
     for (const ShaderKey& key : keys) {

@@ -14,8 +14,9 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stag
         return tl::unexpected<Error>(grid.error());
     }
     ShaderCache shaders;
-    if (const Result<void> ready =
-            shaders.prepare({{ShaderKey::Pass::TileClear}, {ShaderKey::Pass::TileAverage}});
+    if (const Result<void> ready = shaders.prepare({{ShaderKey::Pass::TileClear},
+                                                    {ShaderKey::Pass::TileAverage},
+                                                    {ShaderKey::Pass::TileAverageMany}});
         !ready) {
         return tl::unexpected<Error>(ready.error());
     }
