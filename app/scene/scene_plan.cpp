@@ -118,6 +118,7 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
         plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief);
     }
     choose_what_is_read(reliefs, plan);
+    plan.exposure_level = plan.levels.empty() ? pack.description.default_level : plan.levels.front();
     leave_out_levels(pack, request, tolerance_mm, governed, plan);
 }
 

@@ -76,8 +76,11 @@ struct ScenePlan {
     std::vector<Rung> rungs;            ///< the ways in which the artifact may be drawn, best first
     std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `rungs` first
     std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `rungs`
-    std::vector<std::size_t> captions;  ///< of the pack
-    std::uint32_t faces = 0;            ///< of the prop, bits: those that may show
+    /// Of the pack, for exposure_of: the first of `levels`; where reliefs alone are drawn, the pack's default one, read for it and not
+    /// uploaded, so that meshes and reliefs of one artifact are equally bright.
+    std::uint32_t exposure_level = 0;
+    std::vector<std::size_t> captions; ///< of the pack
+    std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
     /// As if all textures were opaque: an outline does not say which leave texels out.
     RenderNeeds needs;
     unsigned economies = AllEconomies;

@@ -3,7 +3,6 @@
 #include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/exposure.h"
-#include "app/scene/prop_outline.h"
 
 #include <fmt/format.h>
 
@@ -19,9 +18,17 @@ int samples_of(const OfflineOptions& options, const PackDescription& pack) {
     return options.samples > 0 ? options.samples : usual;
 }
 
+std::vector<std::uint32_t> levels_to_read(const ScenePlan& plan) {
+    return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
+}
+
 /// What is needed of a pack for the options.
 Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pack) {
-    const auto& [settings, options] = setup;
+    const auto& [checked, options] = setup;
+    Settings settings = *checked;
+    if (options.width > 0 && options.height > 0) {
+        settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);
+    }
     SceneRequest request;
     request.technique = options.technique;
     request.live = false;
@@ -30,14 +37,9 @@ Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pac
     request.room = default_samples;
     request.economies = options.economies;
     if (!options.views.empty()) {
-        request.visibility = visibility_of(*settings, options.views);
+        request.visibility = visibility_of(settings, options.views);
     }
-    Result<ScenePlan> plan = plan_scene(*settings, pack, request);
-    if (plan && options.width > 0 && options.height > 0) {
-        plan->projector = plan->projector.scaled_to(options.width, options.height);
-        plan->needs.outline = largest_outline(*settings, plan->projector, request.visibility);
-    }
-    return plan;
+    return plan_scene(settings, pack, request);
 }
 
 } // namespace
@@ -58,7 +60,7 @@ Result<OfflineScene> load_offline(const std::filesystem::path& file,
             }
             setup = *std::move(made);
             plan = *std::move(planned);
-            return plan.levels;
+            return levels_to_read(plan);
         });
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
@@ -90,6 +92,9 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
     }
     made->display_ = std::move(*display);
     made->technique_ = name_of(plan.rungs.front());
+    const PackLevel& brightness = pack->levels[plan.exposure_level];
+    made->exposure_ =
+        exposure_of(brightness, pack->box_size, pack->textures[brightness.texture], plan.highlight_code);
     if (Result<void> taken = scene.relief ? made->take_relief(scene) : made->take_level(scene); !taken) {
         return tl::unexpected<Error>(taken.error());
     }
@@ -120,7 +125,6 @@ Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
     if (!drawable) {
         return tl::unexpected<Error>(drawable.error());
     }
-    exposure_ = exposure_of(level.mesh, pack->box_size, texture, plan.highlight_code);
     seen_ = plan.seen[number];
     placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
                plan.metres_per_box, *drawable};
@@ -134,7 +138,6 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
         return tl::unexpected<Error>(renderer.error());
     }
     renderer_ = std::move(*renderer);
-    exposure_ = exposure_of(*relief, plan.highlight_code);
     seen_ = derived(plan.reliefs.front().error, pack->box_size);
     placed_ = placed(*pack, relief, plan.metres_per_box, renderer_->store().keep(relief));
     return {};

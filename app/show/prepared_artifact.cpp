@@ -28,6 +28,19 @@ std::uint32_t coarsest_of(const ScenePlan& plan) {
     return plan.levels.empty() ? 0 : *std::min_element(plan.levels.begin(), plan.levels.end());
 }
 
+/// Where reliefs alone are drawn: what is read for the exposure and for what hides hotspots, and is not drawn.
+std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
+    const ScenePlan& plan = known.plan;
+    if (!plan.levels.empty()) {
+        return {};
+    }
+    std::vector<std::uint32_t> levels{plan.exposure_level};
+    if (!known.outline.description.hotspots.empty() && coarsest_of(plan) != plan.exposure_level) {
+        levels.push_back(coarsest_of(plan));
+    }
+    return levels;
+}
+
 } // namespace
 
 Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
@@ -36,23 +49,35 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     std::vector<PreparedLevel> levels;
     double exposure = 1.0;
     ArtifactTriangles triangles;
-    for (const std::uint32_t number : plan.levels) {
-        if (given_up()) {
-            return bad_input("not wanted any more");
-        }
-        const Result<VerifiedPack> pack = read_level(known, number);
-        if (!pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
-        if (number == plan.levels.front()) {
+    const auto read = [&](std::uint32_t number) {
+        Result<VerifiedPack> pack = read_level(known, number);
+        if (pack && number == plan.exposure_level) {
             const PackLevel& level = (*pack)->levels[number];
             exposure =
                 exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
         }
-        if (number == coarsest_of(plan) && !(*pack)->hotspots.empty()) {
+        if (pack && number == coarsest_of(plan) && !(*pack)->hotspots.empty()) {
             triangles = hiding_triangles((*pack)->levels[number], (*pack)->box_size, plan.metres_per_box);
         }
+        return pack;
+    };
+    for (const std::uint32_t number : plan.levels) {
+        if (given_up()) {
+            return bad_input("not wanted any more");
+        }
+        const Result<VerifiedPack> pack = read(number);
+        if (!pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
         levels.push_back(prepare_level(**pack, number, plan));
+    }
+    for (const std::uint32_t number : read_beside(known)) {
+        if (given_up()) {
+            return bad_input("not wanted any more");
+        }
+        if (const Result<VerifiedPack> pack = read(number); !pack) {
+            return tl::unexpected<Error>(pack.error());
+        }
     }
     for (const ReliefOutline& outline : plan.reliefs) {
         if (given_up()) {
@@ -62,18 +87,7 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (!relief) {
             return tl::unexpected<Error>(relief.error());
         }
-        if (levels.empty()) {
-            exposure = exposure_of(*relief, plan.highlight_code);
-        }
         levels.push_back(prepare_relief(known.outline.description, outline, *std::move(relief), plan));
-    }
-    if (plan.levels.empty() && !known.outline.description.hotspots.empty()) {
-        const Result<VerifiedPack> pack = read_level(known, coarsest_of(plan));
-        if (!pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
-        triangles =
-            hiding_triangles((*pack)->levels[coarsest_of(plan)], (*pack)->box_size, plan.metres_per_box);
     }
     PreparedArtifact made{
         RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};

@@ -74,11 +74,13 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
                                                   {*relief_of(pack, 192), {5e-4F, 1e-3F, 2e-3F, 0.0F}}});
     ASSERT_TRUE(write_file(folder / "rings.fspack", write_pack(pack).value()));
     const std::string small = "--width 320 --height 200 ";
-    ASSERT_EQ(run(usual("relief") + small + "--technique relief --aov"), 0) << text("err.txt");
-    ASSERT_EQ(run(usual("coarse") + small + "--technique relief96"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("relief") + small + "--technique relief192 --aov"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("coarse") + small + "--technique relief"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("large") + "--technique relief"), 0) << text("err.txt");
     ASSERT_EQ(run(usual("mesh") + small + "--technique level0"), 0) << text("err.txt");
     EXPECT_NE(text("relief/frames.csv").find(",relief192,"), std::string::npos) << text("relief/frames.csv");
-    EXPECT_NE(text("coarse/frames.csv").find(",relief96,"), std::string::npos) << text("coarse/frames.csv");
+    EXPECT_NE(text("coarse/frames.csv").find(",relief96,"), std::string::npos) << "a pixel is a texel";
+    EXPECT_NE(text("large/frames.csv").find(",relief192,"), std::string::npos) << "of the 1280 in near.toml";
     EXPECT_TRUE(fs::exists(folder / "relief/frame_00001.pfm"));
     const Image8 relief = picture("relief/frame_00000.png");
     const Image8 mesh = picture("mesh/frame_00000.png");

@@ -108,6 +108,7 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         asked.technique = technique;
         const ScenePlan plan = plan_scene(settings, pack, asked).value();
         EXPECT_TRUE(plan.levels.empty());
+        EXPECT_EQ(plan.exposure_level, pack.description.default_level);
         ASSERT_EQ(plan.reliefs.size(), 1U);
         EXPECT_EQ(plan.reliefs.front().texels, texels);
         EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}", texels));

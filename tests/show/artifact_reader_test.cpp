@@ -1,10 +1,13 @@
 // The reader's thread, with work that the test makes up.
 
+#include "app/pack/pack_relief.h"
 #include "app/show/artifact_reader.h"
+#include "tests/render/ring_relief.h"
 #include "tests/show/shown_packs.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -121,6 +124,28 @@ TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
             EXPECT_EQ(data.mips[mip].texels, level.data.mips[mip].texels);
         }
     }
+}
+
+/// The relief's own colours are a dark artifact's here, so an exposure of its own would be a much brighter one.
+TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
+    const synthetic::ShownPacks packs(1);
+    KnownArtifact known = packs.known(0);
+    Pack pack = synthetic::numbered_pack(0);
+    std::shared_ptr<BlockRelief> relief = std::make_shared<BlockRelief>(*synthetic::relief_of(pack, 96));
+    std::fill(relief->colours.begin(), relief->colours.end(), glm::u8vec4(60, 60, 60, 255));
+    put_reliefs(pack, std::vector<MeasuredRelief>{{*relief, {1e-3F, 2e-3F, 3e-3F, 0.0F}}});
+    ASSERT_TRUE(write_file(known.file, write_pack(pack).value()));
+    known.outline = outline_of(pack);
+    const auto exposure = [&](const std::string& technique) {
+        SceneRequest request;
+        request.technique = technique;
+        known.plan = plan_scene(steep_table(), known.outline, request).value();
+        return prepare_artifact(known, technique, 16.0, [] { return false; }).value().exposure;
+    };
+    const double of_mesh = exposure(fmt::format("level{}", pack.default_level));
+    EXPECT_GT(of_mesh, 0.0);
+    EXPECT_EQ(exposure("relief"), of_mesh);
+    EXPECT_EQ(exposure("relief96"), of_mesh);
 }
 
 } // namespace
