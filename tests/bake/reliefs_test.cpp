@@ -27,10 +27,6 @@ Pack sphere_pack(int size) {
     return bake(mesh, options).value();
 }
 
-BlockRelief relief_of(const Pack& pack, const ReliefOutline& outline) {
-    return pack_format::decode_blocks(pack.section_parts.at(outline.part)).value();
-}
-
 TEST(Reliefs, AreOf96TexelsAndTwiceAsManyUpToTheBakesSize) {
     EXPECT_EQ(relief_texels(512), (std::vector<int>{96, 192, 384}));
     EXPECT_EQ(relief_texels(1024), (std::vector<int>{96, 192, 384, 768}));
@@ -43,7 +39,7 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
     const std::vector<ReliefOutline> reliefs = reliefs_of(pack).value();
     ASSERT_EQ(reliefs.size(), 2U);
     for (const ReliefOutline& outline : reliefs) {
-        const BlockRelief relief = relief_of(pack, outline);
+        const BlockRelief relief = relief_of(pack, outline).value();
         EXPECT_EQ(relief.grids.size(), 5U) << "a frustum's";
         double worst = 0.0;
         for (const glm::vec3& point : surface_of(relief).positions) {
