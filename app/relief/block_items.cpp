@@ -44,7 +44,7 @@ struct Facing {
     float aside = 0.0F; ///< of the ray, across the grid
 };
 
-Facing facing_of(const ReliefBlock& block, const glm::vec3& eye) {
+FRUSTUMSCREEN_INLINE Facing facing_of(const ReliefBlock& block, const glm::vec3& eye) {
     constexpr float half = 0.5F * block_cells;
     const float du = block.u0 + half - eye.x;
     const float dv = block.v0 + half - eye.y;
@@ -67,7 +67,7 @@ struct Path {
 };
 
 /// Newton's step contracts by about falls / rises - 1 times what is left; so many steps leave some hundredths of a texel.
-Path path_of(const ReliefBlock& block, const Facing& facing) {
+FRUSTUMSCREEN_INLINE Path path_of(const ReliefBlock& block, const Facing& facing) {
     if (!(facing.rises < 0.0F)) {
         return {};
     }
@@ -93,7 +93,7 @@ struct Bounds {
 };
 
 /// Of the eight corners of the block's slab, in pixels.
-Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face) {
+FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face) {
     const float i0 = block.cells[0];
     const float i1 = block.cells[1];
     const float j0 = block.cells[2];
@@ -130,7 +130,7 @@ Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace&
 
 enum class Place { Outside, Across, Inside };
 
-Place place_of(const Bounds& bounds, const CastFace& face) {
+FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) {
     if (!bounds.in_front) {
         return bounds.outside ? Place::Outside : Place::Across;
     }
@@ -152,7 +152,7 @@ Place place_of(const Bounds& bounds, const CastFace& face) {
 }
 
 /// The tiles that hold some of the pixels [left, right) x [top, bottom).
-TileRectangle tiles_of(int left, int right, int top, int bottom) {
+FRUSTUMSCREEN_INLINE TileRectangle tiles_of(int left, int right, int top, int bottom) {
     if (left >= right || top >= bottom) {
         return {};
     }
@@ -163,7 +163,7 @@ TileRectangle tiles_of(int left, int right, int top, int bottom) {
 }
 
 /// False: none of the face's pixels.
-bool set_tiles(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
+FRUSTUMSCREEN_INLINE bool set_tiles(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
     const int right = lit.x + lit.width;
     const int bottom = lit.y + lit.height;
     if (!bounds.in_front) {
@@ -197,7 +197,7 @@ Range range_of(const CastView& view, double texel_box) {
             static_cast<float>(bins * texel_box / (middle + radius_box - near))};
 }
 
-std::uint8_t bin_of(const ReliefBlock& block, const glm::vec3& eye, const Range& range) {
+FRUSTUMSCREEN_INLINE std::uint8_t bin_of(const ReliefBlock& block, const glm::vec3& eye, const Range& range) {
     constexpr float half = 0.5F * block_cells;
     const glm::vec3 middle(block.u0 + half, block.v0 + half, block.w0 + half * (block.w_u + block.w_v));
     const float bin = (glm::distance(middle, eye) - range.near) * range.bins_per_texel;
@@ -205,8 +205,8 @@ std::uint8_t bin_of(const ReliefBlock& block, const glm::vec3& eye, const Range&
 }
 
 /// Of one block, in the pixels of every face that may show it.
-void list_block(std::vector<BlockItem>& list, const BlockItems& items, const CastView& view,
-                const ReliefBlock& block, BlockItem item) {
+FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockItems& items,
+                                     const CastView& view, const ReliefBlock& block, BlockItem item) {
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
         const Bounds bounds = bounds_of(block, items.grids[f][item.direction], view.faces[f]);
         const Place place = place_of(bounds, view.faces[f]);
@@ -223,20 +223,8 @@ void list_block(std::vector<BlockItem>& list, const BlockItems& items, const Cas
 
 constexpr std::size_t blocks_of_part = 1024;
 
-} // namespace
-
-void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
-    items.grids.resize(view.faces.size());
-    for (std::size_t f = 0; f < view.faces.size(); ++f) {
-        for (std::size_t d = 0; d < relief.grids.size(); ++d) {
-            items.grids[f][d] = grid_view(relief.grids[d], static_cast<double>(relief.texel_box),
-                                          view.faces[f], view.eye_box);
-        }
-    }
-    items.parts.resize((relief.blocks.size() + blocks_of_part - 1) / blocks_of_part);
-}
-
-void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part) {
+FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, const CastView& view,
+                               std::size_t part) {
     std::vector<BlockItem>& list = items.parts[part];
     list.clear();
     if (view.faces.empty()) {
@@ -267,6 +255,41 @@ void list_part(BlockItems& items, const BlockRelief& relief, const CastView& vie
     }
 }
 
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void list_with_avx2(BlockItems& items, const BlockRelief& relief,
+                                            const CastView& view, std::size_t part) {
+    list(items, relief, view, part);
+}
+#endif
+
+void list_plainly(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part) {
+    list(items, relief, view, part);
+}
+
+} // namespace
+
+void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
+    items.grids.resize(view.faces.size());
+    for (std::size_t f = 0; f < view.faces.size(); ++f) {
+        for (std::size_t d = 0; d < relief.grids.size(); ++d) {
+            items.grids[f][d] = grid_view(relief.grids[d], static_cast<double>(relief.texel_box),
+                                          view.faces[f], view.eye_box);
+        }
+    }
+    items.parts.resize((relief.blocks.size() + blocks_of_part - 1) / blocks_of_part);
+}
+
+void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
+               Instructions instructions) {
+#if defined(__x86_64__)
+    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
+        list_with_avx2(items, relief, view, part);
+        return;
+    }
+#endif
+    list_plainly(items, relief, view, part);
+}
+
 /// By bins; in a bin as the blocks are.
 void end_list(BlockItems& items) {
     std::array<std::uint32_t, bins + 1> first{};
@@ -286,10 +309,11 @@ void end_list(BlockItems& items) {
     }
 }
 
-void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view) {
+void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
+                 Instructions instructions) {
     begin_list(items, relief, view);
     for (std::size_t part = 0; part < items.parts.size(); ++part) {
-        list_part(items, relief, view, part);
+        list_part(items, relief, view, part, instructions);
     }
     end_list(items);
 }

@@ -4,6 +4,7 @@
 /// Tiles    4 x 2 pixels; a picture has ceil(width / 4) x ceil(height / 2) of them.
 /// Frames   a direction's grid (block_relief.h), texels; pixels as in cast_view.h. 64-bit to the matrices, 32-bit from there on.
 /// Threads  pure; any.
+/// SIMD     as cast_blocks.h; the lists are equal.
 #pragma once
 
 #include "app/relief/block_relief.h"
@@ -36,6 +37,7 @@ enum class Search : std::uint8_t {
 /// Columns and rows of tiles, the last ones excluded.
 struct TileRectangle {
     std::uint16_t first_column = 0, end_column = 0, first_row = 0, end_row = 0;
+    [[nodiscard]] bool operator==(const TileRectangle&) const = default;
 };
 
 struct BlockItem {
@@ -49,6 +51,7 @@ struct BlockItem {
     std::uint8_t bin = 0;
     float reach = 0.0F; ///< cells by which a ray may stray in the block between its plane and its surface
     float early = 0.0F; ///< share of the way to its plane by which a ray may meet its surface before
+    [[nodiscard]] bool operator==(const BlockItem&) const = default;
 };
 
 /// Lists are kept from frame to frame: nothing is allocated once they are large enough.
@@ -58,12 +61,17 @@ struct BlockItems {
     std::vector<BlockItem> sorted;              ///< front to back, roughly
 };
 
+/// The widest that the processor has, or what any of our processors has.
+enum class Instructions : std::uint8_t { Best, Plain };
+
 /// A list in three steps, of which the middle one may be made for several parts at once: as many as `begin_list` leaves.
 void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view);
-void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part);
+void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
+               Instructions instructions = Instructions::Best);
 void end_list(BlockItems& items);
 
 /// All three: of `relief` as `view` shows it.
-void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view);
+void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
+                 Instructions instructions = Instructions::Best);
 
 } // namespace frustumscreen

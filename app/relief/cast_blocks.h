@@ -31,9 +31,6 @@ struct CastPicture {
     }
 };
 
-/// The widest that the processor has, or what any of our processors has.
-enum class Instructions { Best, Plain };
-
 /// Rows of tiles [first, end).
 struct TileBand {
     int first = 0, end = 0;

@@ -189,6 +189,9 @@ TEST(Cast, EveryInstructionSetMakesTheSamePicture) {
     for (const BenchPose& pose : poses) {
         Frame frame;
         draw(frame, subject, relief, settings, prop, pose);
+        BlockItems plain_items;
+        list_blocks(plain_items, relief, frame.view, Instructions::Plain);
+        EXPECT_EQ(frame.items.sorted, plain_items.sorted);
         CastPicture plain;
         plain.resize(settings.projector.pinhole.width, settings.projector.pinhole.height);
         cast(plain, relief, frame.view, frame.items, {0, plain.rows}, Instructions::Plain);
