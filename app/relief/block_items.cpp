@@ -221,6 +221,35 @@ FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockIt
     }
 }
 
+/// Bands of tile rows that the item's area meets: first, one past the last.
+std::array<std::size_t, 2> bands_of(const BlockItem& item) {
+    return {item.area.first_row / std::size_t{rows_of_band},
+            (item.area.end_row + std::size_t{rows_of_band} - 1) / rows_of_band};
+}
+
+void sort_into_bands(BlockItems& items) {
+    std::vector<std::uint32_t>& first = items.first_of_band;
+    first.assign(2, 0);
+    for (const BlockItem& item : items.sorted) {
+        const auto [begin, end] = bands_of(item);
+        first.resize(std::max(first.size(), end + 2));
+        for (std::size_t band = begin; band < end; ++band) {
+            ++first[band + 2];
+        }
+    }
+    for (std::size_t k = 2; k < first.size(); ++k) {
+        first[k] += first[k - 1];
+    }
+    items.banded.resize(first.back());
+    for (std::size_t k = 0; k < items.sorted.size(); ++k) {
+        const auto [begin, end] = bands_of(items.sorted[k]);
+        for (std::size_t band = begin; band < end; ++band) {
+            items.banded[first[band + 1]++] = static_cast<std::uint32_t>(k);
+        }
+    }
+    first.pop_back();
+}
+
 constexpr std::size_t blocks_of_part = 1024;
 
 FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, const CastView& view,
@@ -307,6 +336,7 @@ void end_list(BlockItems& items) {
             items.sorted[first[item.bin]++] = item;
         }
     }
+    sort_into_bands(items);
 }
 
 void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,

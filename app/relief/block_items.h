@@ -18,6 +18,7 @@ namespace frustumscreen {
 
 inline constexpr int tile_width = 4;
 inline constexpr int tile_height = 2;
+inline constexpr int rows_of_band = 8; ///< of tiles: small enough that threads end together
 
 /// A face's rays and pixels in one direction's grid.
 struct GridView {
@@ -59,6 +60,9 @@ struct BlockItems {
     std::vector<std::array<GridView, 6>> grids; ///< [face][direction]
     std::vector<std::vector<BlockItem>> parts;  ///< of some thousand blocks each
     std::vector<BlockItem> sorted;              ///< front to back, roughly
+    std::vector<std::uint32_t>
+        banded; ///< of `sorted`: those whose area meets band 0, in their order, band 1, ...
+    std::vector<std::uint32_t> first_of_band; ///< in `banded`; one more at the end
 };
 
 /// The widest that the processor has, or what any of our processors has.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <span>
 
 namespace frustumscreen {
 
@@ -150,12 +151,12 @@ FRUSTUMSCREEN_INLINE void cast_item(CastPicture& picture, const ReadyItem& ready
     }
 }
 
-FRUSTUMSCREEN_INLINE void cast_item(CastRays& rays, const ReadyItem& ready) {
+FRUSTUMSCREEN_INLINE void cast_item(CastRays& rays, const ReadyItem& ready, TileBand rows) {
     const TileRectangle& tiles = ready.item.area;
     const int first_column = std::max<int>(tiles.first_column, rays.first_column);
     const int end_column = std::min<int>(tiles.end_column, rays.first_column + rays.columns);
-    const int end_row = std::min<int>(tiles.end_row, rays.band.end);
-    for (int row = std::max<int>(tiles.first_row, rays.band.first); row < end_row; ++row) {
+    const int end_row = std::min<int>(tiles.end_row, rows.end);
+    for (int row = std::max<int>(tiles.first_row, rows.first); row < end_row; ++row) {
         const std::size_t at = rays.tile(first_column, row);
         const std::size_t end = rays.first[at + static_cast<std::size_t>(end_column - first_column)];
         for (std::size_t k = rays.first[at] * lanes; k < end * lanes; k += lanes) {
@@ -165,20 +166,41 @@ FRUSTUMSCREEN_INLINE void cast_item(CastRays& rays, const ReadyItem& ready) {
     }
 }
 
+/// Of a band's rows, those within band `k` of the list.
+TileBand within(TileBand band, int k) {
+    return {std::max(band.first, k * rows_of_band), std::min(band.end, (k + 1) * rows_of_band)};
+}
+
+/// The list's items that may meet its band `k`, front to back.
+std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
+    const auto band = static_cast<std::size_t>(k);
+    if (band + 1 >= items.first_of_band.size()) {
+        return {};
+    }
+    const std::span<const std::uint32_t> all_of(items.banded);
+    return all_of.subspan(items.first_of_band[band],
+                          items.first_of_band[band + 1] - items.first_of_band[band]);
+}
+
 FRUSTUMSCREEN_INLINE void cast_all(CastPicture& picture, const BlockRelief& relief, const CastView& view,
                                    const BlockItems& items, TileBand band) {
-    for (const BlockItem& item : items.sorted) {
-        if (item.centres.first_row < band.end && item.centres.end_row > band.first) {
-            cast_item(picture, ready(relief, view, items, item), band);
+    for (int k = band.first / rows_of_band; k * rows_of_band < band.end; ++k) {
+        const TileBand rows = within(band, k);
+        for (const std::uint32_t place : items_of(items, k)) {
+            const BlockItem& item = items.sorted[place];
+            if (item.centres.first_row < rows.end && item.centres.end_row > rows.first) {
+                cast_item(picture, ready(relief, view, items, item), rows);
+            }
         }
     }
 }
 
 FRUSTUMSCREEN_INLINE void cast_all(CastRays& rays, const BlockRelief& relief, const CastView& view,
                                    const BlockItems& items) {
-    for (const BlockItem& item : items.sorted) {
-        if (item.area.first_row < rays.band.end && item.area.end_row > rays.band.first) {
-            cast_item(rays, ready(relief, view, items, item));
+    for (int k = rays.band.first / rows_of_band; k * rows_of_band < rays.band.end; ++k) {
+        const TileBand rows = within(rays.band, k);
+        for (const std::uint32_t place : items_of(items, k)) {
+            cast_item(rays, ready(relief, view, items, items.sorted[place]), rows);
         }
     }
 }

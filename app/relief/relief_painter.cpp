@@ -9,8 +9,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int rows_of_band = 8; ///< of tiles: small enough that threads end together
-
 /// The view's lit part, widened to whole tiles and cut to the picture.
 PixelRectangle tiles_around(const PixelRectangle& lit, int width, int height) {
     if (lit.empty()) {
@@ -54,12 +52,12 @@ void ReliefPainter::cast_picture(const BlockRelief& relief, const CastView& view
 }
 
 int ReliefPainter::bands() const {
-    return (end_row_ - first_row_ + rows_of_band - 1) / rows_of_band;
+    return (end_row_ + rows_of_band - 1) / rows_of_band - first_row_ / rows_of_band;
 }
 
 TileBand ReliefPainter::band(int k) const {
-    const int first = first_row_ + k * rows_of_band;
-    return {first, std::min(first + rows_of_band, end_row_)};
+    const int first = (first_row_ / rows_of_band + k) * rows_of_band;
+    return {std::max(first, first_row_), std::min(first + rows_of_band, end_row_)};
 }
 
 void ReliefPainter::shade(const BlockRelief& relief, const TileBand& band) {
