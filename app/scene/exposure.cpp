@@ -46,31 +46,11 @@ std::array<double, 256> areas_by_code(const PackLevel& level, const glm::dvec3& 
     return areas;
 }
 
-/// Of the cells that are there, each a quarter for each corner, tilted as the block's plane. Rims that two directions share count in
-/// both.
-std::array<double, 256> areas_by_code(const BlockRelief& relief) {
-    constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
-    std::array<double, 256> areas{};
-    for (std::size_t block = 0; block < relief.blocks.size(); ++block) {
-        const ReliefBlock& from = relief.blocks[block];
-        const double area = std::hypot(1.0, static_cast<double>(from.w_u), static_cast<double>(from.w_v));
-        for (std::size_t cell = 0; cell < std::size_t{block_cells} * block_cells; ++cell) {
-            if ((from.mask >> cell & 1U) == 0) {
-                continue;
-            }
-            const std::size_t first =
-                block * corners + cell / block_cells * block_corners + cell % block_cells;
-            for (const std::size_t corner :
-                 {first, first + 1, first + block_corners, first + block_corners + 1}) {
-                const glm::u8vec4& seen = relief.colours[corner];
-                areas.at(std::max({seen.r, seen.g, seen.b})) += area;
-            }
-        }
-    }
-    return areas;
-}
+} // namespace
 
-double exposure_for(const std::array<double, 256>& areas, int highlight_code) {
+double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Image8& texture,
+                   int highlight_code) {
+    const std::array<double, 256> areas = areas_by_code(level, box_size, texture);
     double total = 0.0;
     for (const double area : areas) {
         total += area;
@@ -85,17 +65,6 @@ double exposure_for(const std::array<double, 256>& areas, int highlight_code) {
     const double highlight = linear_from_srgb(highlight_code / 255.0);
     const double now = linear_from_srgb(static_cast<double>(code) / 255.0);
     return std::min(most_exposure, highlight / std::max(now, 1e-6));
-}
-
-} // namespace
-
-double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Image8& texture,
-                   int highlight_code) {
-    return exposure_for(areas_by_code(level, box_size, texture), highlight_code);
-}
-
-double exposure_of(const BlockRelief& relief, int highlight_code) {
-    return exposure_for(areas_by_code(relief), highlight_code);
 }
 
 } // namespace frustumscreen

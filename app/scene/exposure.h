@@ -9,7 +9,6 @@
 
 #include "app/image/image.h"
 #include "app/pack/pack.h"
-#include "app/relief/block_relief.h"
 
 namespace frustumscreen {
 
@@ -21,7 +20,5 @@ inline constexpr double most_exposure = 8.0;
 /// Pack::box_size.
 [[nodiscard]] double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Image8& texture,
                                  int highlight_code);
-/// The same for a relief.
-[[nodiscard]] double exposure_of(const BlockRelief& relief, int highlight_code);
 
 } // namespace frustumscreen

@@ -23,14 +23,16 @@ struct Light {
     bool feathered = true;
 };
 
-/// `exposure_of_code`: the factor that brings the artifact's brightest places to a code.
-template <typename Exposure>
-Light light_of(const Stage& stage, const PictureOptions& options, const Exposure& exposure_of_code) {
+/// `level`: of the pack, whose brightest places say how bright the artifact is shown.
+Light light_of(const Stage& stage, const PictureOptions& options, const Pack& pack, std::size_t level) {
     if (!options.lit) {
         return {};
     }
-    return {light_compensation(stage.settings), exposure_of_code(stage.settings.render.highlight_code),
-            options.feathered};
+    const PackLevel& shown = pack.levels[level];
+    return {
+        light_compensation(stage.settings),
+        exposure_of(shown, pack.box_size, pack.textures[shown.texture], stage.settings.render.highlight_code),
+        options.feathered};
 }
 
 class PackLevelTechnique final : public Technique {
@@ -110,9 +112,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    const Light light = light_of(stage, options, [&](int code) {
-        return exposure_of(whole.mesh, pack.box_size, pack.textures[whole.mesh.texture], code);
-    });
+    const Light light = light_of(stage, options, pack, level);
     return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level], light, std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
@@ -135,7 +135,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    const Light light = light_of(stage, options, [&](int code) { return exposure_of(*relief, code); });
+    const Light light = light_of(stage, options, pack, pack.default_level); // as the exhibit
     const Drawable drawable = renderer->store().keep(relief);
     PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, drawable);
     shown.samples = options.samples > 0 ? options.samples : pack.samples;
