@@ -81,7 +81,7 @@ Result<SourceMesh> load(const BakeRequest& request) {
     if (request.options.unlit && !has_colours(*mesh)) {
         mesh->notes.push_back(
             {SourceNote::Kind::Lost,
-             "the relief: the file has no colours, and --unlit makes a flat picture of it; without "
+             "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
     return mesh;
