@@ -11,6 +11,27 @@ glm::dvec4 row(const glm::dmat4& m, int r) {
     return {m[0][r], m[1][r], m[2][r], m[3][r]};
 }
 
+/// Pixels around points of the box seen through a face.
+template <std::size_t count>
+PixelRectangle pixels_of(const std::array<glm::vec3, count>& points, const glm::mat4& clip_from_box,
+                         const Pinhole& pinhole) {
+    std::array<glm::dvec4, count> clip;
+    for (std::size_t k = 0; k < count; ++k) {
+        clip[k] = glm::dvec4(clip_from_box * glm::vec4(points[k], 1.0F));
+    }
+    return pixels_around(clip, pinhole);
+}
+
+std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
+    std::array<glm::vec3, 8> corners{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        corners[k] = {(k & 1U) != 0 ? extent.high.x : extent.low.x,
+                      (k & 2U) != 0 ? extent.high.y : extent.low.y,
+                      (k & 4U) != 0 ? extent.high.z : extent.low.z};
+    }
+    return corners;
+}
+
 } // namespace
 
 PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
@@ -73,6 +94,29 @@ FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double
         volume.add(w - row(clip_from_box, axis));
     }
     return volume;
+}
+
+PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
+                           std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
+                           const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
+    constexpr int pixels_per_triangle = 100; // a closer look costs more than fewer pixels
+    const PixelRectangle box =
+        intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
+    const std::size_t triangles = visible.size() / 3;
+    if (box.empty() || static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height) <=
+                           pixels_per_triangle * triangles) {
+        tiles.light(box);
+        return box;
+    }
+    PixelRectangle bounds;
+    for (std::size_t k = 0; k < visible.size(); k += 3) {
+        const std::array<glm::vec3, 3> corners{level.positions[visible[k]], level.positions[visible[k + 1]],
+                                               level.positions[visible[k + 2]]};
+        const PixelRectangle part = intersected(face, pixels_of(corners, clip_from_box, pinhole));
+        tiles.light(part);
+        bounds = united(bounds, part);
+    }
+    return bounds;
 }
 
 double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point, const Pinhole& pinhole) {

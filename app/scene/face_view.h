@@ -15,6 +15,8 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace frustumscreen {
@@ -41,6 +43,13 @@ struct FaceView {
 /// The pyramid eye -> face and the picture's edges seen through the face's collineation; box frame.
 [[nodiscard]] FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
                                    const glm::dmat4& clip_from_box);
+
+/// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
+/// there are few in a large box. Returns the pixels around them all.
+[[nodiscard]] PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
+                                         std::span<const std::uint32_t> visible,
+                                         const glm::mat4& clip_from_box, const PixelRectangle& face,
+                                         const Pinhole& pinhole, LitTiles& tiles);
 
 /// Geometric mean of the two singular values of pixel(point) at a point: how large a picture the face makes
 /// of it.

@@ -2,12 +2,12 @@
 
 #include "app/geometry/collineation.h"
 #include "app/scene/face_view.h"
+#include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
 #include "app/scene/prop_outline.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace frustumscreen {
 
@@ -69,52 +69,6 @@ std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const PixelRectangle bounds =
         face_bounds(face, shared.box, shared.clip_from_prop, *clip, shared.view.projector);
     return bounds.empty() ? std::nullopt : std::optional(FaceView{eye, *clip, bounds});
-}
-
-/// Pixels around points of the box seen through a face.
-template <std::size_t count>
-PixelRectangle pixels_of(const std::array<glm::vec3, count>& points, const glm::mat4& clip_from_box,
-                         const Pinhole& pinhole) {
-    std::array<glm::dvec4, count> clip;
-    for (std::size_t k = 0; k < count; ++k) {
-        clip[k] = glm::dvec4(clip_from_box * glm::vec4(points[k], 1.0F));
-    }
-    return pixels_around(clip, pinhole);
-}
-
-std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
-    std::array<glm::vec3, 8> corners{};
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        corners[k] = {(k & 1U) != 0 ? extent.high.x : extent.low.x,
-                      (k & 2U) != 0 ? extent.high.y : extent.low.y,
-                      (k & 4U) != 0 ? extent.high.z : extent.low.z};
-    }
-    return corners;
-}
-
-/// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
-/// there are few in a large box. Returns the pixels around them all.
-PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
-                           std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
-                           const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
-    constexpr int pixels_per_triangle = 100; // a closer look costs more than fewer pixels
-    const PixelRectangle box =
-        intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
-    const std::size_t triangles = visible.size() / 3;
-    if (box.empty() || static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height) <=
-                           pixels_per_triangle * triangles) {
-        tiles.light(box);
-        return box;
-    }
-    PixelRectangle bounds;
-    for (std::size_t k = 0; k < visible.size(); k += 3) {
-        const std::array<glm::vec3, 3> corners{level.positions[visible[k]], level.positions[visible[k + 1]],
-                                               level.positions[visible[k + 2]]};
-        const PixelRectangle part = intersected(face, pixels_of(corners, clip_from_box, pinhole));
-        tiles.light(part);
-        bounds = united(bounds, part);
-    }
-    return bounds;
 }
 
 /// Adds what a face shows of a level to the plan's indices; returns the pixels around it.
@@ -240,19 +194,13 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
     }
 }
 
-/// Pixels along a metre at the artifact's middle, as a share of those on a surface there that faces the
-/// projector; a mean over the faces, by area.
 double pixel_density(const Shared& shared, const FramePlan& plan) {
-    double pixels = 0.0;
-    double area = 0.0;
+    PixelDensity density;
     for (const FacePlan& face : plan.faces) {
-        const double share = static_cast<double>(face.bounds.width) * face.bounds.height;
-        pixels += share * face.pixels_per_m;
-        area += share;
+        density.add(face.bounds, face.pixels_per_m);
     }
     const glm::dvec3 middle = 0.5 * (shared.box.low + shared.box.high);
-    const double distance_m = glm::distance(middle, shared.projector_in_prop);
-    return area > 0.0 ? pixels / area * distance_m / shared.view.projector.fx : 1.0;
+    return density.share(glm::distance(middle, shared.projector_in_prop), shared.view.projector);
 }
 
 /// Those of the first; 1 where reliefs alone are drawn.
@@ -341,16 +289,6 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 
 } // namespace
 
-int samples_at(double density, int samples) {
-    constexpr double least_density = 0.5;
-    constexpr int most = 16;
-    while (samples > 0 && samples < most && density > 0.0 && density < least_density) {
-        samples *= 2;
-        density *= std::numbers::sqrt2;
-    }
-    return samples;
-}
-
 PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief, double metres_per_box,
                    const Drawable& drawable) {
     PlacedLevel level{nullptr, pack.box_size, metres_per_box, drawable, pack.samples};
@@ -398,8 +336,7 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.front.forget();
     plan.cast_count = 0;
     plan.lit.begin(view.projector.width, view.projector.height);
-    plan.prop_bounds =
-        prop_bounds(prop, view.projector, view.table_from_projector.inverse() * view.table_from_prop);
+    plan.prop_bounds = prop_bounds(prop, view.projector, shared.clip_from_prop);
     plan_table(shared, plan);
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
         plan_parts(parts, shared, plan);

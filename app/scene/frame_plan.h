@@ -160,10 +160,6 @@ struct FramePlan {
     std::size_t cast_count = 0;
 };
 
-/// How many samples a pixel takes that asked for `samples` where a metre of the artifact has `density` times the pixels that it would
-/// have facing the projector: the bake chooses them for pictures of at least half that density. At most 16.
-[[nodiscard]] int samples_at(double density, int samples);
-
 /// A plan with room for every face of `parts` parts that have `indices` indices together.
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);

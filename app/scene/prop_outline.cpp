@@ -11,11 +11,11 @@
 namespace frustumscreen {
 
 PixelRectangle prop_bounds(const PropShape& prop, const Pinhole& projector,
-                           const RigidTransform& projector_from_prop) {
+                           const glm::dmat4& clip_from_prop) {
     std::array<glm::dvec4, 16> clip{};
     const std::size_t count = std::min(prop.corners.size(), clip.size());
     for (std::size_t k = 0; k < count; ++k) {
-        clip[k] = projector.clip_from_point() * glm::dvec4(projector_from_prop.point(prop.corners[k]), 1.0);
+        clip[k] = clip_from_prop * glm::dvec4(prop.corners[k], 1.0);
     }
     return pixels_around(std::span(clip).first(count), projector);
 }
@@ -26,10 +26,11 @@ std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole
     constexpr int yaws = 32;   // over a quarter of a turn
     constexpr int margin = 16;
     const PropShape prop = make_prop(settings.prop);
-    const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
+    const glm::dmat4 clip_from_table =
+        projector.clip_from_point() * settings.projector.table_from_projector.inverse().matrix();
     PixelSize largest;
     const auto add = [&](const RigidTransform& table_from_prop) {
-        const PixelRectangle part = prop_bounds(prop, projector, projector_from_table * table_from_prop);
+        const PixelRectangle part = prop_bounds(prop, projector, clip_from_table * table_from_prop.matrix());
         largest = united(largest, {part.width, part.height});
     };
     if (!visibility.views.empty()) {

@@ -78,6 +78,19 @@ void find_planes(LevelTriangles& level) {
     }
 }
 
+void find_extents(LevelTriangles& level) {
+    for (const PackCluster& cluster : level.clusters) {
+        LevelTriangles::Extent extent{glm::vec3(std::numeric_limits<float>::infinity()),
+                                      glm::vec3(-std::numeric_limits<float>::infinity())};
+        for (std::uint32_t k = 0; k < cluster.index_count; ++k) {
+            const glm::vec3& corner = level.positions[level.indices[cluster.first_index + k]];
+            extent.low = glm::min(extent.low, corner);
+            extent.high = glm::max(extent.high, corner);
+        }
+        level.extents.push_back(extent);
+    }
+}
+
 LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) {
     LevelTriangles result;
     result.clusters = level.clusters;
@@ -89,16 +102,7 @@ LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) 
         result.positions.emplace_back(low + unit * box_size);
     }
     find_planes(result);
-    for (const PackCluster& cluster : result.clusters) {
-        LevelTriangles::Extent extent{glm::vec3(std::numeric_limits<float>::infinity()),
-                                      glm::vec3(-std::numeric_limits<float>::infinity())};
-        for (std::uint32_t k = 0; k < cluster.index_count; ++k) {
-            const glm::vec3& corner = result.positions[result.indices[cluster.first_index + k]];
-            extent.low = glm::min(extent.low, corner);
-            extent.high = glm::max(extent.high, corner);
-        }
-        result.extents.push_back(extent);
-    }
+    find_extents(result);
     return result;
 }
 

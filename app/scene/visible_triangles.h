@@ -39,6 +39,8 @@ struct LevelTriangles {
 [[nodiscard]] std::uint64_t bytes_of(const LevelTriangles& level);
 /// Computes the planes from indices and positions.
 void find_planes(LevelTriangles& level);
+/// Computes the extents from clusters, indices and positions.
+void find_extents(LevelTriangles& level);
 [[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
 
 /// What one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the picture's four

@@ -4,7 +4,6 @@
 #include "assets_baked/bake/clusters.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace frustumscreen {
 
@@ -18,28 +17,6 @@ void face_everywhere(LevelTriangles& level) {
     for (PackCluster& cluster : level.clusters) {
         cluster.cone_cutoff = PackCluster{}.cone_cutoff;
     }
-}
-
-/// The pixels around triangles, with one to spare on each side; all of `within` if a corner is not in front.
-PixelRectangle pixels_around(const LevelTriangles& level, std::span<const std::uint32_t> indices,
-                             const glm::mat4& clip_from_box, const Pinhole& projector,
-                             const PixelRectangle& within) {
-    glm::vec2 low(std::numeric_limits<float>::infinity());
-    glm::vec2 high(-std::numeric_limits<float>::infinity());
-    for (const std::uint32_t index : indices) {
-        const glm::vec4 clip = clip_from_box * glm::vec4(level.positions[index], 1.0F);
-        if (!(clip.w > 0.0F)) {
-            return within;
-        }
-        const glm::vec2 at = glm::vec2(clip) / clip.w;
-        low = glm::min(low, at);
-        high = glm::max(high, at);
-    }
-    const glm::vec2 size(projector.width, projector.height);
-    low = glm::clamp(glm::floor((0.5F * low + 0.5F) * size) - 1.0F, glm::vec2(0.0F), size);
-    high = glm::clamp(glm::ceil((0.5F * high + 0.5F) * size) + 1.0F, glm::vec2(0.0F), size);
-    const glm::ivec2 extent(high - low);
-    return intersected(within, {static_cast<int>(low.x), static_cast<int>(low.y), extent.x, extent.y});
 }
 
 } // namespace
@@ -62,6 +39,7 @@ PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& 
     }
     mesh.first_cluster.push_back(all.clusters.size());
     (closed ? find_planes : face_everywhere)(all);
+    find_extents(all);
     return mesh;
 }
 
@@ -87,10 +65,8 @@ void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerVie
             for (std::size_t k = mesh.first_cluster[part]; k < mesh.first_cluster[part + 1]; ++k) {
                 const std::size_t begin = indices_.size();
                 if (append_visible(volume, level, front_, k, indices_) > 0) {
-                    const PixelRectangle pixels = pixels_around(level, std::span(indices_).subspan(begin),
-                                                                clip, view.projector, face.bounds);
-                    lit_.light(pixels);
-                    bounds = united(bounds, pixels);
+                    bounds = united(bounds, light_tiles(level, k, std::span(indices_).subspan(begin), clip,
+                                                        face.bounds, view.projector, lit_));
                 }
             }
             ranges.push_back(

@@ -1,6 +1,7 @@
 #include "app/bench/techniques/peer_gl.h"
 
 #include "app/scene/face_view.h"
+#include "app/scene/pixel_density.h"
 #include "firmware_host/gl/gl_program.h"
 
 #include <GLES2/gl2ext.h>
@@ -144,15 +145,11 @@ std::vector<PeerFace> faces_before(const Box& box, const PeerView& view) {
 
 double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
-    double pixels_per_m = 0.0;
-    double area = 0.0;
+    PixelDensity density;
     for (const PeerFace& face : faces) {
-        const double share = static_cast<double>(face.bounds.width) * face.bounds.height;
-        pixels_per_m += share * pixels_per_unit(face.clip_from_prop, middle, view.projector);
-        area += share;
+        density.add(face.bounds, pixels_per_unit(face.clip_from_prop, middle, view.projector));
     }
-    return area > 0.0 ? pixels_per_m / area * glm::distance(middle, view.projector_m) / view.projector.fx
-                      : 1.0;
+    return density.share(glm::distance(middle, view.projector_m), view.projector);
 }
 
 FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {

@@ -82,8 +82,7 @@ struct PeerFace {
 };
 /// Of the view's faces those through which the eye sees some of the box.
 [[nodiscard]] std::vector<PeerFace> faces_before(const Box& box, const PeerView& view);
-/// Pixels along a metre at the box's middle, as a share of those on a surface there that faces the projector; a mean over the faces,
-/// by area: as the exhibit's plan has it for samples_at.
+/// As the exhibit's plan has it, at the middle of the box (PixelDensity::share).
 [[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view);
 
 /// Four corners of each face in one buffer, drawn as fans.

@@ -4,7 +4,7 @@
 #include "app/bench/truth/truth.h"
 #include "app/geometry/face_rays.h"
 #include "app/render/sample_grid.h"
-#include "app/scene/frame_plan.h"
+#include "app/scene/pixel_density.h"
 #include "firmware_host/base/parallel.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "app/bench/techniques/sampled_peer.h"
 
-#include "app/scene/frame_plan.h"
+#include "app/scene/pixel_density.h"
 
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
