@@ -1,0 +1,90 @@
+#include "app/geometry/lens.h"
+#include "tests/geometry/random_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+/// As OpenCV's manual writes it, in other precision and another order of the sums.
+glm::dvec2 by_the_manual(const Lens& lens, const glm::dvec2& x) {
+    using Long = long double;
+    const Long r2 = static_cast<Long>(x.x) * x.x + static_cast<Long>(x.y) * x.y;
+    const Long factor = 1.0L + lens.k1 * r2 + lens.k2 * r2 * r2;
+    return {static_cast<double>(x.x * factor), static_cast<double>(x.y * factor)};
+}
+
+TEST(Lens, BendsAsTheManualSays) {
+    Random random(21);
+    for (int k = 0; k < 2000; ++k) {
+        const Lens lens{random.between(-0.2, 0.2), random.between(-0.05, 0.05)};
+        const glm::dvec2 x(random.between(-0.8, 0.8), random.between(-0.5, 0.5));
+        if (const auto bent = lens.distort(x)) {
+            EXPECT_LT(glm::distance(*bent, by_the_manual(lens, x)), 1e-15);
+        }
+    }
+}
+
+TEST(Lens, WhatIsBentComesBack) {
+    Random random(22);
+    int came = 0;
+    for (int k = 0; k < 5000; ++k) {
+        const Lens lens{random.between(-0.4, 0.4), random.between(-0.2, 0.2)};
+        const glm::dvec2 x(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        const auto bent = lens.distort(x);
+        if (!bent) {
+            continue;
+        }
+        ++came;
+        const auto back = lens.undistort(*bent);
+        ASSERT_TRUE(back) << lens.k1 << ' ' << lens.k2 << ' ' << x.x << ' ' << x.y;
+        // Near the fold the way back is as ill-conditioned as the lens is flat.
+        const double r2 = glm::dot(x, x);
+        const double slope = 1.0 + r2 * (3.0 * lens.k1 + 5.0 * lens.k2 * r2);
+        EXPECT_LT(glm::distance(*back, x), 2e-15 / slope);
+    }
+    EXPECT_GT(came, 4000);
+}
+
+TEST(Lens, ThereIsNothingBeyondTheFold) {
+    // r (1 - 0.1 r^2) rises up to r^2 = 10/3, and there it is 2/3 of sqrt(10/3).
+    const Lens lens{-0.1, 0.0};
+    EXPECT_NEAR(lens.fold_r2(), 10.0 / 3.0, 1e-14);
+    const double fold = std::sqrt(10.0 / 3.0);
+    EXPECT_TRUE(lens.distort({0.999 * fold, 0.0}));
+    EXPECT_FALSE(lens.distort({1.001 * fold, 0.0}));
+    EXPECT_TRUE(lens.undistort({0.0, 0.999 * fold * 2.0 / 3.0}));
+    EXPECT_FALSE(lens.undistort({0.0, 1.001 * fold * 2.0 / 3.0}));
+    EXPECT_FALSE(lens.undistort({std::nan(""), 0.0}));
+    EXPECT_FALSE(lens.distort({std::nan(""), 0.0}));
+    EXPECT_TRUE(std::isinf(Lens{}.fold_r2()));
+    EXPECT_TRUE(std::isinf((Lens{0.1, 0.0}.fold_r2())));
+    EXPECT_TRUE(std::isinf((Lens{-0.1, 0.1}.fold_r2())));
+}
+
+TEST(Lens, APixelsRayComesBackToThePixel) {
+    Random random(23);
+    const Pinhole pinhole{1920, 1200, 1800.0, 1810.0, 930.0, 1150.0};
+    for (int k = 0; k < 2000; ++k) {
+        const Lens lens{random.between(-0.1, 0.1), random.between(-0.02, 0.02)};
+        const glm::dvec2 pixel(random.between(0, 1920), random.between(0, 1200));
+        const auto ray = ray_of(pinhole, lens, pixel);
+        ASSERT_TRUE(ray);
+        const auto back = pixel_of(pinhole, lens, *ray * random.scale(0.1, 10.0));
+        ASSERT_TRUE(back);
+        EXPECT_LT(glm::distance(*back, pixel), 1e-11);
+    }
+    EXPECT_FALSE(pixel_of(pinhole, {}, {0.1, 0.1, -1.0}));
+}
+
+TEST(Lens, WithoutDistortionItIsThePinhole) {
+    const Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
+    const glm::dvec3 point(0.2, -0.1, 1.3);
+    EXPECT_EQ(*pixel_of(pinhole, {}, point), *pinhole.pixel({point.x / point.z, point.y / point.z, 1.0}));
+    EXPECT_EQ(*ray_of(pinhole, {}, {100.0, 700.0}), pinhole.ray({100.0, 700.0}));
+}
+
+} // namespace
+} // namespace frustumscreen
