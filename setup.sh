@@ -41,6 +41,7 @@ for part; do
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 minisign                          # signatures
+                strace                            # what a program asks of the kernel
                 tzdata                            # time zones
                 rauc openssl                      # updates
                 dpkg-dev file                     # the Debian packages

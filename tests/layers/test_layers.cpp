@@ -135,6 +135,8 @@ const std::vector<Guard> guards = {
     {"gpiod", {"firmware_host/panel/"}},
     {"libevdev", {"firmware_host/panel/"}},
     {"linux/input", {"firmware_host/panel/"}},
+    {"linux/videodev2", {"firmware_host/camera/"}},
+    {"turbojpeg", {"firmware_host/camera/", "assets_baked/bake/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},
     {"opusfile", {"firmware_host/sound/"}},

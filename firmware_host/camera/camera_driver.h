@@ -1,0 +1,71 @@
+/// The policy above a camera: it searches, sets up and streams, and searches again after a loss. Of several cameras that may be
+/// meant it takes the first that can be set up; one that failed is tried last.
+///
+/// Time     read from `clock`, because a wait takes time. A camera that is back is found within `between_searches`, and frames
+///          follow after one set-up; it is called well once they have come for FrameJudge::dwell: together below 2 s.
+/// Threads  one caller; a step waits for one frame at most, and a set-up for some twenty control transfers.
+/// Errors   none; `state` says what is the matter.
+#pragma once
+
+#include "firmware_host/camera/camera.h"
+#include "firmware_host/camera/frame_judge.h"
+#include "firmware_host/camera/v4l2_stream.h"
+
+#include <functional>
+#include <memory>
+
+namespace frustumscreen {
+
+/// A camera that the kernel knows of.
+struct FoundCamera {
+    std::string path, name, bus;
+    std::vector<CameraMode> modes; ///< those that can be read
+};
+/// All of them. Those that cannot be opened are left out.
+[[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wish);
+
+class CameraDriver {
+public:
+    static constexpr Nanoseconds between_searches = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds frame_timeout = std::chrono::milliseconds(50);
+    /// A camera that is silent or sends broken frames for longer is set up anew.
+    static constexpr Nanoseconds most_silence = std::chrono::seconds(3);
+
+    using Clock = std::function<MonotonicTime()>;
+    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock);
+
+    struct Step {
+        bool fresh = false; ///< a frame was taken
+        Nanoseconds rest{}; ///< before the next step
+    };
+    /// One round.
+    [[nodiscard]] Step step(CameraFrame& frame);
+    [[nodiscard]] CameraState state() const { return state_; }
+    [[nodiscard]] bool is_open() const { return stream_ != nullptr; }
+    [[nodiscard]] const CameraCounts& counts() const { return counts_; }
+    /// Of the open camera, or the one before.
+    [[nodiscard]] const std::optional<CameraSetUp>& set_up() const { return set_up_; }
+    [[nodiscard]] double rate_hz();
+
+private:
+    [[nodiscard]] Nanoseconds search();
+    [[nodiscard]] tl::expected<void, CameraState> open(const std::string& path);
+    [[nodiscard]] Nanoseconds lose(CameraState state);
+    void judge(MonotonicTime now);
+
+    std::unique_ptr<V4l2Devices> devices_;
+    CameraWish wish_;
+    Clock clock_;
+    std::unique_ptr<V4l2Stream> stream_;
+    std::optional<FrameJudge> judge_; ///< of the open camera
+    std::optional<CameraSetUp> set_up_;
+    std::string path_;                ///< of the open camera
+    std::string failed_;              ///< the path that failed last
+    MonotonicTime heard_;             ///< the last whole frame, or the beginning
+    bool has_sent_ = false;           ///< a whole frame
+    std::uint64_t broken_before_ = 0; ///< as counted at the last whole frame
+    CameraCounts counts_;
+    CameraState state_ = CameraState::NotConnected;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,98 @@
+/// What is the matter with a camera, and the sentence that says so to the person beside it.
+///
+/// Threads  values.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace frustumscreen {
+
+enum class CameraState : std::uint8_t {
+    NotConnected,
+    NoPermission,
+    InUse,
+    CannotBeOpened,
+    NoFormat,
+    SetUpRefused,
+    SettingUp,
+    Running,
+    Unlocked,
+    Slow,
+    Dark,
+    Blinded,
+    Frozen,
+    Broken,
+    Silent,
+};
+
+/// One plain sentence: what, and what to do. Running, where all is well, says so too.
+[[nodiscard]] constexpr std::string_view sentence_of(CameraState state) {
+    switch (state) {
+    case CameraState::NotConnected:
+        return "no camera is connected; check its USB cable, and its name in the settings";
+    case CameraState::NoPermission:
+        return "a camera is connected, but this user may not open it; put the user into the group video";
+    case CameraState::InUse:
+        return "the camera is in use by another program; end that program";
+    case CameraState::CannotBeOpened:
+        return "a camera is connected, but cannot be opened; pull its cable, and try another port and "
+               "another "
+               "cable";
+    case CameraState::NoFormat:
+        return "the camera sends no format that can be read (GREY, YUYV, MJPEG); use another camera";
+    case CameraState::SetUpRefused:
+        return "the camera refuses its set-up or does not answer; pull its cable and put it back";
+    case CameraState::SettingUp:
+        return "the camera is being set up";
+    case CameraState::Running:
+        return "the camera is running";
+    case CameraState::Unlocked:
+        return "the camera runs, but its exposure or its white balance cannot be locked, so its picture may "
+               "change by itself; use another camera if that disturbs";
+    case CameraState::Slow:
+        return "the camera sends less than half of its frames; try another USB port, and nothing else at its "
+               "hub";
+    case CameraState::Dark:
+        return "the camera sees nothing but dark; take away what covers it, or give it light";
+    case CameraState::Blinded:
+        return "the camera is blinded; take away the light that shines into it, or shorten its exposure in "
+               "the "
+               "settings";
+    case CameraState::Frozen:
+        return "the camera sends the same picture again and again; pull its cable and put it back";
+    case CameraState::Broken:
+        return "the camera's frames come broken; try another USB cable and another port";
+    case CameraState::Silent:
+        return "the camera has stopped sending; if it stays so, pull its cable and put it back";
+    }
+    return "";
+}
+
+/// What of a camera can be used.
+enum class CameraHealth : std::uint8_t {
+    Well,
+    Impaired, ///< frames come, but too few, or they show nothing
+    Away,     ///< no frame comes
+};
+
+[[nodiscard]] constexpr CameraHealth health_of(CameraState state) {
+    switch (state) {
+    case CameraState::Running:
+    case CameraState::Unlocked:
+        return CameraHealth::Well;
+    case CameraState::Slow:
+    case CameraState::Dark:
+    case CameraState::Blinded:
+    case CameraState::Frozen:
+        return CameraHealth::Impaired;
+    default:
+        return CameraHealth::Away;
+    }
+}
+
+[[nodiscard]] constexpr std::string_view name_of(CameraHealth health) {
+    return health == CameraHealth::Well ? "well" : health == CameraHealth::Impaired ? "impaired" : "away";
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,79 @@
+#include "firmware_host/camera/v4l2_controls.h"
+
+#include <linux/videodev2.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// V4L2 counts exposure in tenths of a millisecond.
+constexpr double ticks_per_ms = 10.0;
+
+struct Recipe {
+    std::string_view name, unit;
+    std::uint32_t automatic; ///< the control that makes it automatic
+    std::int32_t manual;     ///< the value of it that does not
+    std::uint32_t value;
+    double steps_per_unit;
+};
+constexpr Recipe exposure{
+    "exposure", "ms", V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, V4L2_CID_EXPOSURE_ABSOLUTE, ticks_per_ms};
+constexpr Recipe gain{"gain", "", V4L2_CID_AUTOGAIN, 0, V4L2_CID_GAIN, 1.0};
+constexpr Recipe white_balance{
+    "white balance", "K", V4L2_CID_AUTO_WHITE_BALANCE, 0, V4L2_CID_WHITE_BALANCE_TEMPERATURE, 1.0};
+
+std::optional<std::int32_t> read(V4l2Device& device, std::uint32_t id) {
+    v4l2_control control{id, 0};
+    return device.ask(VIDIOC_G_CTRL, control) == 0 ? std::optional(control.value) : std::nullopt;
+}
+
+bool write(V4l2Device& device, std::uint32_t id, std::int32_t value) {
+    v4l2_control control{id, value};
+    return device.ask(VIDIOC_S_CTRL, control) == 0;
+}
+
+bool is_there(V4l2Device& device, std::uint32_t id) {
+    v4l2_queryctrl query{};
+    query.id = id;
+    return device.ask(VIDIOC_QUERYCTRL, query) == 0 && (query.flags & V4L2_CTRL_FLAG_DISABLED) == 0;
+}
+
+LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<double> wished) {
+    LockedControl locked{recipe.name, recipe.unit, Lock::NotThere, 0.0};
+    const bool has_automatic = is_there(device, recipe.automatic);
+    const bool has_value = is_there(device, recipe.value);
+    if (!has_automatic && !has_value) {
+        return locked;
+    }
+    if (has_automatic) {
+        static_cast<void>(write(device, recipe.automatic, recipe.manual)); // read back below
+    }
+    const bool fixed = !has_automatic || read(device, recipe.automatic) == recipe.manual;
+    const std::int32_t asked =
+        wished ? static_cast<std::int32_t>(std::lround(*wished * recipe.steps_per_unit)) : 0;
+    const bool taken = !has_value || !wished || write(device, recipe.value, asked);
+    const std::optional<std::int32_t> found =
+        has_value ? read(device, recipe.value) : std::optional<std::int32_t>();
+    locked.value = found.value_or(0) / recipe.steps_per_unit;
+    const bool as_wished = !wished || (taken && found == asked);
+    locked.lock = !fixed || (has_value && !found) ? Lock::Refused : as_wished ? Lock::Locked : Lock::Changed;
+    return locked;
+}
+
+} // namespace
+
+std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraWish& wish) {
+    const auto number = [](const auto& wished) {
+        return wished ? std::optional<double>(*wished) : std::optional<double>();
+    };
+    std::vector<LockedControl> controls{lock(device, exposure, wish.exposure_ms),
+                                        lock(device, gain, number(wish.gain)),
+                                        lock(device, white_balance, number(wish.white_balance_k))};
+    // A camera that may lengthen its exposure in the dark sends fewer frames then.
+    static_cast<void>(write(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0));
+    return controls;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,16 @@
+/// Exposure, gain and white balance of a V4L2 camera: no longer automatic, set, and read back. A camera that changes them by itself
+/// would see the projector's picture as a change of light.
+///
+/// Threads  the camera's own.
+/// Errors   none: what could not be locked says so in its row.
+#pragma once
+
+#include "firmware_host/camera/camera_set_up.h"
+#include "firmware_host/camera/v4l2_device.h"
+
+namespace frustumscreen {
+
+/// In this order: exposure, gain, white balance.
+[[nodiscard]] std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraWish& wish);
+
+} // namespace frustumscreen

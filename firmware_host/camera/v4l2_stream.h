@@ -1,0 +1,46 @@
+/// A V4L2 camera that sends: its buffers in our memory, and the latest whole frame of them.
+///
+/// Threads  the camera's own; `take` waits as long as it is told.
+#pragma once
+
+#include "firmware_host/camera/camera.h"
+#include "firmware_host/camera/luma_reader.h"
+#include "firmware_host/camera/v4l2_mode.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace frustumscreen {
+
+class V4l2Stream {
+public:
+    static constexpr std::uint32_t wished_buffers = 4;
+
+    /// Errors: InUse, SetUpRefused.
+    [[nodiscard]] static tl::expected<std::unique_ptr<V4l2Stream>, CameraState>
+    start(std::unique_ptr<V4l2Device> device, const FrameFormat& format);
+    ~V4l2Stream();
+    V4l2Stream(const V4l2Stream&) = delete;
+    V4l2Stream& operator=(const V4l2Stream&) = delete;
+
+    enum class Taken : std::uint8_t { Frame, Nothing, Lost };
+    /// The latest frame of those that wait; adds to `counts`. `now` is read after the wait.
+    [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,
+                             CameraFrame& frame, CameraCounts& counts);
+
+private:
+    V4l2Stream(std::unique_ptr<V4l2Device> device, const FrameFormat& format)
+        : device_(std::move(device)), format_(format) {}
+
+    [[nodiscard]] bool map_buffers();
+
+    std::unique_ptr<V4l2Device> device_;
+    FrameFormat format_;
+    std::vector<std::span<const std::byte>> buffers_;
+    LumaReader reader_;
+    bool streams_ = false;
+    std::optional<std::uint32_t> last_sequence_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,144 @@
+// A camera's frames live in memory alone. The judge is the kernel: strace shows every call that a process makes while frames pass
+// through this room, and each must be one of those that neither write nor send.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Memory, threads, time and reading. What is not here writes, sends, or has no business there.
+const std::set<std::string> harmless{"access",
+                                     "arch_prctl",
+                                     "brk",
+                                     "clock_gettime",
+                                     "clock_nanosleep",
+                                     "clone",
+                                     "clone3",
+                                     "close",
+                                     "execve",
+                                     "exit",
+                                     "exit_group",
+                                     "fstat",
+                                     "fstatfs",
+                                     "futex",
+                                     "getdents64",
+                                     "getpid",
+                                     "getrandom",
+                                     "getrlimit",
+                                     "gettid",
+                                     "ioctl",
+                                     "lseek",
+                                     "madvise",
+                                     "mprotect",
+                                     "munmap",
+                                     "newfstatat",
+                                     "poll",
+                                     "pread64",
+                                     "prlimit64",
+                                     "read",
+                                     "readlink",
+                                     "rseq",
+                                     "rt_sigaction",
+                                     "rt_sigprocmask",
+                                     "rt_sigreturn",
+                                     "sched_getaffinity",
+                                     "sched_yield",
+                                     "set_robust_list",
+                                     "set_tid_address",
+                                     "sysinfo",
+                                     "restart_syscall",
+                                     "uname"};
+
+bool has(const std::string& text, const std::string& word) {
+    return text.find(word) != std::string::npos;
+}
+
+/// What strace says of one call: its name, then its arguments.
+bool is_harmless(const std::string& call) {
+    const std::string name = call.substr(0, call.find('('));
+    if (name == "open" || name == "openat") {
+        return has(call, "O_RDONLY") && !has(call, "O_CREAT") && !has(call, "O_TRUNC");
+    }
+    if (name == "mmap") {
+        return !(has(call, "MAP_SHARED") && has(call, "PROT_WRITE"));
+    }
+    if (name == "write") {
+        return call.rfind("write(1, ", 0) == 0 && has(call, " frames\\n\""); // its only line
+    }
+    if (name == "fcntl") {
+        return has(call, "F_GETFL") || has(call, "F_SETFD"); // a folder that is listed
+    }
+    if (name == "prctl") {
+        return has(call, "PR_SET_NAME"); // of a thread
+    }
+    return harmless.contains(name);
+}
+
+/// Runs the program under strace; returns all calls.
+std::vector<std::string> calls_of(const std::string& options, const fs::path& folder) {
+    const fs::path trace = folder / "trace";
+    const std::string command = "strace -f -qq -o " + trace.string() +
+                                " " FRUSTUMSCREEN_FRAMES_IN_MEMORY " " + options + " > " +
+                                (folder / "said").string();
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    std::vector<std::string> calls;
+    std::ifstream file(trace);
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t begin = line.find_first_not_of("0123456789 ");
+        const std::string call = begin == std::string::npos ? "" : line.substr(begin);
+        const bool ends_another = call.rfind("<... ", 0) == 0; // "resumed": its beginning was there
+        if (!ends_another && call.rfind("+++", 0) != 0 && call.rfind("---", 0) != 0) {
+            calls.push_back(call);
+        }
+    }
+    return calls;
+}
+
+std::string said_in(const fs::path& folder) {
+    std::ifstream file(folder / "said");
+    std::string line;
+    std::getline(file, line);
+    return line;
+}
+
+class KeepsNothing : public testing::Test {
+protected:
+    KeepsNothing()
+        : folder_(fs::temp_directory_path() / ("frustumscreen_keeps_nothing_" + std::to_string(::getpid()))) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    ~KeepsNothing() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+TEST_F(KeepsNothing, NoFileIsOpenedForWritingAndNothingLeavesTheProcess) {
+    const std::vector<std::string> calls = calls_of("", folder_);
+    EXPECT_EQ(said_in(folder_), "60 frames");
+    EXPECT_GT(calls.size(), 100U);
+    for (const std::string& call : calls) {
+        EXPECT_TRUE(is_harmless(call)) << call;
+    }
+    EXPECT_TRUE(std::any_of(calls.begin(), calls.end(), [](const std::string& call) {
+        return has(call, "\"/dev/null\", O_RDONLY");
+    })) << "the way in which the kernel's cameras are opened was seen";
+}
+
+TEST_F(KeepsNothing, AFrameThatIsWrittenIsSeen) {
+    const std::vector<std::string> calls = calls_of((folder_ / "frame").string(), folder_);
+    ASSERT_TRUE(fs::exists(folder_ / "frame"));
+    EXPECT_GE(std::count_if(calls.begin(), calls.end(), [](const auto& call) { return !is_harmless(call); }),
+              2)
+        << "its opening and its writing";
+}
+
+} // namespace
