@@ -309,7 +309,8 @@ def _saved_number(text):
 
 
 def _has_memory(data):
-    """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or nothing was ever written."""
+    """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or none ever was. The first write
+    goes to the second slot, and until that is on the disk the first one is blank."""
     def is_whole(slot):
         found = re.fullmatch(rb"frustumscreen-ladder-1 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
         checksum = 0xCBF29CE484222325  # FNV-1a
@@ -318,7 +319,7 @@ def _has_memory(data):
         return found is not None and int(found[1], 16) == checksum
 
     slots = [data[:4096], data[4096:]]
-    return any(map(is_whole, slots)) or not any(slot.strip(b" \0") for slot in slots)
+    return any(map(is_whole, slots)) or not slots[0].strip(b" \0")
 
 
 def _are_lines(data):

@@ -218,8 +218,9 @@ class States(unittest.TestCase):
         slot = (b"frustumscreen-ladder-1 a860832fbef0bb75 2 2089103435194244904 236287 236187 0 1 0 1 0 2 0 236187" + b" -1" * 12 +
                 b" ").ljust(4095) + b"\n"
         blank = b" " * 4096
-        for memory, is_right in ((blank * 2, True), (slot + blank, True), (blank + slot, True), (slot.replace(b" 2 ", b" 3 ", 1) + slot, True),
-                                 (slot.replace(b" 2 ", b" 3 ", 1) + blank, False), (slot[:512] + bytes(3584) + blank, False)):
+        torn, first = slot.replace(b" 2 ", b" 3 ", 1), slot[:512] + blank[512:]
+        for memory, is_right in ((blank * 2, True), (slot + blank, True), (blank + slot, True), (torn + slot, True), (blank + first, True),
+                                 (torn + blank, False), (torn * 2, False), (slot[:512] + bytes(3584) + blank, False)):
             self.assertEqual(states._has_memory(memory), is_right)
         line = b"1 2026-11-23T19:15:26Z awake 236 s: no_picture -> restart_exhibit".ljust(255) + b"\n"
         for faults, is_right in ((b"", True), (line, True), (line + line.replace(b"1", b"2", 1), True), (line + line, False), (line[:-1], False),
