@@ -59,7 +59,8 @@ std::vector<std::string> lens_words(const ProjectorSettings& projector) {
 std::vector<std::string> tracker_words(const Settings& settings) {
     return has_tracker_place(settings)
                ? std::vector<std::string>{"The tracker's zero:",
-                                          place_words(settings.tracker.table_from_tracker.translation)}
+                                          place_words(
+                                              settings.tracker.registration.table_from_tracker.translation)}
                : std::vector<std::string>{
                      fmt::format("No tracker: tracker.kind is \"{}\"", name_of(settings.tracker.kind))};
 }

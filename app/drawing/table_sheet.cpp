@@ -111,7 +111,7 @@ private:
             extent.include(place);
         }
         if (has_tracker_place(settings_)) {
-            const glm::dvec3& tracker = settings_.tracker.table_from_tracker.translation;
+            const glm::dvec3& tracker = settings_.tracker.registration.table_from_tracker.translation;
             extent.include({tracker.y, tracker.z});
         }
         return extent;
@@ -143,7 +143,7 @@ private:
         draw_lens(sheet_, view({lens_.y, lens_.z}));
         draw_eye(sheet_, view({settings_.eye.default_m.y, settings_.eye.default_m.z}));
         if (has_tracker_place(settings_)) {
-            const glm::dvec3& tracker = settings_.tracker.table_from_tracker.translation;
+            const glm::dvec3& tracker = settings_.tracker.registration.table_from_tracker.translation;
             draw_tracker(sheet_, view({tracker.y, tracker.z}));
         }
         sheet_.end_view();
@@ -205,7 +205,8 @@ private:
         std::vector<Symbol> symbols{{glm::dvec2(lens_), draw_lens},
                                     {glm::dvec2(settings_.eye.default_m), draw_eye}};
         if (has_tracker_place(settings_)) {
-            symbols.push_back({glm::dvec2(settings_.tracker.table_from_tracker.translation), draw_tracker});
+            symbols.push_back(
+                {glm::dvec2(settings_.tracker.registration.table_from_tracker.translation), draw_tracker});
         }
         const double most_m = 2.5 * std::fmax(half_width(), half_depth());
         std::erase_if(symbols, [&](const Symbol& symbol) { return glm::length(symbol.place) > most_m; });

@@ -55,17 +55,21 @@ std::optional<glm::dvec2> Lens::undistort(const glm::dvec2& real) const {
     return real * (r / goal);
 }
 
-std::optional<glm::dvec2> pixel_of(const Pinhole& pinhole, const Lens& lens, const glm::dvec3& point) {
-    if (!(point.z > 0.0)) {
-        return std::nullopt;
+std::pair<double, double> Lens::factors_within(double r2) const {
+    const double far = radial_factor(r2, k1, k2);
+    double least = std::fmin(1.0, far);
+    double most = std::fmax(1.0, far);
+    const double turning = k2 != 0.0 ? -0.5 * k1 / k2 : -1.0; // where d(factor) / d(r^2) is 0
+    if (turning > 0.0 && turning < r2) {
+        const double there = radial_factor(turning, k1, k2);
+        least = std::fmin(least, there);
+        most = std::fmax(most, there);
     }
-    const std::optional<glm::dvec2> bent = lens.distort({point.x / point.z, point.y / point.z});
-    return bent ? pinhole.pixel({*bent, 1.0}) : std::nullopt;
+    return {least, most};
 }
 
-std::optional<glm::dvec3> ray_of(const Pinhole& pinhole, const Lens& lens, const glm::dvec2& pixel) {
-    const std::optional<glm::dvec2> ideal = lens.undistort(glm::dvec2(pinhole.ray(pixel)));
-    return ideal ? std::optional(glm::dvec3(*ideal, 1.0)) : std::nullopt;
+double Lens::area_factor(double r2) const {
+    return radial_factor(r2, k1, k2) * (1.0 + r2 * (3.0 * k1 + 5.0 * k2 * r2));
 }
 
 } // namespace frustumscreen

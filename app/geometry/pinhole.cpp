@@ -1,22 +1,45 @@
 #include "app/geometry/pinhole.h"
 
+#include <cmath>
+
 namespace frustumscreen {
 
 std::optional<glm::dvec2> Pinhole::pixel(const glm::dvec3& point) const {
     if (!(point.z > 0.0)) {
         return std::nullopt;
     }
-    return glm::dvec2(fx * point.x / point.z + cx, fy * point.y / point.z + cy);
+    if (lens.is_plain()) {
+        return glm::dvec2(fx * point.x / point.z + cx, fy * point.y / point.z + cy);
+    }
+    const std::optional<glm::dvec2> bent = lens.distort({point.x / point.z, point.y / point.z});
+    return bent ? std::optional(glm::dvec2(fx * bent->x + cx, fy * bent->y + cy)) : std::nullopt;
 }
 
 glm::dvec3 Pinhole::ray(const glm::dvec2& pixel) const {
-    return {(pixel.x - cx) / fx, (pixel.y - cy) / fy, 1.0};
+    const glm::dvec2 bent((pixel.x - cx) / fx, (pixel.y - cy) / fy);
+    return {lens.is_plain() ? bent : lens.undistort(bent).value_or(bent), 1.0};
+}
+
+Pinhole Pinhole::ideal() const {
+    Pinhole same = *this;
+    same.lens = {};
+    return same;
+}
+
+double Pinhole::farthest_r2() const {
+    double r2 = 0.0;
+    for (const glm::dvec2& corner :
+         {glm::dvec2(0, 0), glm::dvec2(width, 0), glm::dvec2(width, height), glm::dvec2(0, height)}) {
+        const glm::dvec2 direction(ray(corner));
+        r2 = std::fmax(r2, glm::dot(direction, direction));
+    }
+    return r2;
 }
 
 Pinhole Pinhole::scaled_to(int new_width, int new_height) const {
     const double sx = static_cast<double>(new_width) / width;
     const double sy = static_cast<double>(new_height) / height;
-    return {new_width, new_height, fx * sx, fy * sy, cx * sx, cy * sy};
+    return {new_width, new_height, fx * sx, fy * sy, cx * sx, cy * sy, lens};
 }
 
 glm::dmat4 Pinhole::clip_from_point() const {

@@ -1,9 +1,12 @@
-/// A pinhole projector or camera with lens shift: u = fx X/Z + cx, v = fy Y/Z + cy.
+/// A pinhole projector or camera with lens shift and a lens that may distort: u = fx x + cx, v = fy y + cy, where (x, y) is
+/// (X/Z, Y/Z) as the lens bends it.
 ///
 /// Frame    computer vision: +X right, +Y down in the picture, +Z forward along the optical axis.
 /// Units    pixels; the centre of the top-left pixel is (0.5, 0.5). Lens shift is an off-centre (cx, cy).
 /// Threads  values; any.
 #pragma once
+
+#include "app/geometry/lens.h"
 
 #include <glm/glm.hpp>
 
@@ -18,14 +21,19 @@ struct Pinhole {
     double fy = 0.0;
     double cx = 0.0;
     double cy = 0.0;
+    Lens lens{};
 
-    /// Pixel of a point in the pinhole's frame; nothing if the point is not in front.
+    /// Pixel of a point in the pinhole's frame; nothing if the point is not in front, or beyond the lens's fold.
     [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& point) const;
-    /// Direction (not unit, Z = 1) of the ray through a pixel.
+    /// Direction (not unit, Z = 1) of the ray through a pixel. Beyond the fold no ray goes through it: that of the ideal lens.
     [[nodiscard]] glm::dvec3 ray(const glm::dvec2& pixel) const;
     /// The same view in a picture of another size.
     [[nodiscard]] Pinhole scaled_to(int new_width, int new_height) const;
-    /// Rows 0, 1, 3 of the OpenGL clip matrix for points in the pinhole's frame. The y row is NOT mirrored
+    /// The same projector or camera with a lens that does not distort.
+    [[nodiscard]] Pinhole ideal() const;
+    /// r^2 of the farthest ideal direction in the picture.
+    [[nodiscard]] double farthest_r2() const;
+    /// Of the ideal pinhole: rows 0, 1, 3 of the OpenGL clip matrix for points in the pinhole's frame. The y row is NOT mirrored
     /// for GL: clip y = -1 is the top of the picture, so that row 0 of a read-back is the picture's top row.
     /// Row 2 (depth) is left zero: the caller fits it to what is drawn.
     [[nodiscard]] glm::dmat4 clip_from_point() const;

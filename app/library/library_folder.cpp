@@ -1,8 +1,8 @@
 #include "app/library/library_folder.h"
 
-#include "app/library/tree_text.h"
 #include "app/pack/sha256.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <algorithm>
 #include <cerrno>

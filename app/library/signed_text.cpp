@@ -1,8 +1,8 @@
 #include "app/library/signed_text.h"
 
-#include "app/library/tree_text.h"
 #include "app/pack/limits.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <fmt/format.h>
 

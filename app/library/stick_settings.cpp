@@ -3,9 +3,9 @@
 #include "app/library/import_failure.h"
 #include "app/library/signed_text.h"
 #include "app/library/stick_pack.h"
-#include "app/library/tree_text.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <fmt/format.h>
 

@@ -102,7 +102,21 @@ void check_picture(const Settings& settings, Fitness& fitness) {
                                 settings.prop.base_m, there));
 }
 
+/// The lens must not fold the picture: a tenth beyond its corners, in r^2, it still brings each direction to a place of its own.
+void check_lens(const Pinhole& pinhole, Fitness& fitness) {
+    constexpr double margin = 1.1;
+    const double corner = pinhole.ideal().farthest_r2();
+    const double fold = pinhole.lens.fold_r2();
+    const bool folds = !pinhole.lens.undistort({std::sqrt(margin * corner), 0.0}).has_value();
+    fitness.require(
+        !folds, "projector.k1",
+        fmt::format("and k2 fold the picture at {:.2f} focal lengths from its optical axis, and its corners "
+                    "lie at {:.2f}; allowed are values that fold it nowhere",
+                    std::sqrt(fold), std::sqrt(corner)));
+}
+
 void check_projector(const Settings& settings, Fitness& fitness) {
+    check_lens(settings.projector.pinhole, fitness);
     const RigidTransform& pose = settings.projector.table_from_projector;
     const std::string_view position = position_key(fitness);
     const double least_height = settings.prop.height_m + least_clearance_m;

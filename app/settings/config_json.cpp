@@ -139,6 +139,20 @@ Json light_json(const Settings& settings) {
             {"reference", even_light(settings)}};
 }
 
+/// Which calibration is used; null: none.
+Json calibration_json(const CalibrationSettings& calibration) {
+    if (!calibration.used) {
+        return nullptr;
+    }
+    const Calibration& used = *calibration.used;
+    return {{"file", calibration.used_name},
+            {"made", used.made},
+            {"method", name_of(used.method)},
+            {"places", used.places},
+            {"residual_mm", {{"mean", used.mean_mm}, {"worst", used.worst_mm}}},
+            {"residual_px", {{"mean", used.mean_px}}}};
+}
+
 /// Adds the eye's settings under the names that outside checks use.
 void add_eye(const Json& eye, Json& json) {
     json["eye_default_m"] = eye.at("default_m");
@@ -162,6 +176,9 @@ std::string config_json(const CheckedSettings& checked) {
         } else if (name == "prop") {
             json[name] = table;
             json[name]["faces"] = faces_json(make_prop(checked->prop));
+        } else if (name == "calibration") {
+            json[name] = table;
+            json[name]["used"] = calibration_json(checked->calibration);
         } else {
             json[name] = table;
         }

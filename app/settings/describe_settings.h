@@ -40,6 +40,7 @@ inline constexpr std::string_view allowed_time_zones =
 inline constexpr std::array<const char*, 7> weekday_names{"monday", "tuesday",  "wednesday", "thursday",
                                                           "friday", "saturday", "sunday"};
 inline constexpr Range sound_gain{-60.0, 12.0, "decibels"};
+inline constexpr Range focal_length{50.0, 200000.0, "pixels"};
 inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
 /// Each list is in the order of its enumeration.
@@ -53,8 +54,15 @@ inline constexpr std::array<std::string_view, 2> sound_names{"none", "alsa"};
 inline constexpr std::array<std::string_view, 2> unsigned_names{"refuse", "allow"};
 inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
 
+void distortion_settings(auto& fields, auto& lens) {
+    constexpr Range distortion{-0.5, 0.5, ""};
+    fields.number("k1", lens.k1, distortion,
+                  "radial distortion x (1 + k1 r^2 + k2 r^4), r from the optical axis in focal lengths, as "
+                  "OpenCV has it; 0: none");
+    fields.number("k2", lens.k2, distortion, "the same of r^4");
+}
+
 template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
-    constexpr Range focal_length{50.0, 200000.0, "pixels"};
     const Pinhole usual = ProjectorSettings().pinhole;
     fields.integer("width", pinhole.width, 64, 8192, "columns of the picture; the projector's own");
     fields.integer("height", pinhole.height, 64, 8192, "rows of the picture; the projector's own");
@@ -76,6 +84,7 @@ template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
                   "column of the optical axis, which a lens shift moves; left out: the picture's middle");
     fields.number("cy", pinhole.cy, {-1.0 * pinhole.height, 2.0 * pinhole.height, "pixels"},
                   "row of the optical axis; left out: the picture's middle");
+    distortion_settings(fields, pinhole.lens);
 }
 
 template <typename Fields> void projector_pose_settings(Fields& fields, auto& pose) {
@@ -178,6 +187,17 @@ void eye_settings(auto& fields, auto& eye) {
     fields.flag("tracked", eye.tracked, "false: a fixed viewer, at default_m whatever a tracker says");
 }
 
+void registration_settings(auto& fields, auto& registration) {
+    constexpr Range in_the_hand{-1.0, 1.0, "metres"};
+    fields.rigid("table_from_tracker", registration.table_from_tracker, near_the_table,
+                 "registration of a device that reports in its own frame: 16 numbers, column by column");
+    fields.rigid(
+        "sensor_from_prop", registration.sensor_from_prop, near_the_table,
+        "of such a device: where the prop is, in the axes of the sensor in it; 16 numbers, column by column");
+    fields.vector("eye_in_sensor_m", registration.eye_in_sensor_m, in_the_hand,
+                  "of such a device: the point between the eyes, in the axes of the sensor on the head");
+}
+
 template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) {
     constexpr double shortest_direction = 1e-3;
     fields.choice("kind", tracker.kind, tracker_names,
@@ -193,10 +213,16 @@ template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) 
                   "usb: from the tracker's source to the half space in which the prop moves, in its axes");
     fields.require(glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
                    "gives no direction; allowed are three numbers of which one is not 0");
-    fields.rigid("table_from_tracker", tracker.table_from_tracker, near_the_table,
-                 "registration of a device that reports in its own frame: 16 numbers, column by column");
+    registration_settings(fields, tracker.registration);
     fields.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"},
                   "from the flip of a picture until it is lit; poses are predicted to then");
+}
+
+void calibration_settings(auto& fields, auto& calibration) {
+    fields.path("folder", calibration.folder,
+                "where frustumscreen-calibrate keeps what it measured; the newest one takes the place of the "
+                "lens and "
+                "pose in [projector] and the registration in [tracker]");
 }
 
 void press_settings(auto& fields, auto& press) {
@@ -333,6 +359,8 @@ void all_settings(auto& file, auto& settings) {
     table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });
     table("tracker", "What knows where the prop and the visitor's head are.",
           [&](auto& fields) { tracker_settings(fields, settings.tracker); });
+    table("calibration", "What was measured of projector and tracker.",
+          [&](auto& fields) { calibration_settings(fields, settings.calibration); });
     table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
     table("exhibit", "What is shown and said.",
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });

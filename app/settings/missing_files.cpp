@@ -40,6 +40,7 @@ std::vector<std::string> missing_files(const Settings& settings) {
                         "timedatectl list-timezones lists what there is",
                         zone));
     }
+    lines.insert(lines.end(), settings.calibration.unused.begin(), settings.calibration.unused.end());
     return lines;
 }
 

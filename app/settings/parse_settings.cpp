@@ -1,14 +1,92 @@
 #include "app/settings/check_settings.h"
 #include "app/settings/describe_settings.h"
+#include "app/settings/kept_calibrations.h"
 #include "app/settings/toml_file.h"
+#include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace frustumscreen {
 
 namespace {
 
 constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{1} << 20;
+
+ReadState state_of(const std::filesystem::path& file) {
+    return {printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
+}
+
+void read(ReadState& state, std::string_view text, Settings& settings) {
+    read_toml(state, text, largest_file_bytes, [&](const toml::table& root) {
+        TableReader keys(state, &root, "");
+        all_settings(keys, settings);
+        keys.finish();
+    });
+}
+
+/// Why these settings cannot be used; nothing if all is well.
+std::optional<Error> refusal(const ReadState& state, const Settings& settings) {
+    std::optional<std::string> why = state.error ? state.error : unfit(settings, state.file, state.lines);
+    return why ? std::optional(Error{ErrorKind::BadConfiguration, *std::move(why)}) : std::nullopt;
+}
+
+void take_over(Settings& settings, const Calibration& calibration) {
+    settings.projector.pinhole = calibration.pinhole;
+    settings.projector.table_from_projector = calibration.table_from_projector;
+    settings.tracker.registration = calibration.registration;
+}
+
+/// The settings with this calibration, or why it cannot be used.
+Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibration,
+                            const ReadState& state) {
+    if (!calibration) {
+        return tl::unexpected<Error>(calibration.error());
+    }
+    take_over(settings, *calibration);
+    if (const std::optional<std::string> why = unfit(settings, state.file, state.lines)) {
+        return bad_input(*why);
+    }
+    settings.calibration.used = *calibration;
+    return settings;
+}
+
+/// A damaged calibration must not leave the table dark: the one before it is used, or what the settings say.
+void use_newest_calibration(Settings& settings, const ReadState& state) {
+    const std::filesystem::path& folder = settings.calibration.folder;
+    std::error_code none;
+    if (folder.empty() || !std::filesystem::exists(folder, none)) {
+        return;
+    }
+    std::vector<std::string> unused;
+    const auto note = [&](std::string_view name, const Error& error) {
+        unused.push_back(fmt::format("{}: this calibration is not used: {}",
+                                     printable((folder / name).string(), 4096), error.message));
+    };
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder);
+    const Result<std::vector<KeptCalibration>> kept =
+        tree ? list_calibrations(**tree) : tl::unexpected<Error>(tree.error());
+    if (!kept) {
+        note("", kept.error());
+    }
+    for (const KeptCalibration& each : kept ? *kept : std::vector<KeptCalibration>{}) {
+        Result<Settings> with = calibrated(settings, read_calibration(**tree, each), state);
+        if (with) {
+            settings = *std::move(with);
+            settings.calibration.used_name = each.name;
+            break;
+        }
+        note(each.name, with.error());
+    }
+    settings.calibration.unused = std::move(unused);
+}
 
 } // namespace
 
@@ -37,18 +115,11 @@ std::string_view name_of(TrackerKind kind) {
 }
 
 Result<CheckedSettings> parse_settings(std::string_view text, const std::filesystem::path& file) {
-    ReadState state{printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
+    ReadState state = state_of(file);
     Settings settings;
-    read_toml(state, text, largest_file_bytes, [&](const toml::table& root) {
-        TableReader keys(state, &root, "");
-        all_settings(keys, settings);
-        keys.finish();
-        if (!state.error) {
-            state.error = unfit(settings, state.file, state.lines);
-        }
-    });
-    if (state.error) {
-        return fail(ErrorKind::BadConfiguration, *std::move(state.error));
+    read(state, text, settings);
+    if (const std::optional<Error> refused = refusal(state, settings)) {
+        return tl::unexpected<Error>(*refused);
     }
     return CheckedSettings(std::move(settings));
 }
@@ -58,7 +129,16 @@ Result<CheckedSettings> load_settings(const std::filesystem::path& file) {
     if (!bytes) {
         return fail(ErrorKind::BadConfiguration, bytes.error().message);
     }
-    return parse_settings(as_text(*bytes), file);
+    ReadState state = state_of(file);
+    Settings settings;
+    read(state, as_text(*bytes), settings);
+    if (!state.error) {
+        use_newest_calibration(settings, state);
+    }
+    if (const std::optional<Error> refused = refusal(state, settings)) {
+        return tl::unexpected<Error>(*refused);
+    }
+    return CheckedSettings(std::move(settings));
 }
 
 } // namespace frustumscreen

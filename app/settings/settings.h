@@ -12,8 +12,10 @@
 
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
+#include "app/geometry/registration.h"
 #include "app/geometry/transform.h"
 #include "app/pack/signature.h"
+#include "app/settings/calibration.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/hours_settings.h"
 #include "firmware_host/base/line_bias.h"
@@ -21,6 +23,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,7 +89,7 @@ struct TrackerSettings {
     std::string poses_key;       ///< where the settings name it, for messages
     double replay_speed = 1.0;
     glm::dvec3 hemisphere{1.0, 0.0, 0.0}; ///< in the tracker's axes
-    RigidTransform table_from_tracker;
+    Registration registration;            ///< of a device that reports in its own frame
     double display_latency_ms = 17.0;
 };
 
@@ -158,6 +161,14 @@ struct RenderSettings {
     int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
 };
 
+/// Where calibrations are kept (kept_calibrations.h), and which one is used.
+struct CalibrationSettings {
+    std::filesystem::path folder = "/var/lib/frustumscreen/calibration"; ///< empty: none is looked for
+    std::optional<Calibration> used; ///< it stands in `projector` and `tracker` already
+    std::string used_name;           ///< of its file
+    std::vector<std::string> unused; ///< why newer ones are not used, one line each
+};
+
 struct Settings {
     ProjectorSettings projector;
     DisplaySettings display;
@@ -166,6 +177,7 @@ struct Settings {
     TableSettings table;
     EyeSettings eye;
     TrackerSettings tracker;
+    CalibrationSettings calibration;
     PanelSettings panel;
     ExhibitSettings exhibit;
     SoundSettings sound;
@@ -190,8 +202,9 @@ private:
     Settings settings_;
 };
 
+/// The newest kept calibration that is whole and fits these settings takes the place of what they say of projector and tracker.
 [[nodiscard]] Result<CheckedSettings> load_settings(const std::filesystem::path& file);
-/// `file` names the text in messages and is what relative paths are relative to.
+/// Without a calibration. `file` names the text in messages and is what relative paths are relative to.
 [[nodiscard]] Result<CheckedSettings> parse_settings(std::string_view text,
                                                      const std::filesystem::path& file);
 

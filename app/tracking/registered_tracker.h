@@ -7,7 +7,7 @@
 /// Errors   the device's.
 #pragma once
 
-#include "app/geometry/transform.h"
+#include "app/geometry/registration.h"
 #include "firmware_host/tracker/tracker.h"
 
 #include <memory>
@@ -16,13 +16,14 @@
 
 namespace frustumscreen {
 
-/// Places poses of a device's own frame on the table. A pose that is not ok has none and stays as it is.
-void place_on_table(std::span<PoseSample> samples, const RigidTransform& table_from_tracker);
+/// Places poses of a device's own frame on the table: those of the prop's sensor become the prop's, those of the head's
+/// the eye's; another sensor's stay the sensor's. A pose that is not ok has none and stays as it is.
+void place_on_table(std::span<PoseSample> samples, const Registration& registration);
 
 class RegisteredTracker final : public Tracker {
 public:
-    /// `table_from_tracker` is not used where the device reports in table coordinates.
-    RegisteredTracker(std::unique_ptr<Tracker> device, const RigidTransform& table_from_tracker);
+    /// `registration` is not used where the device reports in table coordinates.
+    RegisteredTracker(std::unique_ptr<Tracker> device, const Registration& registration);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return device_->name(); }
@@ -34,11 +35,11 @@ public:
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 
     /// The registration that is applied; nothing: the device reports in table coordinates.
-    [[nodiscard]] const std::optional<RigidTransform>& registration() const { return registration_; }
+    [[nodiscard]] const std::optional<Registration>& registration() const { return registration_; }
 
 private:
     std::unique_ptr<Tracker> device_;
-    std::optional<RigidTransform> registration_;
+    std::optional<Registration> registration_;
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-#include "app/geometry/lens.h"
+#include "app/geometry/pinhole.h"
 #include "tests/geometry/random_geometry.h"
 
 #include <gtest/gtest.h>
@@ -64,26 +64,63 @@ TEST(Lens, ThereIsNothingBeyondTheFold) {
     EXPECT_TRUE(std::isinf((Lens{-0.1, 0.1}.fold_r2())));
 }
 
-TEST(Lens, APixelsRayComesBackToThePixel) {
-    Random random(23);
-    const Pinhole pinhole{1920, 1200, 1800.0, 1810.0, 930.0, 1150.0};
-    for (int k = 0; k < 2000; ++k) {
-        const Lens lens{random.between(-0.1, 0.1), random.between(-0.02, 0.02)};
-        const glm::dvec2 pixel(random.between(0, 1920), random.between(0, 1200));
-        const auto ray = ray_of(pinhole, lens, pixel);
-        ASSERT_TRUE(ray);
-        const auto back = pixel_of(pinhole, lens, *ray * random.scale(0.1, 10.0));
-        ASSERT_TRUE(back);
-        EXPECT_LT(glm::distance(*back, pixel), 1e-11);
+TEST(Lens, TheFactorsOfADiscAreWithinTheirBounds) {
+    Random random(24);
+    for (int k = 0; k < 200; ++k) {
+        const Lens lens{random.between(-0.2, 0.2), random.between(-0.2, 0.2)};
+        const double r2 = random.between(0.01, 1.0);
+        const auto [least, most] = lens.factors_within(r2);
+        double seen_least = 1.0;
+        double seen_most = 1.0;
+        for (int step = 0; step <= 1000; ++step) {
+            const double factor = radial_factor(r2 * step / 1000.0, lens.k1, lens.k2);
+            seen_least = std::fmin(seen_least, factor);
+            seen_most = std::fmax(seen_most, factor);
+        }
+        EXPECT_NEAR(seen_least, least, 1e-6); // k2 (r2 / 2000)^2 beside the turning point, and less than that
+        EXPECT_NEAR(seen_most, most, 1e-6);
+        EXPECT_GE(seen_least, least - 1e-15);
+        EXPECT_LE(seen_most, most + 1e-15);
     }
-    EXPECT_FALSE(pixel_of(pinhole, {}, {0.1, 0.1, -1.0}));
 }
 
-TEST(Lens, WithoutDistortionItIsThePinhole) {
-    const Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
+TEST(Lens, TheAreaFactorIsTheDeterminantOfDifferences) {
+    Random random(25);
+    constexpr double h = 1e-5;
+    for (int k = 0; k < 200; ++k) {
+        const Lens lens{random.between(-0.1, 0.1), random.between(-0.05, 0.05)};
+        const glm::dvec2 x(random.between(-0.5, 0.5), random.between(-0.5, 0.5));
+        const glm::dvec2 across =
+            (by_the_manual(lens, x + glm::dvec2(h, 0)) - by_the_manual(lens, x - glm::dvec2(h, 0))) / (2 * h);
+        const glm::dvec2 down =
+            (by_the_manual(lens, x + glm::dvec2(0, h)) - by_the_manual(lens, x - glm::dvec2(0, h))) / (2 * h);
+        EXPECT_NEAR(across.x * down.y - across.y * down.x, lens.area_factor(glm::dot(x, x)), 1e-9);
+    }
+}
+
+TEST(Lens, APixelsRayComesBackToThePixel) {
+    Random random(23);
+    for (int k = 0; k < 2000; ++k) {
+        const Pinhole pinhole{1920,
+                              1200,
+                              1800.0,
+                              1810.0,
+                              930.0,
+                              1150.0,
+                              {random.between(-0.1, 0.1), random.between(-0.02, 0.02)}};
+        const glm::dvec2 pixel(random.between(0, 1920), random.between(0, 1200));
+        const auto back = pinhole.pixel(pinhole.ray(pixel) * random.scale(0.1, 10.0));
+        ASSERT_TRUE(back);
+        EXPECT_LT(glm::distance(*back, pixel), 1e-11);
+        EXPECT_FALSE(pinhole.pixel({0.1, 0.1, -1.0}));
+    }
+}
+
+TEST(Lens, WithoutDistortionItIsThePinholesOwn) {
+    Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0, {1e-300, 0.0}};
     const glm::dvec3 point(0.2, -0.1, 1.3);
-    EXPECT_EQ(*pixel_of(pinhole, {}, point), *pinhole.pixel({point.x / point.z, point.y / point.z, 1.0}));
-    EXPECT_EQ(*ray_of(pinhole, {}, {100.0, 700.0}), pinhole.ray({100.0, 700.0}));
+    EXPECT_EQ(*pinhole.pixel(point), *pinhole.ideal().pixel({point.x / point.z, point.y / point.z, 1.0}));
+    EXPECT_EQ(pinhole.ray({100.0, 700.0}), pinhole.ideal().ray({100.0, 700.0}));
 }
 
 } // namespace

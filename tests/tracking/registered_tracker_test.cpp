@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace frustumscreen {
 namespace {
 
@@ -32,7 +34,7 @@ private:
 const RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
 
 TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
-    RegisteredTracker tracker(std::make_unique<FakeTracker>(false), table_from_tracker);
+    RegisteredTracker tracker(std::make_unique<FakeTracker>(false), {table_from_tracker});
     EXPECT_TRUE(tracker.reports_table_frame());
     ASSERT_TRUE(tracker.registration());
     std::vector<PoseSample> samples;
@@ -47,8 +49,29 @@ TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
     }
 }
 
+/// The prop's axes lie 0.05 m below its sensor, turned a quarter about Z; the eye is 0.1 m in front of the head's sensor.
+TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
+    const double half = std::sqrt(0.5);
+    const glm::dquat quarter(half, 0, 0, half);
+    const Registration registration{{{1, 0, 0, 0}, {0, 0, 1.0}}, {quarter, {0, 0, -0.05}}, {0.1, 0, 0}};
+    std::vector<PoseSample> samples(3);
+    for (int k = 0; k < 3; ++k) {
+        samples[static_cast<std::size_t>(k)].station = k + 1;
+        samples[static_cast<std::size_t>(k)].position_m = {1, 2, 3};
+        samples[static_cast<std::size_t>(k)].rotation = quarter;
+    }
+    place_on_table(samples, registration);
+    EXPECT_LT(glm::distance(samples[0].position_m, glm::dvec3(1, 2, 3.95)), 1e-15);
+    EXPECT_LT(glm::distance(samples[0].rotation * glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0)), 1e-15);
+    EXPECT_LT(glm::distance(samples[1].position_m, glm::dvec3(1, 2.1, 4)),
+              1e-15); // the head's +X is the table's +Y
+    EXPECT_LT(glm::distance(samples[1].rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
+    EXPECT_LT(glm::distance(samples[2].position_m, glm::dvec3(1, 2, 4)),
+              1e-15); // the torch's sensor is the torch
+}
+
 TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
-    RegisteredTracker tracker(std::make_unique<FakeTracker>(true), table_from_tracker);
+    RegisteredTracker tracker(std::make_unique<FakeTracker>(true), {table_from_tracker});
     EXPECT_FALSE(tracker.registration());
     std::vector<PoseSample> samples;
     EXPECT_FALSE(tracker.poll(from_microseconds(5), samples));
@@ -57,7 +80,7 @@ TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
 }
 
 TEST(RegisteredTracker, IsOtherwiseItsDevice) {
-    const RegisteredTracker tracker(std::make_unique<FakeTracker>(false), table_from_tracker);
+    const RegisteredTracker tracker(std::make_unique<FakeTracker>(false), {table_from_tracker});
     EXPECT_EQ(tracker.name(), "fake");
     EXPECT_EQ(tracker.state(), "the fake is well");
     EXPECT_EQ(tracker.counts().frames, 7U);

@@ -123,8 +123,8 @@ Result<void> write_pose_recording(const Request& request, const Inputs& inputs, 
         ++of_station[static_cast<std::size_t>(pose.station)];
     }
     std::string text = write_poses(poses);
-    if (const std::optional<RigidTransform>& table_from_tracker = inputs.tracker->registration()) {
-        const glm::dmat4 matrix = table_from_tracker->matrix();
+    if (const std::optional<Registration>& registration = inputs.tracker->registration()) {
+        const glm::dmat4 matrix = registration->table_from_tracker.matrix();
         const std::span<const double> numbers(&matrix[0][0], 16);
         text.insert(text.find('\n') + 1,
                     fmt::format("# table_from_tracker = [{}], column by column\n", fmt::join(numbers, ", ")));

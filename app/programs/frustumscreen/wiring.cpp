@@ -187,7 +187,7 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
             return tl::unexpected<Error>(tracker.error());
         }
         inputs.tracker =
-            std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.table_from_tracker);
+            std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.registration);
     }
     if (plan.panel) {
         Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);

@@ -65,7 +65,7 @@ Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
         if (!settings) {
             return tl::unexpected(settings.error());
         }
-        place_on_table(samples, (*settings)->tracker.table_from_tracker);
+        place_on_table(samples, (*settings)->tracker.registration);
     }
     std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
     for (PoseSample& sample : samples) {

@@ -35,7 +35,10 @@ public:
         glm::dvec4 clip = clip_from_table_ * glm::dvec4(point, 1.0);
         clip.y = -clip.y; // the pinhole's is -1 at the top
         const Pinhole& p = projector_.pinhole;
-        const glm::dvec3 ray = projector_from_table_.point(point);
+        glm::dvec3 ray = projector_from_table_.point(point);
+        if (const auto bent = p.lens.distort(glm::dvec2(ray) / ray.z); bent && !p.lens.is_plain()) {
+            ray = glm::dvec3(*bent * ray.z, ray.z);
+        }
         return {glm::vec4(clip),
                 glm::vec3((p.fx * ray.x + p.cx * ray.z) / p.width, (p.fy * ray.y + p.cy * ray.z) / p.height,
                           ray.z),

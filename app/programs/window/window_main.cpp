@@ -139,7 +139,7 @@ Result<void> run(const Request& request) {
         return tl::unexpected<Error>(show.error());
     }
     Inputs inputs;
-    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window->tracker), RigidTransform{});
+    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window->tracker), Registration{});
     inputs.panel = std::move(window->panel);
     LoopOptions options;
     if (request.seconds > 0.0) {

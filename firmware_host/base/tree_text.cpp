@@ -1,4 +1,4 @@
-#include "app/library/tree_text.h"
+#include "firmware_host/base/tree_text.h"
 
 #include "firmware_host/base/file.h"
 

@@ -1,0 +1,19 @@
+/// The registration of a tracker: where the device stands, and where its sensors sit in what they follow.
+///
+/// Frames   tracker K, the device's own; table T; prop P; sensor S, whose pose in K the device reports.
+///          table_from_prop = table_from_tracker * tracker_from_sensor * sensor_from_prop.
+/// Units    metres.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/transform.h"
+
+namespace frustumscreen {
+
+struct Registration {
+    RigidTransform table_from_tracker{};
+    RigidTransform sensor_from_prop{}; ///< of the prop's sensor
+    glm::dvec3 eye_in_sensor_m{0.0};   ///< the point between the eyes, in the head's sensor
+};
+
+} // namespace frustumscreen

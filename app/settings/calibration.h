@@ -1,0 +1,41 @@
+/// A calibration as it is kept: the projector and the tracker's registration as they were measured, when, how, and how well.
+/// On a kiosk it takes the place of what `[projector]` and `[tracker]` say of them.
+///
+/// Form     TOML, with the same keys as the settings; `version` is that of the form.
+/// Frames   table T, as everywhere (docs/conventions.md).
+/// Errors   one line: file, line, key, what was found, what is allowed.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/registration.h"
+#include "app/geometry/transform.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+/// Corners: the picture's corners at two heights, measured by hand. Touch: the prop laid on crosses. Auto: by a camera.
+enum class CalibrationMethod : std::uint8_t { Corners, Touch, Auto };
+[[nodiscard]] std::string_view name_of(CalibrationMethod method);
+
+struct Calibration {
+    std::string made; ///< when, by the machine's clock: "2026-11-25 10:12 UTC"
+    CalibrationMethod method = CalibrationMethod::Touch;
+    int places = 0; ///< that were measured
+    /// Of a place that was not used, after the others were: on the table, and in the picture.
+    double mean_mm = 0.0, worst_mm = 0.0, mean_px = 0.0;
+    Pinhole pinhole;
+    RigidTransform table_from_projector;
+    Registration registration;
+};
+
+[[nodiscard]] std::string calibration_text(const Calibration& calibration);
+/// `file` names the text in messages.
+[[nodiscard]] Result<Calibration> parse_calibration(std::string_view text, const std::filesystem::path& file);
+
+} // namespace frustumscreen
